@@ -65,7 +65,7 @@ class Start:
         for room in (self.laws, self.package / "compiled"):
             room.mkdir(parents=True)
             (room / "__init__.py").touch()
-        for name in ("jit.py", "kernel_cache.py", "sources.py"):
+        for name in ("jit.py", "kernel_cache.py", "linking.py", "sources.py"):
             shutil.copy(PACKAGE / "compiled" / name, self.package / "compiled" / name)
         (self.laws / "helper.py").write_text(HELPER)
         (self.laws / "caller.py").write_text(CALLER)
@@ -368,6 +368,33 @@ def test_while_compilation_is_closed_an_integer_for_a_float_does_not_compile() -
     with jit.closed():
         assert reciprocal(4) == 0.25
         assert len(reciprocal.signatures) == before
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "small_is_machine_code"),
+    [
+        ("LARGEST_LINKED = 60_000", "LARGEST_LINKED = 60_000", False),
+        ("LARGEST_LINKED = 60_000", "LARGEST_LINKED = 0", True),  # every kernel is called by its symbol
+        ('TESTED = ("0.68.",)', 'TESTED = ("0.0.",)', None),  # numba's own way
+    ],
+)
+def test_a_small_kernel_is_linked_and_a_large_one_called(
+    start: Start, old: str, new: str, small_is_machine_code: bool | None
+) -> None:
+    linking = start.package / "compiled" / "linking.py"
+    assert old in linking.read_text()
+    linking.write_text(linking.read_text().replace(old, new))
+    look = """
+import atexit
+from contact_sim_pkg.laws import helper
+def show():
+    bare, = helper.factor.get_overload.__self__.overloads.values()
+    print(getattr(bare.library, "is_machine_code", None), file=open("kind.txt", "w"))
+atexit.register(show)
+"""
+    answers = [start(look) for _ in range(2)]
+    assert [answer["value"] for answer in answers] == [6.0, 6.0]
+    assert [answer["hits"] for answer in answers] == [0, 1]
 
 
 def test_kernel_overloads_are_chosen_by_type() -> None:

@@ -1,9 +1,10 @@
 """The one place for compile options: every compiled function of the core is decorated here.
 
 `@kernel` marks a compiled helper that other compiled functions call (`@borrowing_kernel` one that
-makes no array), `@entry` a compiled function that Python calls. What stands between Python and
-machine code is compiled for calls from Python alone: with the wide parameter tuples of a rig it
-would take a third of the time to compile. Both release the interpreter lock, follow the NumPy error
+makes no array), `@entry` a compiled function that Python calls. A kernel is linked into the machine
+code of its callers, or called by its symbol where it is large (`compiled/linking.py`). What stands
+between Python and machine code is compiled for calls from Python alone: with the wide parameter
+tuples of a rig it would take a third of the time to compile. Both release the interpreter lock, follow the NumPy error
 model (1/0 is inf, never an exception half-way through an update), forbid `fastmath` (which removes
 guards against NaN) and are kept on disk (`compiled/kernel_cache.py`).
 """
@@ -17,6 +18,7 @@ from typing import Any, TypeVar
 import numba
 from numba.extending import overload
 
+from contact_sim_pkg.compiled import linking
 from contact_sim_pkg.compiled.kernel_cache import attach_cache
 
 __all__ = [
@@ -25,7 +27,6 @@ __all__ = [
     "closed",
     "compiled_functions",
     "entry",
-    "inline_kernel",
     "kernel",
     "kernel_overload",
     "never_called",
@@ -69,17 +70,6 @@ def _kernel(function: Function, **options: Any) -> Function:
     return compiled  # type: ignore[no-any-return]
 
 
-def inline_kernel(function: Function) -> Function:
-    """Compile a helper into its caller before types are known, so that it is optimised once: for
-    what one or two kernels call.
-
-    A kernel is optimised by itself and once more inside each caller, at every level of calls; an
-    inline kernel in its caller alone.
-    """
-    compiled: Any = numba.jit(**COMPILE_OPTIONS, inline="always")(function)
-    return compiled  # type: ignore[no-any-return]
-
-
 def entry(function: Function) -> Function:
     """Compile a function that is called from Python; inside `closed` it takes no argument types not
     seen before.
@@ -99,7 +89,7 @@ def kernel_overload(function: Callable[..., Any]) -> Callable[[Function], Functi
     """
     decorator: Callable[[Function], Function] = overload(
         function,
-        jit_options=dict(COMPILE_OPTIONS),  # type: ignore[arg-type]
+        jit_options=dict(COMPILE_OPTIONS, pipeline_class=linking.compiler_of(is_entry=False)),  # type: ignore[arg-type]
     )
     return decorator
 
@@ -138,7 +128,9 @@ def never_called() -> list[Any]:
 
 
 def _compile(function: Function, form: str = "", **options: Any) -> Function:
-    compiled = numba.jit(**COMPILE_OPTIONS, **options)(function)
+    is_entry = not form
+    compiled = numba.jit(**COMPILE_OPTIONS, **options, pipeline_class=linking.compiler_of(is_entry=is_entry))(function)
+    linking.register(function, compiled, is_entry=is_entry)
     attach_cache(compiled, form)
     return compiled  # type: ignore[no-any-return]
 

@@ -32,6 +32,7 @@ import numba
 import numpy
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
 
+from contact_sim_pkg.compiled import linking
 from contact_sim_pkg.compiled.sources import digest_of_sources
 
 __all__ = ["attach_cache", "cache_directory", "fingerprint"]
@@ -216,6 +217,12 @@ class _Locator(_CacheLocator):
 
 class _CheckedCacheImpl(CompileResultCacheImpl):
     _locator_classes = [_Locator]  # noqa: RUF012 - as declared by numba
+
+    def reduce(self, cres: Any) -> Any:
+        return linking.reduce(cres)
+
+    def rebuild(self, target_context: Any, payload: Any) -> Any:
+        return linking.rebuild(target_context, payload)
 
 
 class _CheckedFiles(IndexDataCacheFile):

@@ -13,7 +13,7 @@ import math
 
 import numpy
 
-from contact_sim_pkg.compiled.jit import inline_kernel, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 from contact_sim_pkg.rigid.problem import SPACE
 
 TURNS = 20
@@ -21,7 +21,7 @@ SETTLED = 1.0e-15
 STOPS = 1.0e-7  # of the greatest velocity: slip below it is left to the solvers
 
 
-@inline_kernel
+@borrowing_kernel
 def _delassus(J, W, row, a, b):
     """Element (a, b) of ``J W J'`` of one contact of one body."""
     total = W[0, 0] if a == b else 0.0
@@ -31,7 +31,7 @@ def _delassus(J, W, row, a, b):
     return total
 
 
-@inline_kernel
+@borrowing_kernel
 def _stop_all(delassus, velocity):
     """Impulse after which the contact point is at rest, by Cramer's rule.
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import inline_kernel, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 from contact_sim_pkg.compiled.vectors import copy_row
 from contact_sim_pkg.rigid.contact.cone_newton import GOOD, NewtonWorkspace, make_newton_workspace, solve_by_newton
 from contact_sim_pkg.rigid.contact.gauss_seidel import gauss_seidel
@@ -83,7 +83,7 @@ def make_solver(
     )
 
 
-@inline_kernel
+@borrowing_kernel
 def _is_finite(problem):
     finite = True
     for i in range(problem.q.shape[0]):
@@ -91,14 +91,14 @@ def _is_finite(problem):
     return finite
 
 
-@inline_kernel
+@borrowing_kernel
 def _by_modes(problem, c):
     contact = PlanarContact(problem.A[0, 0], problem.A[0, 1], problem.A[1, 1], problem.friction[0], 0.0)
     impulse = contact_modes(contact, problem.q[0], problem.q[1], problem.floor[0])
     c[0], c[1] = impulse.normal, impulse.tangential
 
 
-@inline_kernel
+@borrowing_kernel
 def _turn_facets(problem, work, u):
     """Turn the friction directions of each contact so that one of them opposes its slip."""
     for i in range(problem.friction.shape[0]):
@@ -107,7 +107,7 @@ def _turn_facets(problem, work, u):
             work.turn[i] = numpy.arctan2(-u[row + 2], -u[row + 1])
 
 
-@inline_kernel
+@borrowing_kernel
 def _by_direction(problem, solver, c):
     """One contact that slides; ``c`` is kept where there is none."""
     found = solver.newton.best
@@ -118,7 +118,7 @@ def _by_direction(problem, solver, c):
     return SOLVED
 
 
-@inline_kernel
+@borrowing_kernel
 def _exactly(problem, solver, start, attempts, c):
     """Newton's method from ``c`` (``start``) or a few sweeps; Lemke; on the true cone Newton from
     there, with facets turned.
@@ -165,7 +165,7 @@ def may_share_load(problem):
     return contacts >= 4 or (contacts == 3 and problem.width == PLANE) or (contacts >= 2 and rough)
 
 
-@inline_kernel
+@borrowing_kernel
 def _about(problem, weight, sign, center):
     """Add (sign 1) or take away (-1) the proximal terms: ``A + s I``, ``q - s center``, s of the
     row in ``weight``.
@@ -175,7 +175,7 @@ def _about(problem, weight, sign, center):
         problem.q[row] -= sign * weight[row] * center[row]
 
 
-@inline_kernel
+@borrowing_kernel
 def _begin(solver, attempt, c):
     """What an attempt starts from: a pass from the one before, POLISH from the last pass, ALONE
     from no impulse.
@@ -188,7 +188,7 @@ def _begin(solver, attempt, c):
         solver.center[row], solver.weight[row] = 0.0, 0.0
 
 
-@inline_kernel
+@borrowing_kernel
 def _change(problem, solver, c):
     """Greatest change of velocity by the last pass, of the greatest velocity."""
     change = 0.0
@@ -197,7 +197,7 @@ def _change(problem, solver, c):
     return change / velocity_scale(problem, c) if change > 0.0 else 0.0
 
 
-@inline_kernel
+@borrowing_kernel
 def _by_passes(problem, solver, c):
     """Redundant contacts: proximal point iteration from no load, each pass of which has one
     solution.
@@ -240,7 +240,7 @@ def _by_passes(problem, solver, c):
     return status
 
 
-@inline_kernel
+@borrowing_kernel
 def _clear_inactive(problem):
     """No velocity and no floor for inactive contacts."""
     for i in range(problem.friction.shape[0]):
@@ -250,7 +250,7 @@ def _clear_inactive(problem):
                 problem.q[row] = 0.0
 
 
-@inline_kernel
+@borrowing_kernel
 def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> ContactSolution:
     """Impulses of ``problem`` into ``c`` [rows]; zeros where the status is RAY or
     CONTACT_NOT_FINITE.
@@ -279,7 +279,7 @@ def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Contact
     return ContactSolution(status, UNIQUE, residual(problem, c, u), swept)
 
 
-@inline_kernel
+@borrowing_kernel
 def solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> ContactSolution:
     """`solve_contact` into ``c`` [rows], then the least-norm split of the load."""
     found = solve_contact(problem, solver, c)

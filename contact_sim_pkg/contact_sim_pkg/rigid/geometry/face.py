@@ -14,7 +14,7 @@ import math
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import inline_kernel, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 from contact_sim_pkg.rigid.geometry.face_points import (
     FACE,
     R_N,
@@ -41,7 +41,7 @@ def make_face_workspace(contacts: int) -> Vector:
     return numpy.zeros((contacts + ORDER, FACE))
 
 
-@inline_kernel
+@borrowing_kernel
 def _worst_break(contact, motion, c):
     """Residual of `problem.residual`, from the wrench of the impulses."""
     mu, face, count = contact.friction, contact.points, contact.contacts

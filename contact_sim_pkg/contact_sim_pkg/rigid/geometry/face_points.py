@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import inline_kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.rigid.problem import INACTIVE, SPACE
 
 FLAT = 1.0e-9  # of the greatest arm: points this much out of the plane are no face
@@ -43,7 +43,7 @@ class FaceMotion(NamedTuple):
     inertia: tuple[float, float, float, float, float, float]  # [kg m^2]
 
 
-@inline_kernel
+@borrowing_kernel
 def _arm_of(J, row):
     """Arm of a contact in its own axes (normal, tangent, tangent) from its rows of the Jacobian."""
     r_n, r_t, r_s = 0.0, 0.0, 0.0
@@ -54,7 +54,7 @@ def _arm_of(J, row):
     return r_n, r_t, r_s
 
 
-@inline_kernel
+@borrowing_kernel
 def read_face(J, friction, face):
     """Arms and rows of the active contacts, one a row of ``face``; their number, 0 where axes or
     friction differ.
@@ -79,7 +79,7 @@ def read_face(J, friction, face):
     return count
 
 
-@inline_kernel
+@borrowing_kernel
 def in_axes(J, row, x, y, z):
     """A vector in the axes of a contact."""
     return (
@@ -89,7 +89,7 @@ def in_axes(J, row, x, y, z):
     )
 
 
-@inline_kernel
+@borrowing_kernel
 def tensor_in_axes(J, row, W):
     """Inverse inertia in the axes of a contact: nn, nt, ns, tt, ts, ss."""
     a = (J[row, 0], J[row, 1], J[row, 2])
@@ -108,7 +108,7 @@ def tensor_in_axes(J, row, W):
     )
 
 
-@inline_kernel
+@borrowing_kernel
 def _image(W, x, y, z):
     return (
         W[3, 3] * x + W[3, 4] * y + W[3, 5] * z,
@@ -117,7 +117,7 @@ def _image(W, x, y, z):
     )
 
 
-@inline_kernel
+@borrowing_kernel
 def inverse(m):
     """Inverse of a symmetric 3 by 3 tensor (aa, ab, ac, bb, bc, cc)."""
     aa, ab, ac, bb, bc, cc = m
@@ -127,7 +127,7 @@ def inverse(m):
     return i_aa * d, i_ab * d, i_ac * d, (aa * cc - ac * ac) * d, (ab * ac - aa * bc) * d, (aa * bb - ab * ab) * d
 
 
-@inline_kernel
+@borrowing_kernel
 def times(m, x):
     """Symmetric tensor times vector."""
     return (
@@ -137,12 +137,12 @@ def times(m, x):
     )
 
 
-@inline_kernel
+@borrowing_kernel
 def cross(a, b):
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-@inline_kernel
+@borrowing_kernel
 def centre(face, count):
     """Arms about their mean into ``face``; the mean arm, sums of their products (tt, ts, ss), and
     whether the points are a face.

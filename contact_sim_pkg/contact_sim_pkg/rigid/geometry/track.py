@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import inline_kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.rigid.body import RigidBody
 from contact_sim_pkg.rigid.motion.motion import STICKING
 
@@ -88,7 +88,7 @@ def read_track(track: Vector, columns: tuple[int, int, int, int, int, int], widt
     )  # fmt: skip
 
 
-@inline_kernel
+@borrowing_kernel
 def record_sample(body, motion, work, row):
     """State at the end of a sample and which points stick, into a row of the track
     (`track_columns`).
@@ -113,14 +113,14 @@ def record_sample(body, motion, work, row):
         row[place + i] = 1.0 if work.flags[i] == STICKING else 0.0
 
 
-@inline_kernel
+@borrowing_kernel
 def add_impulse(work, row, column):
     """The impulses of a sub-step to those of its sample."""
     for k in range(work.impulse.shape[0]):
         row[column + k] += work.impulse[k]
 
 
-@inline_kernel
+@borrowing_kernel
 def repeat_to_the_end(run, track):
     """The last sample over and over: nothing moved in it, and nothing will."""
     for sample in range(run.sample, run.samples):

@@ -17,7 +17,7 @@ import numpy
 import numpy.typing
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import inline_kernel, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 
 ORDER, ARTIFICIAL, RIGHT, COLUMNS = 8, 8, 9, 10
 PIVOTS = 60
@@ -53,7 +53,7 @@ def make_pair_workspace() -> PairWorkspace:
     )
 
 
-@inline_kernel
+@borrowing_kernel
 def _assemble(J, W, q, first, second, work):
     """``A = J W J'`` of the rows of the two contacts, and their ``q``."""
     rows = (2 * first, 2 * first + 1, 2 * second, 2 * second + 1)
@@ -69,7 +69,7 @@ def _assemble(J, W, q, first, second, work):
             A[i, k] = a * J[rows[k], 0] + b * J[rows[k], 1] + d * J[rows[k], 2]
 
 
-@inline_kernel
+@borrowing_kernel
 def _set_up(A, q, mu_first, mu_second, speed, work):
     """The dictionary of the start, in units of the first normal inverse mass and of ``speed``;
     returns the unit of impulse.
@@ -99,7 +99,7 @@ def _set_up(A, q, mu_first, mu_second, speed, work):
     return speed * unit
 
 
-@inline_kernel
+@borrowing_kernel
 def _exchange(T, row, column):
     """Exchange the basic variable of ``row`` and the other one of ``column``."""
     inverse = 1.0 / T[row, column]
@@ -114,7 +114,7 @@ def _exchange(T, row, column):
                 T[i, j] += factor * T[row, j]
 
 
-@inline_kernel
+@borrowing_kernel
 def _leaving(T, column, row_of_z0):
     """Row of the basic variable that meets 0 first as the other one of ``column`` grows, z0 in a
     tie; -1: none or another tie.
@@ -134,7 +134,7 @@ def _leaving(T, column, row_of_z0):
     return -1 if tied else best
 
 
-@inline_kernel
+@borrowing_kernel
 def _pivot_to_the_end(work):
     """Lemke's path; whether z0 left the basis."""
     T, basic, other = work.tableau, work.basic, work.other
@@ -164,7 +164,7 @@ def _pivot_to_the_end(work):
     return False
 
 
-@inline_kernel
+@borrowing_kernel
 def _read(work, impulse):
     c, T = work.c, work.tableau
     for i in range(4):
@@ -181,7 +181,7 @@ def _read(work, impulse):
                 c[a + 1] -= value
 
 
-@inline_kernel
+@borrowing_kernel
 def _range(n, t, z_n, z_t, mu, low, high):
     """Part of ``low..high`` in which ``(n, t) + x (z_n, z_t)`` lies in the friction cone."""
     for side in (-1.0, 1.0):
@@ -193,7 +193,7 @@ def _range(n, t, z_n, z_t, mu, low, high):
     return min(low, 0.0), max(high, 0.0)
 
 
-@inline_kernel
+@borrowing_kernel
 def _share(J, first, second, mu_first, mu_second, c):
     """Split of least norm where both contacts stick: along the vector of impulses without a wrench,
     as far as the cones allow.
@@ -221,12 +221,12 @@ def _share(J, first, second, mu_first, mu_second, c):
     c[0], c[1], c[2], c[3] = c[0] + length * z_0, c[1] + length * z_1, c[2] + length * z_2, c[3] + length * z_3
 
 
-@inline_kernel
+@borrowing_kernel
 def _velocity(A, q, c, i):
     return q[i] + A[i, 0] * c[0] + A[i, 1] * c[1] + A[i, 2] * c[2] + A[i, 3] * c[3]
 
 
-@inline_kernel
+@borrowing_kernel
 def _broken(A, q, mu, c, i):
     """Break of the conditions of the contact whose normal row is ``i``, in [m/s]."""
     u_n, u_t, weight = _velocity(A, q, c, i), _velocity(A, q, c, i + 1), A[i, i]

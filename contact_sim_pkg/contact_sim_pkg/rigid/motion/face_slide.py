@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from contact_sim_pkg.compiled.jit import inline_kernel, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 from contact_sim_pkg.rigid.geometry.face_points import D_S, D_T, R_S, R_T, ROW, A, B
 
 TURNS = 15  # of the directions of slip
@@ -19,7 +19,7 @@ STOPS = 1.0e-7  # of the speed before: slip below it is left to the solvers
 WIDE = 3
 
 
-@inline_kernel
+@borrowing_kernel
 def _slip_sums(face, count, v_t, v_s, w_n):
     """Directions of slip into ``face``, their sums and moments, the greatest change and the least
     slip.
@@ -38,7 +38,7 @@ def _slip_sums(face, count, v_t, v_s, w_n):
     return (d_t, d_s, tt, st, ts, ss), change, least
 
 
-@inline_kernel
+@borrowing_kernel
 def _motion_of_slide(contact, motion, F, w_n, d):
     """Slopes of the load over the face for given directions of slip, and the resulting motion in
     the plane.
@@ -64,7 +64,7 @@ def _motion_of_slide(contact, motion, F, w_n, d):
     return b, g, v[1] + f_t * light, v[2] + f_s * light, w_n
 
 
-@inline_kernel
+@borrowing_kernel
 def _write_slide(contact, a, b, g, c):
     """Impulses of the sliding face; whether all press."""
     mu, face, count = contact.friction, contact.points, contact.contacts
@@ -76,7 +76,7 @@ def _write_slide(contact, a, b, g, c):
     return presses
 
 
-@inline_kernel
+@borrowing_kernel
 def _broyden(H, top, r, last, step):
     """Broyden's update of the inverse derivative, from row ``top`` of H on, from the change of the
     residual along ``step``.
@@ -95,7 +95,7 @@ def _broyden(H, top, r, last, step):
             H[top + i, k] += H[top + i, WIDE + k]
 
 
-@inline_kernel
+@borrowing_kernel
 def _rows_times(H, top, x):
     return (
         H[top, 0] * x[0] + H[top, 1] * x[1] + H[top, 2] * x[2],
@@ -104,7 +104,7 @@ def _rows_times(H, top, x):
     )
 
 
-@inline_kernel
+@borrowing_kernel
 def _slide_straight(contact, motion, F, c):
     """Impulses of a face that does not turn: one slip, along the velocity before, for all
     points.
@@ -122,7 +122,7 @@ def _slide_straight(contact, motion, F, c):
     return _write_slide(contact, F / count, part * (ss * t - ts * s), part * (tt * s - ts * t), c)
 
 
-@inline_kernel
+@borrowing_kernel
 def slide_on_face(contact, motion, F, c):
     """Impulses ``c`` [rows] of a face that slides on; whether they were found and all press.
 

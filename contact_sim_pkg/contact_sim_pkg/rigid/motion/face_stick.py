@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from contact_sim_pkg.compiled.jit import inline_kernel, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 from contact_sim_pkg.rigid.geometry.face_points import ROW, A, B, cross
 
 STEPS = 25
@@ -24,7 +24,7 @@ LIFT = 1.0e-14  # of the trace, on the diagonal, for contacts whose loads no wre
 ORDER = 6
 
 
-@inline_kernel
+@borrowing_kernel
 def stick_on_face(contact, F, T, c):
     """Impulses of least norm that stop the body; whether all lie in their cones.
 
@@ -83,7 +83,7 @@ def _within_cones(contact, size, wrench, z, c):
     return missed <= NEAR * load
 
 
-@inline_kernel
+@borrowing_kernel
 def _evaluate(contact, size, wrench, z, c):
     """Impulses ``c`` of the multipliers, the dual function, and by how much their wrench misses."""
     mu, face, count = contact.friction, contact.points, contact.contacts
@@ -105,7 +105,7 @@ def _evaluate(contact, size, wrench, z, c):
     return dual, (m_0, m_1, m_2, m_3, m_4, m_5)
 
 
-@inline_kernel
+@borrowing_kernel
 def _fill_derivative(contact, size, z):
     """Derivative of the wrench by the multipliers, lower half, into the last rows of ``face``."""
     mu, face, count = contact.friction, contact.points, contact.contacts
@@ -142,7 +142,7 @@ def _add_direction(face, top, weight, impulse, place):
             face[top + i, k] += weight * g[i] * g[k]
 
 
-@inline_kernel
+@borrowing_kernel
 def _solved(face, miss):
     """Newton's step, ``-derivative^-1 miss``, by Cholesky's factors in the last rows of
     ``face``.
@@ -169,12 +169,12 @@ def _solved(face, miss):
     )  # fmt: skip
 
 
-@inline_kernel
+@borrowing_kernel
 def _dot(x, y):
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2] + x[3] * y[3] + x[4] * y[4] + x[5] * y[5]
 
 
-@inline_kernel
+@borrowing_kernel
 def _moved(z, length, step):
     return (
         z[0] + length * step[0], z[1] + length * step[1], z[2] + length * step[2],
@@ -182,6 +182,6 @@ def _moved(z, length, step):
     )  # fmt: skip
 
 
-@inline_kernel
+@borrowing_kernel
 def _greatest(x):
     return max(abs(x[0]), abs(x[1]), abs(x[2]), abs(x[3]), abs(x[4]), abs(x[5]))

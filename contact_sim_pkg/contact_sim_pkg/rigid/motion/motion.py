@@ -11,7 +11,7 @@ import numpy
 import numpy.typing
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import inline_kernel, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 from contact_sim_pkg.rigid.body import Ground, RigidBody, contact_count, contact_rows, fill_inverse_inertia
 from contact_sim_pkg.rigid.problem import DISC, INACTIVE, PLANE, ContactProblem, fill_delassus, make_problem
 from contact_sim_pkg.rigid.rotation import free_rotation, gyroscopic_step, orthonormalize, rotate_by, spin_in_body
@@ -103,7 +103,7 @@ def fill_active_problem(body, work, least):
             A[row, row] = 1.0
 
 
-@inline_kernel
+@borrowing_kernel
 def _push_in_plane(J, W, c, velocity):
     """`apply_impulse` of one body in the plane."""
     x, y, turn = 0.0, 0.0, 0.0
@@ -113,7 +113,7 @@ def _push_in_plane(J, W, c, velocity):
         velocity[k] = velocity[k] + W[k, 0] * x + W[k, 1] * y + W[k, 2] * turn
 
 
-@inline_kernel
+@borrowing_kernel
 def _push_in_space(J, W, c, velocity):
     """`apply_impulse` of one body in space."""
     x, y, z, a, b, d = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0

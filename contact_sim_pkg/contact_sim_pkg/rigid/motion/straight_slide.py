@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from contact_sim_pkg.compiled.jit import inline_kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.rigid.motion.active_contacts import DRIFT
 from contact_sim_pkg.rigid.motion.motion import ACTIVE, SEPARATED, STICKING
 from contact_sim_pkg.rigid.motion.slip import SLOW, SWERVE
@@ -40,7 +40,7 @@ class Face(NamedTuple):
 NO_FACE = Face(active=0, row=0, height=0.0, mean=(0.0, 0.0), inverse_spread=(0.0, 0.0, 0.0))
 
 
-@inline_kernel
+@borrowing_kernel
 def is_at_rest(motion, work, size):
     """Whether nothing moves, the active points stick on the ground and no other touches it: a
     sub-step of time then changes nothing.
@@ -54,7 +54,7 @@ def is_at_rest(motion, work, size):
     return resting
 
 
-@inline_kernel
+@borrowing_kernel
 def _slides_straight(body, ground, motion, work):
     """Whether a body slides over a plane without turning and without a torque, every point on the
     ground active.
@@ -69,7 +69,7 @@ def _slides_straight(body, ground, motion, work):
     return straight and slides
 
 
-@inline_kernel
+@borrowing_kernel
 def _place(body, J, first, row):
     """Arm of a contact along the tangents, and along the normal, from the moments of its rows."""
     if body.width == PLANE:
@@ -82,7 +82,7 @@ def _place(body, J, first, row):
     return t, s, h
 
 
-@inline_kernel
+@borrowing_kernel
 def straight_face(body, ground, motion, work, face):
     """The active points of a body that slides straight on, about their mean into ``face`` [points,
     3 or more].
@@ -115,7 +115,7 @@ def straight_face(body, ground, motion, work, face):
     return Face(count, first, height, (mean_t, mean_s), (ss / whole, -ts / whole, tt / whole))
 
 
-@inline_kernel
+@borrowing_kernel
 def _tangential(body, J, row, x):
     """A velocity of the centre of mass along the tangents of a contact."""
     t, s = 0.0, 0.0
@@ -126,7 +126,7 @@ def _tangential(body, J, row, x):
     return t, s
 
 
-@inline_kernel
+@borrowing_kernel
 def _press(body, face, points, push, d_t, d_s, impulse):
     """Loads of least norm under a body that is pushed by ``push`` [N s] and slides along d, and its
     friction; whether all press.
@@ -145,7 +145,7 @@ def _press(body, face, points, push, d_t, d_s, impulse):
     return presses
 
 
-@inline_kernel
+@borrowing_kernel
 def slide_straight(body, motion, work, face, points, time, rounding):
     """One sub-step of ``time`` [s]: state, ``work.impulse``; returns the energy lost in [J], -1
     (nothing taken) where slip may end.

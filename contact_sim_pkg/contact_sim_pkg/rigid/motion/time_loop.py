@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import entry, inline_kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody
 from contact_sim_pkg.rigid.contact.single import single_impulses
 from contact_sim_pkg.rigid.geometry.face import face_impulses, make_face_workspace
@@ -76,7 +76,7 @@ def make_time_loop_workspace(points: int) -> TimeLoopWorkspace:
     )  # fmt: skip
 
 
-@inline_kernel
+@borrowing_kernel
 def _spin(body, motion):
     spin = 0.0
     for k in range(body.width, motion.velocity.shape[0]):
@@ -84,7 +84,7 @@ def _spin(body, motion):
     return spin
 
 
-@inline_kernel
+@borrowing_kernel
 def _longest(body, ground, motion, turn, size):
     """Longest sub-step in [s] over which the body turns by at most ``turn`` [rad] and stays near
     one cell of the ground.
@@ -99,7 +99,7 @@ def _longest(body, ground, motion, turn, size):
     return longest
 
 
-@inline_kernel
+@borrowing_kernel
 def _longest_flight(body, ground, motion, size, left):
     """Longest sub-step in [s] of the flight of the next ``left`` [s]."""
     turn = LARGEST_PLANAR_TURN if body.width == PLANE else LARGEST_TURN
@@ -111,7 +111,7 @@ def _longest_flight(body, ground, motion, size, left):
     return longest
 
 
-@inline_kernel
+@borrowing_kernel
 def _one_in_the_plane(work, i):
     """Impulse of the one active point of a planar body by its closed modes."""
     J, W, row = work.J, work.W, 2 * i
@@ -126,7 +126,7 @@ def _one_in_the_plane(work, i):
     return 0.0
 
 
-@inline_kernel
+@borrowing_kernel
 def _free_contacts(body, ground, motion, work, time, rounding):
     """Velocities ``q`` of the contacts after ``time`` without impulses, and which are active.
 
@@ -152,7 +152,7 @@ def _free_contacts(body, ground, motion, work, time, rounding):
     return first, second, active, curved
 
 
-@inline_kernel
+@borrowing_kernel
 def _attempt(body, ground, motion, work, loop, time, rounding):
     """Closed form of the active contacts over ``time`` into ``work.impulse``; its residual, inf
     where there is none.
@@ -176,7 +176,7 @@ def _attempt(body, ground, motion, work, loop, time, rounding):
     return numpy.inf if curved else face_impulses(work.J, work.W, work.free, friction, loop.face, work.impulse)
 
 
-@inline_kernel
+@borrowing_kernel
 def _solve_closed_form(body, ground, motion, work, loop, time, size, rounding):
     """The sub-step of ``time`` in closed form; False where the body turns, and for general solvers
     or an event.

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
-from contact_sim_pkg.compiled.jit import entry, inline_kernel, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
 from contact_sim_pkg.compiled.results import DONE, NOT_FINITE
 from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, make_workspace
 from contact_sim_pkg.integrate.interface import rate
@@ -122,7 +122,7 @@ def _set_modes(body, motion, work, rotating, gives_way):
     return found
 
 
-@inline_kernel
+@borrowing_kernel
 def _set_flags(work, rotating):
     """Which active contacts stick, which slide, and which are active no longer."""
     for i in range(work.flags.shape[0]):
@@ -131,7 +131,7 @@ def _set_flags(work, rotating):
             work.flags[i] = STICKING if mode == STICKS else (ACTIVE if mode == SLIDES else TOUCHING)
 
 
-@inline_kernel
+@borrowing_kernel
 def _set_start(body, motion, work, rotating):
     """The motion as the state of the rig."""
     rig, state = rotating.rig, rotating.state
@@ -150,7 +150,7 @@ def _set_start(body, motion, work, rotating):
     _put_velocity(motion, state)
 
 
-@inline_kernel
+@borrowing_kernel
 def _put_velocity(motion, state):
     """The velocities of a motion into the state."""
     v = motion.velocity
@@ -163,7 +163,7 @@ def _put_velocity(motion, state):
         state[7 + k], state[10 + k] = v[k], w[k]
 
 
-@inline_kernel
+@borrowing_kernel
 def _starts_well(body, drive, rotating):
     """Whether the modes hold at the start: what shall stick does not slip, forces are within their
     limits.
@@ -182,7 +182,7 @@ def _starts_well(body, drive, rotating):
     return good
 
 
-@inline_kernel
+@borrowing_kernel
 def _stop_at_the_start(rotating):
     """Remove what the modes forbid from the velocities of the state, which was looked at; its
     impulses and their work are left there.
@@ -200,7 +200,7 @@ def _stop_at_the_start(rotating):
     _put_velocity(rig.motion, state)
 
 
-@inline_kernel
+@borrowing_kernel
 def _accept_end(body, motion, work, rotating, drive, rounding):
     """The end of the path as the motion; its impulses into ``work.impulse``. Velocities that the
     modes forbid are taken out.
@@ -226,7 +226,7 @@ def _accept_end(body, motion, work, rotating, drive, rounding):
         motion.velocity[k] = rig.motion.velocity[k] if abs(rig.motion.velocity[k]) > rounding else 0.0
 
 
-@inline_kernel
+@borrowing_kernel
 def _move(body, motion, work, rotating, left, rounding):
     """Integrate over ``left`` [s] or to the end of a mode: the time, 0 where nothing was changed,
     and whether a mode ended.

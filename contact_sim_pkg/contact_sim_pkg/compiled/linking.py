@@ -1,0 +1,306 @@
+"""Kernels as intermediate code that is linked into machine code once, instead of being optimised
+at each level of calls.
+
+numba optimises a function together with all that it calls, and turns it into machine code, even
+where only other compiled functions call it: a kernel at the bottom of six levels is optimised six
+times and more. Here a kernel stays intermediate code until a function needs machine code: an entry
+that Python calls, or a kernel that has grown to `LARGEST_LINKED` with all that is linked into it.
+Such a large kernel is compiled once and called by its symbol; it is not looked into, which costs
+nothing at its size. The order of operations on numbers stays as written, so results keep their bits.
+
+All that leans on numba's inside stands here and in `kernel_cache.py`; with a version of numba that
+it was not tested with (`TESTED`), kernels are compiled in numba's own way: slower, same numbers.
+"""
+
+# numba has no types.
+# mypy: disallow-untyped-calls=False
+
+from __future__ import annotations
+
+import gc
+import importlib
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, NamedTuple, TypeVar
+
+import llvmlite.binding as llvm
+import numba
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler, CompileResult, compile_result
+from numba.core.compiler_lock import require_global_compiler_lock
+from numba.core.environment import lookup_environment
+
+__all__ = ["compiler_of", "rebuild", "reduce", "register"]
+
+TESTED = ("0.68.",)
+"""Versions of numba whose inside is known to fit."""
+
+LARGEST_LINKED = 60_000
+"""[bytes of bitcode] A kernel that is larger, with all that would be linked into it, becomes
+machine code of its own."""
+
+_ENVIRONMENT = "_ZN08NumbaEnv"  # leads the names of numba's variables that point to a function's globals
+
+Result = TypeVar("Result")
+Function = tuple[str, str, bool]  # module, qualified name, whether Python calls it
+
+_dispatchers: dict[Function, Any] = {}
+
+
+class Overload(NamedTuple):
+    """A kernel for one combination of argument types, by which another process finds it."""
+
+    function: Function
+    types: tuple[Any, ...]
+
+    def library(self) -> KernelLibrary:
+        """Its code, from the cache on disk or compiled anew."""
+        if self.function not in _dispatchers:
+            importlib.import_module(self.function[0])
+        dispatcher = _dispatchers[self.function]
+        dispatcher.compile(self.types)
+        library: KernelLibrary = dispatcher.overloads[self.types].library
+        return library
+
+
+class KernelLibrary(JITCodeLibrary):
+    """Code of one overload: intermediate code, or machine code where ``is_machine_code``."""
+
+    def __init__(self, codegen: Any, name: str, overload: Overload | None, *, is_machine_code: bool) -> None:
+        """``overload``: None for a function inside another, which nobody can import."""
+        super().__init__(codegen, name)
+        self.overload = overload
+        self.is_machine_code = is_machine_code
+        self.callees: dict[KernelLibrary, None] = {}  # in the order of their calls
+        self._size = 0
+        self.enable_object_caching()
+
+    @property
+    def codegen(self) -> Any:
+        """numba's generator of code; one that sets no variables of an engine which does not know them."""
+        return self._codegen if self.is_machine_code else _WithoutEngine(self._codegen)
+
+    def add_linking_library(self, library: Any) -> None:
+        """numba announces what the function calls."""
+        library._ensure_finalized()
+        if isinstance(library, KernelLibrary) and library.overload is not None:
+            self.callees[library] = None
+            return
+        self._linking_libraries.append(library)
+        if isinstance(library, KernelLibrary):
+            self.callees.update(library.callees)
+
+    def finalize(self) -> None:
+        """End of the function's own code: keep it as it is, or make machine code where it is wanted."""
+        require_global_compiler_lock()
+        self._raise_if_finalized()
+        for library in dict.fromkeys(self._linking_libraries):
+            self._reload_init.update(library._reload_init)
+            module = library.own_module() if isinstance(library, KernelLibrary) else library._get_module_for_linking()
+            self._final_module.link_in(module, preserve=True)
+        for callee in self.callees:
+            self._reload_init.update(callee._reload_init)
+        linked, _ = self._all_callees()
+        grown = self.overload is not None and self.size() + sum(each.size() for each in linked) > LARGEST_LINKED
+        self.is_machine_code = self.is_machine_code or grown
+        if not self.is_machine_code:
+            self._finalize_dynamic_globals()
+            self._finalized = True
+            return
+        for each in linked:
+            self._final_module.link_in(each.own_module(), preserve=True)
+        self._optimize_final_module()
+        self._final_module.verify()
+        self._finalize_final_module()
+        self._set_environments()
+
+    def _all_callees(self) -> tuple[list[KernelLibrary], list[KernelLibrary]]:
+        """What is linked into machine code of this function, and what it calls by symbol."""
+        linked: dict[KernelLibrary, None] = {}
+        called: dict[KernelLibrary, None] = {}
+        ahead = list(self.callees)
+        while ahead:
+            each = ahead.pop()
+            if each.is_machine_code:
+                called[each] = None
+            elif each not in linked:
+                linked[each] = None
+                ahead.extend(each.callees)
+        return list(linked), list(called)
+
+    def size(self) -> int:
+        """Length of its own intermediate code [bytes]."""
+        if not self._size:
+            self._size = len(self._final_module.as_bitcode())
+        return self._size
+
+    def own_module(self) -> Any:
+        """Its own intermediate code, ready to be linked into others; without content where it is machine code."""
+        self._ensure_finalized()
+        if self._shared_module is None:
+            if self.is_machine_code:
+                self._shared_module = llvm.parse_assembly(str(self._codegen._create_empty_module(self.name)))
+            else:
+                self._shared_module = self._final_module.clone()
+                for function in self._shared_module.functions:
+                    if not function.is_declaration and function.linkage == llvm.Linkage.external:
+                        function.linkage = "linkonce_odr"  # several of one name may meet, and an unused one goes
+        return self._shared_module
+
+    def _get_module_for_linking(self) -> Any:
+        """For a library of numba's own, which knows nothing of callees: all in one module."""
+        module = self.own_module()
+        if self.is_machine_code or not self.callees:
+            return module
+        module = module.clone()
+        for each in self._all_callees()[0]:
+            module.link_in(each.own_module(), preserve=True)
+        return module
+
+    def _set_environments(self) -> None:
+        """Point the linked functions to their globals, as numba does for a function at a time."""
+        for variable in self._final_module.global_variables:
+            if variable.name.startswith(_ENVIRONMENT) and not variable.is_declaration:
+                environment = lookup_environment(variable.name)
+                if environment is not None:
+                    self.codegen.set_env(variable.name, environment)
+
+    def get_pointer_to_function(self, name: str) -> int:
+        """Its address; 0 where there is no machine code."""
+        self._ensure_finalized()
+        address: int = super().get_pointer_to_function(name) if self.is_machine_code else 0
+        return address
+
+    def reduce(self) -> tuple[Any, ...]:
+        """What goes to disk: code, and the overloads that must be there before it is used."""
+        if self.is_machine_code:
+            code, needed = self._get_compiled_object(), self._all_callees()[1]
+        else:
+            code, needed = self._final_module.as_bitcode(), list(self.callees)
+        return self.name, self.overload, self.is_machine_code, code, [each.overload for each in needed]
+
+    @classmethod
+    def rebuild(cls, codegen: Any, reduced: tuple[Any, ...]) -> KernelLibrary | None:
+        """The library from `reduce`; None where an overload that it calls by symbol has become
+        linked code meanwhile.
+        """
+        name, overload, is_machine_code, code, needed = reduced
+        self = cls(codegen, name, overload, is_machine_code=is_machine_code)
+        self.callees = dict.fromkeys(each.library() for each in needed)
+        if not is_machine_code:
+            self._final_module = llvm.parse_bitcode(code)
+            self._finalized = True
+            return self
+        if not all(each.is_machine_code for each in self.callees):
+            return None
+        self._set_compiled_object(code)
+        self._finalize_final_module()
+        return self
+
+
+class _WithoutEngine:
+    """A generator of code for a function that has no machine code, and so no variables to set."""
+
+    def __init__(self, codegen: Any) -> None:
+        self._codegen = codegen
+
+    def set_env(self, name: str, environment: Any) -> None:
+        """Nothing to do: done by the machine code that the function is linked into."""
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._codegen, name)
+
+
+class _KernelCompiler(Compiler):
+    """numba's compiler with a `KernelLibrary`, and a name of the function that is the same in each process."""
+
+    is_entry = False
+
+    def _compile_bytecode(self) -> Any:
+        state, function = self.state, self.state.func_id
+        overload = None
+        if "<locals>" not in function.func_qualname:
+            overload = Overload((function.modname, function.func_qualname, self.is_entry), tuple(state.args))
+            function.unique_id = zlib.crc32(repr(overload).encode())
+            function.unique_name = f"{function.func_qualname}${function.unique_id}"
+        codegen = state.targetctx.codegen()
+        state.library = KernelLibrary(codegen, function.func_qualname, overload, is_machine_code=self.is_entry)
+        with _few_collections():
+            return _on_a_large_stack(super()._compile_bytecode)
+
+
+class _EntryCompiler(_KernelCompiler):
+    is_entry = True
+
+
+@contextmanager
+def _few_collections() -> Iterator[None]:
+    """A compilation makes many objects and little garbage: looking for it took a fifth of the time."""
+    before = gc.get_threshold()
+    gc.set_threshold(100_000, 50, 1000)
+    try:
+        yield
+    finally:
+        gc.set_threshold(*before)
+
+
+def _on_a_large_stack(function: Callable[[], Result]) -> Result:
+    """``function()``, and all that it calls in one piece of memory.
+
+    Python keeps the frames of calls in pieces of 16 KiB. The compiler calls itself some hundred
+    levels deep; wherever a piece is full, every further call takes a new one from the system and
+    gives it back, which was a sixth of the time. A frame that claims 560 kB makes a piece of 1 MiB.
+    """
+    return function()
+
+
+_on_a_large_stack.__code__ = _on_a_large_stack.__code__.replace(co_stacksize=70_000)
+
+
+def compiler_of(*, is_entry: bool) -> type[Compiler] | None:
+    """The compiler of entries or of kernels; None, numba's own, where its version is not `TESTED`."""
+    if not numba.__version__.startswith(TESTED):
+        return None
+    return _EntryCompiler if is_entry else _KernelCompiler
+
+
+def register(function: Callable[..., Any], dispatcher: Any, *, is_entry: bool) -> None:
+    """Let other processes' code find the overloads of a decorated function."""
+    _dispatchers[function.__module__, function.__qualname__, is_entry] = dispatcher
+
+
+def reduce(result: Any) -> tuple[Any, ...]:
+    """A compiled function as plain data, for the cache on disk."""
+    if not isinstance(result.library, KernelLibrary):
+        return (None, *result._reduce())
+    environments = tuple(result._find_referenced_environments()) if result.library.is_machine_code else ()
+    described = result.fndesc
+    described.typemap = described.calltypes = None  # as numba does: only the compiler needs them
+    return (
+        result.library.reduce(), described, result.environment, result.signature, tuple(result.reload_init), environments,
+    )  # fmt: skip
+
+
+def rebuild(target: Any, payload: tuple[Any, ...]) -> Any:
+    """The compiled function from `reduce`; None where it must be compiled again."""
+    if payload[0] is None:
+        return CompileResult._rebuild(target, *payload[1:])
+    reduced, described, environment, signature, reload_init, environments = payload
+    for function in reload_init:
+        function()
+    codegen = target.codegen()
+    library = KernelLibrary.rebuild(codegen, reduced)
+    if library is None:
+        return None
+    if library.is_machine_code:
+        # An object from disk does not tell its symbols; numba asks before it looks them up
+        codegen._engine._defined_symbols |= {described.mangled_name, described.llvm_cpython_wrapper_name}
+    result = compile_result(
+        typing_context=target.typing_context, target_context=target, library=library, signature=signature, fndesc=described,
+        entry_point=target.get_executable(library, described, environment), environment=environment, type_annotation="",
+        objectmode=False, lifted=(), reload_init=list(reload_init), referenced_envs=environments,
+    )  # fmt: skip
+    for each in environments:
+        codegen.set_env(each.env_name, each)
+    return result
