@@ -65,7 +65,7 @@ class Start:
         for room in (self.laws, self.package / "compiled"):
             room.mkdir(parents=True)
             (room / "__init__.py").touch()
-        for name in ("jit.py", "kernel_cache.py", "linking.py", "sources.py"):
+        for name in ("assembler.py", "jit.py", "kernel_cache.py", "linking.py", "sources.py"):
             shutil.copy(PACKAGE / "compiled" / name, self.package / "compiled" / name)
         (self.laws / "helper.py").write_text(HELPER)
         (self.laws / "caller.py").write_text(CALLER)

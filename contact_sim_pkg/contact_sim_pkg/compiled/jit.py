@@ -102,6 +102,7 @@ def closed() -> Iterator[None]:
     of a run. The closing acts on the whole process and ends with the block of code, so any number
     of scenes can be prepared and run one after another.
     """
+    linking.stop()
     _set_open(False)
     try:
         yield

@@ -22,6 +22,7 @@ import pickle
 import platform
 import shutil
 import stat
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -278,6 +279,9 @@ class _CheckedCache(FunctionCache):
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
+        linking.when_loaded(data, partial(self._save, sig, data))
+
+    def _save(self, sig: Any, data: Any) -> None:
         if _session.directory is None:
             return
         try:

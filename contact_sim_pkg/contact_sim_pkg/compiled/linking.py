@@ -8,7 +8,10 @@ that Python calls, or a kernel that has grown to `LARGEST_LINKED` with all that 
 Such a large kernel is compiled once and called by its symbol; it is not looked into, which costs
 nothing at its size. The order of operations on numbers stays as written, so results keep their bits.
 
-All that leans on numba's inside stands here and in `kernel_cache.py`; with a version of numba that
+Machine code is made by a second process (`assembler.py`) while this one types and lowers the next
+kernels; whatever Python is about to call waits for it.
+
+All that leans on numba's inside stands here, there and in `kernel_cache.py`; with a version of numba that
 it was not tested with (`TESTED`), kernels are compiled in numba's own way: slower, same numbers.
 """
 
@@ -17,10 +20,13 @@ it was not tested with (`TESTED`), kernels are compiled in numba's own way: slow
 
 from __future__ import annotations
 
+import atexit
 import gc
 import importlib
+import uuid
 import zlib
 from collections.abc import Callable, Iterator
+from concurrent.futures import Future
 from contextlib import contextmanager
 from typing import Any, NamedTuple, TypeVar
 
@@ -31,7 +37,9 @@ from numba.core.compiler import Compiler, CompileResult, compile_result
 from numba.core.compiler_lock import require_global_compiler_lock
 from numba.core.environment import lookup_environment
 
-__all__ = ["compiler_of", "rebuild", "reduce", "register"]
+from contact_sim_pkg.compiled.assembler import DYNAMIC, ENVIRONMENT, Assembler, Assembly
+
+__all__ = ["compiler_of", "finish", "rebuild", "reduce", "register", "stop", "when_loaded"]
 
 TESTED = ("0.68.",)
 """Versions of numba whose inside is known to fit."""
@@ -40,12 +48,14 @@ LARGEST_LINKED = 60_000
 """[bytes of bitcode] A kernel that is larger, with all that would be linked into it, becomes
 machine code of its own."""
 
-_ENVIRONMENT = "_ZN08NumbaEnv"  # leads the names of numba's variables that point to a function's globals
 
 Result = TypeVar("Result")
 Function = tuple[str, str, bool]  # module, qualified name, whether Python calls it
 
 _dispatchers: dict[Function, Any] = {}
+_assembler = Assembler()
+_awaited: list[KernelLibrary] = []  # in the order of their submission, callees first
+_when_loaded: list[Callable[[], None]] = []  # what waits for machine code: files of the cache
 
 
 class Overload(NamedTuple):
@@ -68,18 +78,30 @@ class KernelLibrary(JITCodeLibrary):
     """Code of one overload: intermediate code, or machine code where ``is_machine_code``."""
 
     def __init__(self, codegen: Any, name: str, overload: Overload | None, *, is_machine_code: bool) -> None:
-        """``overload``: None for a function inside another, which nobody can import."""
+        """``overload``: None for a function inside another, which nobody can import.
+        ``is_machine_code``: of an entry.
+        """
         super().__init__(codegen, name)
         self.overload = overload
-        self.is_machine_code = is_machine_code
+        self.is_machine_code = self.is_entry = is_machine_code
         self.callees: dict[KernelLibrary, None] = {}  # in the order of their calls
         self._size = 0
+        self._awaited: Future[Assembly] | None = None  # machine code in the making
+        self._code = b""  # machine code, as it goes to disk
+        self._called: list[KernelLibrary] = []  # by symbol
+        self._symbols: list[str] = []  # functions of its own that machine code defines
+        self._environments: tuple[str, ...] = ()
         self.enable_object_caching()
 
     @property
     def codegen(self) -> Any:
         """numba's generator of code; one that sets no variables of an engine which does not know them."""
-        return self._codegen if self.is_machine_code else _WithoutEngine(self._codegen)
+        return self._codegen if self.is_loaded else _WithoutEngine(self._codegen)
+
+    @property
+    def is_loaded(self) -> bool:
+        """Whether it can be called: machine code that has arrived."""
+        return self.is_machine_code and self._finalized and self._awaited is None
 
     def add_linking_library(self, library: Any) -> None:
         """numba announces what the function calls."""
@@ -101,33 +123,75 @@ class KernelLibrary(JITCodeLibrary):
             self._final_module.link_in(module, preserve=True)
         for callee in self.callees:
             self._reload_init.update(callee._reload_init)
-        linked, _ = self._all_callees()
+        linked, self._called = self._all_callees()
         grown = self.overload is not None and self.size() + sum(each.size() for each in linked) > LARGEST_LINKED
         self.is_machine_code = self.is_machine_code or grown
         if not self.is_machine_code:
             self._finalize_dynamic_globals()
             self._finalized = True
             return
+        self._symbols = [each.name for each in self._final_module.functions if not each.is_declaration]
         for each in linked:
             self._final_module.link_in(each.own_module(), preserve=True)
-        self._optimize_final_module()
-        self._final_module.verify()
+        self._refuse_unknown_symbols()
+        self._awaited = _assembler.submit(self._final_module.as_bitcode())
+        self._finalized = True
+        _awaited.append(self)
+        if self.is_entry:
+            finish()
+
+    def _refuse_unknown_symbols(self) -> None:
+        """An unknown function would end the process when its caller is loaded."""
+        known = {name for each in self._called for name in each._symbols}
+        for function in self._final_module.functions:
+            if function.is_declaration and function.name.startswith("_ZN") and function.name not in known:
+                raise RuntimeError(f"{self.name}: nothing defines {function.name}")
+
+    def load_awaited(self) -> None:
+        """Wait for the machine code and hand it to numba's engine, with the names that it defines."""
+        assert self._awaited is not None
+        self._code, variables = self._awaited.result()
+        self._awaited = None
+        self._environments = tuple(name for name in variables if name.startswith(ENVIRONMENT))
+        self._dynamic_globals += [name for name in variables if name.startswith(DYNAMIC)]
+        self._load()
+        for name in self._environments:
+            environment = lookup_environment(name)
+            if environment is not None:
+                self.codegen.set_env(name, environment)
+
+    def _load(self) -> None:
+        # The engine asks for object code when it is given the module, which may then be empty
+        self._final_module = llvm.parse_assembly(str(self._codegen._create_empty_module(self.name)))
+        self._set_compiled_object(self._code)
         self._finalize_final_module()
-        self._set_environments()
+        self._codegen._engine._defined_symbols.update(self._symbols)
+
+    def environments(self) -> tuple[Any, ...]:
+        """Globals of the functions in its machine code that can be kept on disk."""
+        found = map(lookup_environment, self._environments)
+        return tuple(each for each in found if each is not None and each.can_cache())
 
     def _all_callees(self) -> tuple[list[KernelLibrary], list[KernelLibrary]]:
-        """What is linked into machine code of this function, and what it calls by symbol."""
-        linked: dict[KernelLibrary, None] = {}
+        """What is linked into machine code of this function, and what it calls by symbol.
+
+        Callers come before what they call: LLVM leaves out a function that nothing needs yet.
+        """
+        linked: list[KernelLibrary] = []
         called: dict[KernelLibrary, None] = {}
-        ahead = list(self.callees)
-        while ahead:
-            each = ahead.pop()
-            if each.is_machine_code:
-                called[each] = None
-            elif each not in linked:
-                linked[each] = None
-                ahead.extend(each.callees)
-        return list(linked), list(called)
+        seen = {self}
+
+        def visit(library: KernelLibrary) -> None:
+            for each in library.callees:
+                if each.is_machine_code:
+                    called[each] = None
+                elif each not in seen:
+                    seen.add(each)
+                    visit(each)
+                    linked.append(each)
+
+        visit(self)
+        return linked[::-1], list(called)
 
     def size(self) -> int:
         """Length of its own intermediate code [bytes]."""
@@ -150,6 +214,7 @@ class KernelLibrary(JITCodeLibrary):
 
     def _get_module_for_linking(self) -> Any:
         """For a library of numba's own, which knows nothing of callees: all in one module."""
+        finish()  # numba makes machine code of its own at once
         module = self.own_module()
         if self.is_machine_code or not self.callees:
             return module
@@ -158,34 +223,26 @@ class KernelLibrary(JITCodeLibrary):
             module.link_in(each.own_module(), preserve=True)
         return module
 
-    def _set_environments(self) -> None:
-        """Point the linked functions to their globals, as numba does for a function at a time."""
-        for variable in self._final_module.global_variables:
-            if variable.name.startswith(_ENVIRONMENT) and not variable.is_declaration:
-                environment = lookup_environment(variable.name)
-                if environment is not None:
-                    self.codegen.set_env(variable.name, environment)
-
     def get_pointer_to_function(self, name: str) -> int:
         """Its address; 0 where there is no machine code."""
         self._ensure_finalized()
-        address: int = super().get_pointer_to_function(name) if self.is_machine_code else 0
+        address: int = super().get_pointer_to_function(name) if self.is_loaded else 0
         return address
 
     def reduce(self) -> tuple[Any, ...]:
         """What goes to disk: code, and the overloads that must be there before it is used."""
         if self.is_machine_code:
-            code, needed = self._get_compiled_object(), self._all_callees()[1]
+            code, needed = self._code, self._called
         else:
             code, needed = self._final_module.as_bitcode(), list(self.callees)
-        return self.name, self.overload, self.is_machine_code, code, [each.overload for each in needed]
+        return self.name, self.overload, self.is_machine_code, code, self._symbols, [each.overload for each in needed]
 
     @classmethod
     def rebuild(cls, codegen: Any, reduced: tuple[Any, ...]) -> KernelLibrary | None:
         """The library from `reduce`; None where an overload that it calls by symbol has become
         linked code meanwhile.
         """
-        name, overload, is_machine_code, code, needed = reduced
+        name, overload, is_machine_code, code, symbols, needed = reduced
         self = cls(codegen, name, overload, is_machine_code=is_machine_code)
         self.callees = dict.fromkeys(each.library() for each in needed)
         if not is_machine_code:
@@ -194,8 +251,9 @@ class KernelLibrary(JITCodeLibrary):
             return self
         if not all(each.is_machine_code for each in self.callees):
             return None
-        self._set_compiled_object(code)
-        self._finalize_final_module()
+        finish()  # what it calls may have been compiled anew
+        self._code, self._symbols, self._called = code, symbols, list(self.callees)
+        self._load()
         return self
 
 
@@ -220,10 +278,12 @@ class _KernelCompiler(Compiler):
     def _compile_bytecode(self) -> Any:
         state, function = self.state, self.state.func_id
         overload = None
-        if "<locals>" not in function.func_qualname:
+        if "<locals>" not in function.func_qualname:  # else nobody can import it
             overload = Overload((function.modname, function.func_qualname, self.is_entry), tuple(state.args))
-            function.unique_id = zlib.crc32(repr(overload).encode())
-            function.unique_name = f"{function.func_qualname}${function.unique_id}"
+        # Names of symbols: of an overload the same in each process; of a function that only numba can tell from
+        # others of its name, found in no other process, for its code is kept on disk inside that of its callers
+        function.unique_id = uuid.uuid4().int if overload is None else zlib.crc32(repr(overload).encode())
+        function.unique_name = f"{function.func_qualname}${function.unique_id}"
         codegen = state.targetctx.codegen()
         state.library = KernelLibrary(codegen, function.func_qualname, overload, is_machine_code=self.is_entry)
         with _few_collections():
@@ -270,11 +330,36 @@ def register(function: Callable[..., Any], dispatcher: Any, *, is_entry: bool) -
     _dispatchers[function.__module__, function.__qualname__, is_entry] = dispatcher
 
 
+def finish() -> None:
+    """Wait until all machine code is made and loaded, and written where a cache asked for that."""
+    while _awaited:
+        _awaited.pop(0).load_awaited()
+    while _when_loaded:
+        _when_loaded.pop(0)()
+
+
+def when_loaded(result: Any, action: Callable[[], None]) -> None:
+    """Do it at once, or after `finish` where the machine code of a compiled function is in the making."""
+    library = result.library
+    if isinstance(library, KernelLibrary) and library.is_machine_code and not library.is_loaded:
+        _when_loaded.append(action)
+    else:
+        action()
+
+
+def stop() -> None:
+    """End the second process; it starts again where it is needed."""
+    _assembler.stop()
+
+
+atexit.register(stop)
+
+
 def reduce(result: Any) -> tuple[Any, ...]:
     """A compiled function as plain data, for the cache on disk."""
     if not isinstance(result.library, KernelLibrary):
         return (None, *result._reduce())
-    environments = tuple(result._find_referenced_environments()) if result.library.is_machine_code else ()
+    environments = result.library.environments()
     described = result.fndesc
     described.typemap = described.calltypes = None  # as numba does: only the compiler needs them
     return (
@@ -293,9 +378,6 @@ def rebuild(target: Any, payload: tuple[Any, ...]) -> Any:
     library = KernelLibrary.rebuild(codegen, reduced)
     if library is None:
         return None
-    if library.is_machine_code:
-        # An object from disk does not tell its symbols; numba asks before it looks them up
-        codegen._engine._defined_symbols |= {described.mangled_name, described.llvm_cpython_wrapper_name}
     result = compile_result(
         typing_context=target.typing_context, target_context=target, library=library, signature=signature, fndesc=described,
         entry_point=target.get_executable(library, described, environment), environment=environment, type_annotation="",

@@ -1,0 +1,133 @@
+"""A second process that optimises intermediate code and makes machine code of it, while this one
+goes on with the next kernel.
+
+Half of a compilation is Python (types, lowering), half LLVM, which llvmlite allows one thread of a
+process at a time. So modules go to a process of their own, as bitcode; object code comes back. The
+process knows nothing of kernels. It ends when its input ends; where it cannot be started, or dies,
+this process does the work itself.
+"""
+
+# numba has no types.
+# mypy: disallow-untyped-calls=False
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+import sys
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import IO, NamedTuple
+
+import llvmlite.binding as llvm
+from numba.core.codegen import JITCPUCodegen
+
+__all__ = ["DYNAMIC", "ENVIRONMENT", "Assembler", "Assembly", "assemble"]
+
+ENVIRONMENT = "_ZN08NumbaEnv"
+"""Leads the names of numba's variables that point to the globals of a function."""
+
+DYNAMIC = "numba.dynamic.globals"
+"""Leads the names of those that hold an address of this process: such code is not kept on disk."""
+
+_PROGRAM = """
+import sys
+sys.path[:] = sys.argv[1:]
+from contact_sim_pkg.compiled import assembler
+assembler.serve(sys.stdin.buffer, sys.stdout.buffer)
+"""
+
+
+class Assembly(NamedTuple):
+    """Machine code of a module."""
+
+    code: bytes  # object file
+    variables: tuple[str, ...]  # names of `ENVIRONMENT` and `DYNAMIC` that are left in it
+
+
+class Assembler:
+    """Makes machine code of one module after the other, in the order in which they were submitted."""
+
+    def __init__(self) -> None:
+        """Starts nothing yet."""
+        self._process: subprocess.Popen[bytes] | None = None
+        self._queue: ThreadPoolExecutor | None = None
+
+    def submit(self, bitcode: bytes) -> Future[Assembly]:
+        """Machine code of ``bitcode``, once it is there; starts the process at the first call."""
+        if self._queue is None:
+            self._queue = ThreadPoolExecutor(1, "assembler")
+            self._queue.submit(self._start)
+        return self._queue.submit(self._ask, bitcode)
+
+    def stop(self) -> None:
+        """End the process; a later `submit` starts another."""
+        if self._queue is not None:
+            self._queue.shutdown()
+            self._queue = None
+        if self._process is not None:
+            self._end()
+
+    def _start(self) -> None:
+        try:
+            self._process = subprocess.Popen(
+                [sys.executable, "-c", _PROGRAM, *sys.path],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                start_new_session=True,  # an interrupt from the keyboard is for this process; the other follows
+            )
+        except OSError:
+            self._process = None
+
+    def _ask(self, bitcode: bytes) -> Assembly:
+        if self._process is not None:
+            assert self._process.stdin is not None
+            assert self._process.stdout is not None
+            try:
+                _send(self._process.stdin, bitcode)
+                answer: Assembly = pickle.load(self._process.stdout)  # noqa: S301 - our own process
+            except (OSError, EOFError, pickle.UnpicklingError):
+                self._end()
+            else:
+                return answer
+        return assemble(bitcode)
+
+    def _end(self) -> None:
+        process, self._process = self._process, None
+        if process is not None:
+            process.kill()
+            process.communicate()
+
+
+def assemble(bitcode: bytes) -> Assembly:
+    """Optimised machine code of a module, as numba itself would make it."""
+    global _codegen
+    if _codegen is None:
+        _codegen = JITCPUCodegen("contact_sim_pkg.compiled.assembler")
+    library = _codegen.create_library("assembled")
+    module = llvm.parse_bitcode(bitcode)
+    library._final_module = module
+    library._optimize_final_module()
+    module = library._final_module
+    module.verify()
+    names = (variable.name for variable in module.global_variables if not variable.is_declaration)
+    kept = tuple(name for name in names if name.startswith((ENVIRONMENT, DYNAMIC)))
+    return Assembly(_codegen._tm.emit_object(module), kept)
+
+
+_codegen: JITCPUCodegen | None = None
+
+
+def serve(requests: IO[bytes], answers: IO[bytes]) -> None:
+    """Answer until the input ends."""
+    while True:
+        try:
+            bitcode = pickle.load(requests)  # noqa: S301 - from the process that started this one
+        except EOFError:
+            return
+        _send(answers, assemble(bitcode))
+
+
+def _send(stream: IO[bytes], content: object) -> None:
+    pickle.dump(content, stream, protocol=pickle.HIGHEST_PROTOCOL)
+    stream.flush()
