@@ -14,7 +14,7 @@ import numba
 import numpy
 import pytest
 
-from contact_sim_pkg.compiled import jit, kernel_cache
+from contact_sim_pkg.compiled import jit, kernel_cache, linking
 from contact_sim_pkg.pressure.closed_form import hertz, lame
 from contact_sim_pkg.pressure.field import halfspace, patch
 from contact_sim_pkg.pressure.field import solver as field_solver
@@ -419,3 +419,22 @@ def test_a_kernel_that_borrows_its_arrays_may_not_make_one():
 
     with pytest.raises(numba.core.errors.NumbaError, match="NRT required"):
         doubled(numpy.ones(3))
+
+
+def test_machine_code_that_was_given_up_is_made_when_it_is_needed() -> None:
+    """As after an interrupt in the middle of a compilation, and a next scene in the same process."""
+
+    @jit.entry
+    def doubled(value: float) -> float:
+        return 2.0 * value
+
+    submit = linking._assembler.submit
+
+    def submitted_and_stopped(bitcode: bytes) -> Any:
+        awaited = submit(bitcode)
+        linking.stop()
+        return awaited
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(linking._assembler, "submit", submitted_and_stopped)
+        assert doubled(4.0) == 8.0

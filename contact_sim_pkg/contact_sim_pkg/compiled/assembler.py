@@ -15,7 +15,7 @@ from __future__ import annotations
 import pickle
 import subprocess
 import sys
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from typing import IO, NamedTuple
 
 import llvmlite.binding as llvm
@@ -60,12 +60,13 @@ class Assembler:
         return self._queue.submit(self._ask, bitcode)
 
     def stop(self) -> None:
-        """End the process; a later `submit` starts another."""
-        if self._queue is not None:
-            self._queue.shutdown()
-            self._queue = None
-        if self._process is not None:
+        """End the process, and give up what was submitted; a later `submit` starts another."""
+        queue, self._queue = self._queue, None
+        if queue is not None:
+            queue.shutdown(wait=False, cancel_futures=True)
             self._end()
+            queue.shutdown()
+            self._end()  # where it was about to start
 
     def _start(self) -> None:
         try:
@@ -86,7 +87,9 @@ class Assembler:
             try:
                 _send(self._process.stdin, bitcode)
                 answer: Assembly = pickle.load(self._process.stdout)  # noqa: S301 - our own process
-            except (OSError, EOFError, pickle.UnpicklingError):
+            except (OSError, EOFError, ValueError, pickle.UnpicklingError):
+                if self._queue is None:
+                    raise CancelledError from None
                 self._end()
             else:
                 return answer
@@ -96,7 +99,7 @@ class Assembler:
         process, self._process = self._process, None
         if process is not None:
             process.kill()
-            process.communicate()
+            process.wait()
 
 
 def assemble(bitcode: bytes) -> Assembly:

@@ -20,12 +20,14 @@ from numba.extending import overload
 
 from contact_sim_pkg.compiled import linking
 from contact_sim_pkg.compiled.kernel_cache import attach_cache
+from contact_sim_pkg.compiled.linking import compiled_kernels
 
 __all__ = [
     "COMPILE_OPTIONS",
     "borrowing_kernel",
     "closed",
     "compiled_functions",
+    "compiled_kernels",
     "entry",
     "kernel",
     "kernel_overload",

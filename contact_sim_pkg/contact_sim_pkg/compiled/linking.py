@@ -26,7 +26,7 @@ import importlib
 import uuid
 import zlib
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future
+from concurrent.futures import CancelledError, Future
 from contextlib import contextmanager
 from typing import Any, NamedTuple, TypeVar
 
@@ -37,9 +37,9 @@ from numba.core.compiler import Compiler, CompileResult, compile_result
 from numba.core.compiler_lock import require_global_compiler_lock
 from numba.core.environment import lookup_environment
 
-from contact_sim_pkg.compiled.assembler import DYNAMIC, ENVIRONMENT, Assembler, Assembly
+from contact_sim_pkg.compiled.assembler import DYNAMIC, ENVIRONMENT, Assembler, Assembly, assemble
 
-__all__ = ["compiler_of", "finish", "rebuild", "reduce", "register", "stop", "when_loaded"]
+__all__ = ["compiled_kernels", "compiler_of", "finish", "rebuild", "reduce", "register", "stop", "when_loaded"]
 
 TESTED = ("0.68.",)
 """Versions of numba whose inside is known to fit."""
@@ -54,6 +54,7 @@ Function = tuple[str, str, bool]  # module, qualified name, whether Python calls
 
 _dispatchers: dict[Function, Any] = {}
 _assembler = Assembler()
+_compiled = 0  # overloads, by this process
 _awaited: list[KernelLibrary] = []  # in the order of their submission, callees first
 _when_loaded: list[Callable[[], None]] = []  # what waits for machine code: files of the cache
 
@@ -89,7 +90,7 @@ class KernelLibrary(JITCodeLibrary):
         self._awaited: Future[Assembly] | None = None  # machine code in the making
         self._code = b""  # machine code, as it goes to disk
         self._called: list[KernelLibrary] = []  # by symbol
-        self._symbols: list[str] = []  # functions of its own that machine code defines
+        self._symbols: list[str] = []  # functions that it defines itself
         self._environments: tuple[str, ...] = ()
         self.enable_object_caching()
 
@@ -117,6 +118,7 @@ class KernelLibrary(JITCodeLibrary):
         """End of the function's own code: keep it as it is, or make machine code where it is wanted."""
         require_global_compiler_lock()
         self._raise_if_finalized()
+        self._symbols = [each.name for each in self._final_module.functions if not each.is_declaration]
         for library in dict.fromkeys(self._linking_libraries):
             self._reload_init.update(library._reload_init)
             module = library.own_module() if isinstance(library, KernelLibrary) else library._get_module_for_linking()
@@ -130,7 +132,6 @@ class KernelLibrary(JITCodeLibrary):
             self._finalize_dynamic_globals()
             self._finalized = True
             return
-        self._symbols = [each.name for each in self._final_module.functions if not each.is_declaration]
         for each in linked:
             self._final_module.link_in(each.own_module(), preserve=True)
         self._refuse_unknown_symbols()
@@ -150,7 +151,10 @@ class KernelLibrary(JITCodeLibrary):
     def load_awaited(self) -> None:
         """Wait for the machine code and hand it to numba's engine, with the names that it defines."""
         assert self._awaited is not None
-        self._code, variables = self._awaited.result()
+        try:
+            self._code, variables = self._awaited.result()
+        except CancelledError:  # stopped with a compilation that was broken off
+            self._code, variables = assemble(self._final_module.as_bitcode())
         self._awaited = None
         self._environments = tuple(name for name in variables if name.startswith(ENVIRONMENT))
         self._dynamic_globals += [name for name in variables if name.startswith(DYNAMIC)]
@@ -230,29 +234,36 @@ class KernelLibrary(JITCodeLibrary):
         return address
 
     def reduce(self) -> tuple[Any, ...]:
-        """What goes to disk: code, and the overloads that must be there before it is used."""
+        """What goes to disk: code, and the overloads that must be there before it is used, with the
+        names of their functions.
+        """
         if self.is_machine_code:
             code, needed = self._code, self._called
         else:
             code, needed = self._final_module.as_bitcode(), list(self.callees)
-        return self.name, self.overload, self.is_machine_code, code, self._symbols, [each.overload for each in needed]
+        wanted = [(each.overload, each._symbols) for each in needed]
+        return self.name, self.overload, self.is_machine_code, code, self._symbols, wanted
 
     @classmethod
     def rebuild(cls, codegen: Any, reduced: tuple[Any, ...]) -> KernelLibrary | None:
-        """The library from `reduce`; None where an overload that it calls by symbol has become
-        linked code meanwhile.
+        """The library from `reduce`; None where an overload that it needs is not the one that it
+        was made with: another process may have compiled it with other flags, which numba takes over
+        from the first caller, or linked it where it was machine code.
         """
-        name, overload, is_machine_code, code, symbols, needed = reduced
+        name, overload, is_machine_code, code, symbols, wanted = reduced
         self = cls(codegen, name, overload, is_machine_code=is_machine_code)
-        self.callees = dict.fromkeys(each.library() for each in needed)
+        self._symbols = symbols
+        for each, names in wanted:
+            library = each.library()
+            if not set(names) <= set(library._symbols) or (is_machine_code and not library.is_machine_code):
+                return None
+            self.callees[library] = None
         if not is_machine_code:
             self._final_module = llvm.parse_bitcode(code)
             self._finalized = True
             return self
-        if not all(each.is_machine_code for each in self.callees):
-            return None
         finish()  # what it calls may have been compiled anew
-        self._code, self._symbols, self._called = code, symbols, list(self.callees)
+        self._code, self._called = code, list(self.callees)
         self._load()
         return self
 
@@ -287,7 +298,10 @@ class _KernelCompiler(Compiler):
         codegen = state.targetctx.codegen()
         state.library = KernelLibrary(codegen, function.func_qualname, overload, is_machine_code=self.is_entry)
         with _few_collections():
-            return _on_a_large_stack(super()._compile_bytecode)
+            result = _on_a_large_stack(super()._compile_bytecode)
+        global _compiled
+        _compiled += overload is not None
+        return result
 
 
 class _EntryCompiler(_KernelCompiler):
@@ -345,6 +359,11 @@ def when_loaded(result: Any, action: Callable[[], None]) -> None:
         _when_loaded.append(action)
     else:
         action()
+
+
+def compiled_kernels() -> int:
+    """Number of overloads of entries and kernels that this process has compiled, not loaded."""
+    return _compiled
 
 
 def stop() -> None:

@@ -44,6 +44,7 @@ class Rig:
             sooner.
         forecast: module whose `facts_before_run` and `sentence_before_run` report what is known
             before the run; empty: nothing.
+        kernels: about how many kernels its richest scene compiles at its first start; 0: unknown.
     """
 
     name: str
@@ -62,6 +63,7 @@ class Rig:
     hard_cases: tuple[str, ...] = ()
     scenes: Mapping[str, int] = field(default_factory=dict)
     forecast: str = ""
+    kernels: int = 0
 
 
 def load(named: str) -> Any:

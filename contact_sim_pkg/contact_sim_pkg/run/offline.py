@@ -18,6 +18,7 @@ from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.run.bag_content import attachments, recorded_names
 from contact_sim_pkg.run.block_simulation import BlockSimulation
+from contact_sim_pkg.run.compilation import reported_compilation
 from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.rigs import make_simulation
@@ -36,6 +37,7 @@ class RunProgress(NamedTuple):
     real_time_factor: float
     load: float  # [N] largest of the last block
     peak_pressure: float  # [Pa] largest of the last block
+    message: str = ""
 
 
 class RunOutcome(NamedTuple):
@@ -58,6 +60,7 @@ def run_offline(
     stop: Callable[[], bool] | None = None,
     sources: dict[str, Source] | None = None,
     computing: Computing[RunOutcome] | None = None,
+    on_set_up: Callable[[str], None] = lambda _sentence: None,
 ) -> RunOutcome:
     """Run ``scene`` and record it in ``directory``, which must not exist (None: no recording).
 
@@ -65,12 +68,14 @@ def run_offline(
     is compiled, where nothing has been created yet, and before each block. A fault of the
     physics or of the excitation ends the run, as does a write that fails: the bag is closed and the
     outcome names it. Raises what a bad scene, file or directory raises, before anything is created.
-    ``computing`` lets another thread end it within a block.
+    ``computing`` lets another thread end it within a block. ``on_set_up`` gets a sentence each
+    second in which kernels are compiled, from a thread of its own.
     """
     began, computing = time.perf_counter(), computing or Computing()
     sources = make_sources(scene) if sources is None else sources
     simulation = make_simulation(scene)
-    simulation.prepare()
+    with reported_compilation(scene, on_set_up):
+        simulation.prepare()
     descriptions = {topic: source.describe() for topic, source in sources.items()}
     if stop is not None and stop():
         return RunOutcome(0, time.perf_counter() - began, 0.0, None, True, "", descriptions)

@@ -35,6 +35,10 @@ class DisplayedProgress(Protocol):
         computed.
         """
 
+    @property
+    def message(self) -> str:
+        """Before the first block: what is being done."""
+
 
 class RunDisplay:
     """A bar on a terminal, a line every five seconds elsewhere; lines of the nodes go above the
@@ -59,6 +63,8 @@ class RunDisplay:
     def show(self, progress: DisplayedProgress) -> None:
         """Show the state of the run."""
         if progress.simulated <= 0.0:
+            if progress.message:
+                self.update(0.0, progress.message)
             return
         text = (
             f"{progress.simulated:.2f} of {self._duration:g} s, {progress.real_time_factor:.2f}x real time, "
@@ -71,7 +77,7 @@ class RunDisplay:
     def update(self, completed: float, text: str) -> None:
         """Show how much of the duration is done, [s], and a text."""
         now = time.monotonic()
-        if completed != self._completed:
+        if completed != self._completed or text != self._text:
             self._completed, self._moved = completed, now
         self._text = text
         if now - self._moved > PLAIN_SECONDS:

@@ -19,6 +19,7 @@ class Report(NamedTuple):
     real_time_factor: float
     load: float  # [N]
     peak_pressure: float  # [Pa]
+    message: str  # before the first block: what the simulator is doing
 
 
 class SupervisedRun(NamedTuple):
@@ -44,4 +45,5 @@ def report_of(progress: BenchProgress, block_length: float) -> Report:
         real_time_factor=progress.real_time_factor,
         load=progress.load,
         peak_pressure=progress.peak_pressure,
+        message=progress.message,
     )
