@@ -438,3 +438,33 @@ def test_machine_code_that_was_given_up_is_made_when_it_is_needed() -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(linking._assembler, "submit", submitted_and_stopped)
         assert doubled(4.0) == 8.0
+
+
+LENDER = """
+from contact_sim_pkg.laws.helper import factor
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
+
+@borrowing_kernel
+def lend(values):
+    return factor(values[0])
+
+@entry
+def lent(values):
+    return lend(values)
+"""
+
+
+def test_code_that_another_process_compiled_with_other_flags_is_compiled_again(start: Start, tmp_path: Path) -> None:
+    """numba takes the flags of a kernel from its first caller; symbols have them in their names."""
+    linking_file = start.package / "compiled" / "linking.py"
+    linking_file.write_text(linking_file.read_text().replace("LARGEST_LINKED = 60_000", "LARGEST_LINKED = 0"))
+    (start.laws / "lender.py").write_text(LENDER)
+    assert start()["value"] == 6.0
+    folder = kernel_cache.fingerprint(start.package)
+    first, second = start.cache / folder, tmp_path / "other" / folder
+    lend = "import numpy\nfrom contact_sim_pkg.laws.lender import lent\nassert lent(numpy.ones(3)) == 2.0\n"
+    assert start(lend, CONTACT_BENCH_CACHE=str(tmp_path / "other"))["value"] == 6.0
+    for path in second.glob("helper.factor*"):
+        shutil.copy(path, first / path.name)
+    assert start()["value"] == 6.0
+    assert start.warnings() == []

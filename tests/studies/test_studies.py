@@ -9,6 +9,7 @@ from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.studies import cases
 from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 from contact_sim_pkg.studies.effects import ablation
+from contact_sim_pkg.studies.goals import starts
 
 
 @pytest.fixture(scope="module")
@@ -87,3 +88,11 @@ def test_the_rule_for_the_pressure_field_looks_at_the_waves_of_the_road(scene, v
 def test_the_rule_for_friction_looks_at_the_fore_aft_demand(forward, needed):
     observed = Observed({"seat": numpy.array([450.0, 500.0])}, {"seat": False}, forward)
     assert effects()["friction"]["seat"].called_for(load_resolved("seat_ride"), observed)[0] is needed
+
+
+def test_the_first_start_of_a_scene_is_measured_cold_and_warm():
+    (row,) = starts.study(names=["seat_slap"])
+    assert row["kernels"] > 10
+    assert row["cold CPU [s]"] > row["warm CPU [s]"] > 0.0
+    (section,) = starts.sections([row, {**row, "scene": "dearer", "cold CPU [s]": 1e3, "reached": False}])
+    assert [line["scene"] for line in section.rows] == ["dearer", "seat_slap"]

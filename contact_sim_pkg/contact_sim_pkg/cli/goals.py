@@ -8,15 +8,19 @@ from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show
 
 
 @click.command("goals")
+@click.option("--start", is_flag=True, help="The first block of every scene instead, cold and warm: some minutes.")
 @json_option
-def command(as_json: bool) -> None:
+def command(start: bool, as_json: bool) -> None:
     """Start-up, speed and error against their goals, measured in one run; a missed goal is shown
     only.
     """
-    from contact_sim_pkg.studies.goals import goals as benchmark
+    from contact_sim_pkg.studies.goals import goals, starts
 
-    rows = benchmark.study(lambda line: click.echo(line, err=True))
+    def notify(line: str) -> None:
+        click.echo(line, err=True)
+
+    rows = starts.study(notify) if start else goals.study(notify)
     if as_json:
         print_json_rows(rows)
     else:
-        show_sections(benchmark.sections(rows))
+        show_sections(starts.sections(rows) if start else goals.sections(rows))

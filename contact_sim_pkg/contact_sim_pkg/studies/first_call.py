@@ -1,5 +1,5 @@
 """How long a scene takes to its first answer in a fresh process: `python -m
-contact_sim_pkg.studies.first_call SCENE`.
+contact_sim_pkg.studies.first_call SCENE [--no-field]`.
 """
 
 from __future__ import annotations
@@ -9,11 +9,12 @@ import sys
 import time
 
 
-def main(scene_name: str) -> None:
-    """Write one JSON object: seconds from the start of the imports to a block done, and of the
-    first field solve (or null).
+def main(scene_name: str, *, field: bool = True) -> None:
+    """Write one JSON object: seconds from the start of the imports to a block done, seconds of the
+    first field solve (null without ``field`` and where there is none), kernels compiled.
     """
     began = time.perf_counter()
+    from contact_sim_pkg.compiled.jit import compiled_kernels
     from contact_sim_pkg.records.registry import rigs
     from contact_sim_pkg.run.rigs import make_simulation
     from contact_sim_pkg.scene.resolve import load_resolved
@@ -22,10 +23,11 @@ def main(scene_name: str) -> None:
     scene = load_resolved(scene_name)
     studies = objects(rigs()[scene.data["rig"]].accuracy, "ACCURACY")
     first_calls = [each.first_call for each in studies if each.first_call is not None]
-    field = next((call(scene) for call in first_calls), None)
+    solved = next((call(scene) for call in first_calls), None) if field else None
     make_simulation(scene).prepare()
-    sys.stdout.write(json.dumps({"simulation": time.perf_counter() - began, "field": field}))
+    facts = {"simulation": time.perf_counter() - began, "field": solved, "kernels": compiled_kernels()}
+    sys.stdout.write(json.dumps(facts))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1], field="--no-field" not in sys.argv)

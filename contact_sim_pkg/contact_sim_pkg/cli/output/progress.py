@@ -64,7 +64,7 @@ class RunDisplay:
         """Show the state of the run."""
         if progress.simulated <= 0.0:
             if progress.message:
-                self.update(0.0, progress.message)
+                self.show_set_up(progress.message)
             return
         text = (
             f"{progress.simulated:.2f} of {self._duration:g} s, {progress.real_time_factor:.2f}x real time, "
@@ -74,10 +74,16 @@ class RunDisplay:
             text += f", peak {progress.peak_pressure / 1e3:.1f} kPa"
         self.update(progress.simulated, text)
 
+    def show_set_up(self, text: str) -> None:
+        """Show what is done before the first block."""
+        if text != self._text:
+            self._moved = time.monotonic()
+        self.update(0.0, text)
+
     def update(self, completed: float, text: str) -> None:
         """Show how much of the duration is done, [s], and a text."""
         now = time.monotonic()
-        if completed != self._completed or text != self._text:
+        if completed != self._completed:
             self._completed, self._moved = completed, now
         self._text = text
         if now - self._moved > PLAIN_SECONDS:
