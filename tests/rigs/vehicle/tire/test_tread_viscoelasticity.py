@@ -30,17 +30,17 @@ class Pressing:
     """A field and its memory, solved step by step."""
 
     def __init__(self, tread: TreadViscoelasticity, step: float = STEP, settings: FieldSettings = SETTINGS) -> None:
-        self.memory = TreadState(settings, RELAXED, tread, step)
+        self.tread_state = TreadState(settings, RELAXED, tread, step)
         self.field = PressureField(settings._replace(modulus=RELAXED * stiffening(tread, step)), "tire")
 
     def at_approach(self, gap: Field, approach: float) -> float:
-        load = self.field.solve(gap + self.memory.gap, approach)
-        self.memory.keep(self.field.pressure)
+        load = self.field.solve(gap + self.tread_state.gap, approach)
+        self.tread_state.store(self.field.pressure)
         return load
 
     def at_load(self, gap: Field, load: float) -> float:
-        approach = self.field.solve_load(gap + self.memory.gap, load)
-        self.memory.keep(self.field.pressure)
+        approach = self.field.solve_load(gap + self.tread_state.gap, load)
+        self.tread_state.store(self.field.pressure)
         return approach
 
 
@@ -96,7 +96,7 @@ def test_a_tread_that_stood_for_long_carries_what_an_elastic_one_does() -> None:
     elastic = PressureField(SETTINGS, "tire")
     load = elastic.solve(gap, 4e-3)
     pressing = Pressing(TREAD)
-    pressing.memory.settle(0, elastic.pressure)
+    pressing.tread_state.settle(0, elastic.pressure)
     for _ in range(3):
         assert pressing.at_approach(gap, 4e-3) == pytest.approx(load, rel=1e-7)
 
@@ -109,7 +109,7 @@ def test_rolling_follows_the_hereditary_integral_summed_over_the_whole_past() ->
     changes: list[Field] = []
     for step in range(steps):
         gap = sphere(settings)
-        pressing.memory.move_to(step)  # one row a step: 3 m/s
+        pressing.tread_state.move_to(step)  # one row a step: 3 m/s
         load = pressing.at_approach(gap, 3e-3)
         rows = slice(step, step + 20)
         remembered, raised = _hereditary(changes, wide, rows, step)
@@ -150,7 +150,7 @@ def test_a_slow_and_a_fast_wheel_roll_with_less_drag_than_one_between() -> None:
     for name, step in (("slow", 0.5), ("between", 2e-3), ("fast", 1e-5)):  # a row a step
         pressing = Pressing(tread, step, settings)
         for row in range(60):
-            pressing.memory.move_to(row)
+            pressing.tread_state.move_to(row)
             pressing.at_approach(sphere(settings), 3e-3)
         p = pressing.field.pressure
         ahead[name] = (p * x[:, None]).sum() / p.sum()
@@ -161,6 +161,6 @@ def test_a_reset_tread_is_unstrained() -> None:
     pressing, gap = Pressing(TREAD), sphere(SETTINGS)
     first = pressing.at_approach(gap, 4e-3)
     pressing.at_approach(gap, 4e-3)
-    pressing.memory.reset()
+    pressing.tread_state.reset()
     pressing.field.reset()
     assert pressing.at_approach(gap, 4e-3) == first

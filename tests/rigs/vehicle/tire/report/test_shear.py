@@ -81,7 +81,7 @@ def test_the_page_shows_forces_over_time_and_slip_and_the_state_of_the_cells(bra
     assert {"Friction of the tire over time", "Friction of the tire over slip"} <= set(Page(text).values("aria-label"))
     assert "Shear of the tire with stick and slip" in Page(text).values("aria-label")
     assert re.search(r"Largest resultant 0\.600 of the load", text)
-    assert "took 200 J" in text
+    assert "dissipated 200 J" in text
 
 
 def test_a_bag_without_shear_says_nothing_of_friction(rolling, tmp_path):
