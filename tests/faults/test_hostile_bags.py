@@ -67,7 +67,7 @@ def ride():
 def no_simulation(monkeypatch):
     """What is not refused is not simulated: the bags are read, and no kernel is needed."""
 
-    def described(scene, directory, on_progress, stop, sources, computing):
+    def described(scene, directory, on_progress, stop, sources, computing, on_set_up):
         notes = {topic: source.describe() for topic, source in sources.items()}
         return offline.RunOutcome(0, 0.0, 0.0, None, False, "", notes)
 

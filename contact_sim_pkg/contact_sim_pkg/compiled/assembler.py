@@ -12,7 +12,6 @@ this process does the work itself.
 
 from __future__ import annotations
 
-import pickle
 import subprocess
 import sys
 from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
@@ -35,6 +34,9 @@ sys.path[:] = sys.argv[1:]
 from contact_sim_pkg.compiled import assembler
 assembler.serve(sys.stdin.buffer, sys.stdout.buffer)
 """
+
+
+_LENGTH_BYTES = 8  # in front of what goes through the pipes
 
 
 class Assembly(NamedTuple):
@@ -86,13 +88,13 @@ class Assembler:
             assert self._process.stdout is not None
             try:
                 _send(self._process.stdin, bitcode)
-                answer: Assembly = pickle.load(self._process.stdout)  # noqa: S301 - our own process
-            except (OSError, EOFError, ValueError, pickle.UnpicklingError):
+                code, names = _receive(self._process.stdout), _receive(self._process.stdout)
+            except (OSError, EOFError, ValueError):
                 if self._queue is None:
                     raise CancelledError from None
                 self._end()
             else:
-                return answer
+                return Assembly(code, tuple(names.decode().split()))
         return assemble(bitcode)
 
     def _end(self) -> None:
@@ -125,12 +127,26 @@ def serve(requests: IO[bytes], answers: IO[bytes]) -> None:
     """Answer until the input ends."""
     while True:
         try:
-            bitcode = pickle.load(requests)  # noqa: S301 - from the process that started this one
+            bitcode = _receive(requests)
         except EOFError:
             return
-        _send(answers, assemble(bitcode))
+        code, names = assemble(bitcode)
+        _send(answers, code)
+        _send(answers, " ".join(names).encode())
 
 
-def _send(stream: IO[bytes], content: object) -> None:
-    pickle.dump(content, stream, protocol=pickle.HIGHEST_PROTOCOL)
+def _send(stream: IO[bytes], content: bytes) -> None:
+    stream.write(len(content).to_bytes(_LENGTH_BYTES, "little") + content)
     stream.flush()
+
+
+def _receive(stream: IO[bytes]) -> bytes:
+    size = int.from_bytes(_exactly(stream, _LENGTH_BYTES), "little")
+    return _exactly(stream, size)
+
+
+def _exactly(stream: IO[bytes], size: int) -> bytes:
+    content = stream.read(size)
+    if len(content) < size:
+        raise EOFError
+    return content
