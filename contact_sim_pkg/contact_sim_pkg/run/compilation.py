@@ -31,7 +31,7 @@ def reported_compilation(scene: ResolvedScene, report: Callable[[str], None]) ->
             number = compiled_kernels() - before
             if number > reported:
                 reported = number
-                of = f" of at most about {expected}" if expected >= number else ""
+                of = f" of about {expected}" if expected >= number else ""
                 report(f"compiling kernels, once: {number}{of}, {time.monotonic() - began:.0f} s")
 
     thread = threading.Thread(target=repeat, name="reported compilation", daemon=True)

@@ -28,6 +28,7 @@ BLOCK = Contact(
 RIGS = (
     Rig(
         name="block",
+        kernels=290,
         help="rigid body on the ground",
         contacts=(BLOCK,),
         scenes={

@@ -9,6 +9,7 @@ __all__ = ["RIGS"]
 RIGS = (
     Rig(
         name="occupant",
+        kernels=140,
         help="on a seat and against its back",
         contacts=(SEAT, BACKREST),
         needs=("vibration",),

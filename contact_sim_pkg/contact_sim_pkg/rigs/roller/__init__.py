@@ -33,6 +33,7 @@ ROLLER = Contact(
 RIGS = (
     Rig(
         name="roller",
+        kernels=40,
         help="roller on a shaft",
         contacts=(ROLLER,),
         takes=("road",),

@@ -34,6 +34,7 @@ _ROAD_STRIP = f"{__name__}.lattice:road_strip"
 RIGS = (
     Rig(
         name="tire",
+        kernels=180,
         help="tire on a road",
         contacts=(TIRE,),
         needs=("travel", "road"),
@@ -78,6 +79,7 @@ RIGS = (
     ),
     Rig(
         name="car",
+        kernels=160,
         help="both as a car",
         contacts=(TIRE, SEAT),
         needs=("travel", "road"),

@@ -1,0 +1,37 @@
+"""Reports while kernels are compiled."""
+
+import itertools
+import time
+
+import pytest
+from tests.run.scenes import resolved
+
+from contact_sim_pkg.run import compilation
+
+
+@pytest.fixture(autouse=True)
+def _often(monkeypatch):
+    monkeypatch.setattr(compilation, "PERIOD", 0.01)
+
+
+def test_the_number_of_compiled_kernels_is_reported_as_it_grows(monkeypatch):
+    counted = itertools.chain([5, 5, 7], itertools.repeat(9))
+    monkeypatch.setattr(compilation, "compiled_kernels", lambda: next(counted))
+    lines: list[str] = []
+    with compilation.reported_compilation(resolved("block_fall"), lines.append):
+        limit = time.monotonic() + 10.0
+        while len(lines) < 2 and time.monotonic() < limit:
+            time.sleep(0.01)
+    assert [line.rpartition(", ")[0] for line in lines] == [
+        f"compiling kernels, once: {number} of about 290" for number in (2, 4)
+    ]
+
+
+def test_nothing_is_reported_where_all_kernels_come_from_the_disk(monkeypatch):
+    looks = itertools.count()
+    monkeypatch.setattr(compilation, "compiled_kernels", lambda: (next(looks), 3)[1])
+    lines: list[str] = []
+    with compilation.reported_compilation(resolved("seat_slap"), lines.append):
+        while next(looks) < 10:
+            time.sleep(0.01)
+    assert lines == []
