@@ -19,8 +19,8 @@ import numba
 from numba.extending import overload
 
 from contact_sim_pkg.compiled import linking
+from contact_sim_pkg.compiled.compiler import compiled_kernels, compiler_of
 from contact_sim_pkg.compiled.kernel_cache import attach_cache
-from contact_sim_pkg.compiled.linking import compiled_kernels
 
 __all__ = [
     "COMPILE_OPTIONS",
@@ -91,7 +91,7 @@ def kernel_overload(function: Callable[..., Any]) -> Callable[[Function], Functi
     """
     decorator: Callable[[Function], Function] = overload(
         function,
-        jit_options=dict(COMPILE_OPTIONS, pipeline_class=linking.compiler_of(is_entry=False)),  # type: ignore[arg-type]
+        jit_options=dict(COMPILE_OPTIONS, pipeline_class=compiler_of(is_entry=False)),  # type: ignore[arg-type]
     )
     return decorator
 
@@ -132,7 +132,7 @@ def never_called() -> list[Any]:
 
 def _compile(function: Function, form: str = "", **options: Any) -> Function:
     is_entry = not form
-    compiled = numba.jit(**COMPILE_OPTIONS, **options, pipeline_class=linking.compiler_of(is_entry=is_entry))(function)
+    compiled = numba.jit(**COMPILE_OPTIONS, **options, pipeline_class=compiler_of(is_entry=is_entry))(function)
     linking.register(function, compiled, is_entry=is_entry)
     attach_cache(compiled, form)
     return compiled  # type: ignore[no-any-return]

@@ -11,8 +11,7 @@ nothing at its size. The order of operations on numbers stays as written, so res
 Machine code is made by a second process (`assembler.py`) while this one types and lowers the next
 kernels; whatever Python is about to call waits for it.
 
-All that leans on numba's inside stands here, there and in `kernel_cache.py`; with a version of numba that
-it was not tested with (`TESTED`), kernels are compiled in numba's own way: slower, same numbers.
+All that leans on numba's inside stands here, there, in `compiler.py` and in `kernel_cache.py`.
 """
 
 # numba has no types.
@@ -21,40 +20,29 @@ it was not tested with (`TESTED`), kernels are compiled in numba's own way: slow
 from __future__ import annotations
 
 import atexit
-import gc
 import importlib
-import uuid
-import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
-from contextlib import contextmanager
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
-import numba
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler, CompileResult, compile_result
+from numba.core.compiler import CompileResult, compile_result
 from numba.core.compiler_lock import require_global_compiler_lock
 from numba.core.environment import lookup_environment
 
 from contact_sim_pkg.compiled.assembler import DYNAMIC, ENVIRONMENT, Assembler, Assembly, assemble
 
-__all__ = ["compiled_kernels", "compiler_of", "finish", "rebuild", "reduce", "register", "stop", "when_loaded"]
-
-TESTED = ("0.68.",)
-"""Versions of numba whose inside is known to fit."""
+__all__ = ["KernelLibrary", "Overload", "finish", "rebuild", "reduce", "register", "stop", "when_loaded"]
 
 LARGEST_LINKED = 60_000
 """[bytes of bitcode] A kernel that is larger, with all that would be linked into it, becomes
 machine code of its own."""
 
-
-Result = TypeVar("Result")
 Function = tuple[str, str, bool]  # module, qualified name, whether Python calls it
 
 _dispatchers: dict[Function, Any] = {}
 _assembler = Assembler()
-_compiled = 0  # overloads, by this process
 _awaited: list[KernelLibrary] = []  # in the order of their submission, callees first
 _when_loaded: list[Callable[[], None]] = []  # what waits for machine code: files of the cache
 
@@ -281,64 +269,6 @@ class _WithoutEngine:
         return getattr(self._codegen, name)
 
 
-class _KernelCompiler(Compiler):
-    """numba's compiler with a `KernelLibrary`, and a name of the function that is the same in each process."""
-
-    is_entry = False
-
-    def _compile_bytecode(self) -> Any:
-        state, function = self.state, self.state.func_id
-        overload = None
-        if "<locals>" not in function.func_qualname:  # else nobody can import it
-            overload = Overload((function.modname, function.func_qualname, self.is_entry), tuple(state.args))
-        # Names of symbols: of an overload the same in each process; of a function that only numba can tell from
-        # others of its name, found in no other process, for its code is kept on disk inside that of its callers
-        function.unique_id = uuid.uuid4().int if overload is None else zlib.crc32(repr(overload).encode())
-        function.unique_name = f"{function.func_qualname}${function.unique_id}"
-        codegen = state.targetctx.codegen()
-        state.library = KernelLibrary(codegen, function.func_qualname, overload, is_machine_code=self.is_entry)
-        with _few_collections():
-            result = _on_a_large_stack(super()._compile_bytecode)
-        global _compiled
-        _compiled += overload is not None
-        return result
-
-
-class _EntryCompiler(_KernelCompiler):
-    is_entry = True
-
-
-@contextmanager
-def _few_collections() -> Iterator[None]:
-    """A compilation makes many objects and little garbage: looking for it took a fifth of the time."""
-    before = gc.get_threshold()
-    gc.set_threshold(100_000, 50, 1000)
-    try:
-        yield
-    finally:
-        gc.set_threshold(*before)
-
-
-def _on_a_large_stack(function: Callable[[], Result]) -> Result:
-    """``function()``, and all that it calls in one piece of memory.
-
-    Python keeps the frames of calls in pieces of 16 KiB. The compiler calls itself some hundred
-    levels deep; wherever a piece is full, every further call takes a new one from the system and
-    gives it back, which was a sixth of the time. A frame that claims 560 kB makes a piece of 1 MiB.
-    """
-    return function()
-
-
-_on_a_large_stack.__code__ = _on_a_large_stack.__code__.replace(co_stacksize=70_000)
-
-
-def compiler_of(*, is_entry: bool) -> type[Compiler] | None:
-    """The compiler of entries or of kernels; None, numba's own, where its version is not `TESTED`."""
-    if not numba.__version__.startswith(TESTED):
-        return None
-    return _EntryCompiler if is_entry else _KernelCompiler
-
-
 def register(function: Callable[..., Any], dispatcher: Any, *, is_entry: bool) -> None:
     """Let other processes' code find the overloads of a decorated function."""
     _dispatchers[function.__module__, function.__qualname__, is_entry] = dispatcher
@@ -359,11 +289,6 @@ def when_loaded(result: Any, action: Callable[[], None]) -> None:
         _when_loaded.append(action)
     else:
         action()
-
-
-def compiled_kernels() -> int:
-    """Number of overloads of entries and kernels that this process has compiled, not loaded."""
-    return _compiled
 
 
 def stop() -> None:

@@ -19,10 +19,8 @@ from contact_sim_pkg.excitation.recorded_units import refuse_other_unit, signed_
 
 LARGEST_TIME = 1e11  # [s] a time column may count from 1970
 RATE_AGREEMENT = 0.01  # stated and found rate may differ by this part
-# [g] of accelerometers, data-sheet values
-USUAL_FULL_SCALES = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 16.0)
-# Equal extreme samples in succession that no unclipped vibration gives but by chance
-SHORTEST_PLATEAU = 3
+USUAL_FULL_SCALES = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 16.0)  # [g] of accelerometers, data-sheet values
+SHORTEST_PLATEAU = 3  # equal extreme samples that no unclipped vibration gives but by chance
 HALF_WIDTH = 32  # samples on each side of the interpolated instant
 BEYOND = ("refuse", "zero", "repeat")
 
@@ -341,8 +339,7 @@ def _found_rate(table: RecordedTable, time: Array) -> float:
 
 
 def _find_clipping(table: RecordedTable, values: Array, full_scale: float | None) -> Clipping:
-    """Samples at the stated full scale; where none is stated, at an extreme value that looks like
-    one.
+    """Samples at the stated full scale; where none is stated, at an extreme that looks like one.
 
     A constant signal has no extremes: only a stated full scale shows that it is clipped.
     """
