@@ -22,7 +22,7 @@ UNIT = re.compile(
     rf"\[(?:1|{_SYMBOL})(?:\^?-?[\d.]+)?(?:[ /*·(]+{_SYMBOL}?\)?(?:\^?-?[\d.]+)?\)?)*\]|\bdimensionless\b"
 )
 SHAPE = re.compile(
-    r"\[(?:\w+(?: [-+*] \d+)?)(?:, (?:\w+|\.\.\.)(?: [-+*] \d+)?)+\]|\[[a-z_]{3,}\]|\bone (?:for )?(?:a|each|per)\b"
+    r"\[(?:\w+(?: [-+*] \d+)?)(?:, (?:\w+|\.\.\.)(?: [-+*] \d+)?)+\]|\[(?!rad\]|deg\])[a-z_]{3,}\]|\bone (?:for )?(?:a|each|per)\b"
 )
 NUMBER = re.compile(r"\bfloat\b")
 ARRAY = re.compile(r"Vector|Matrix|NDArray|Array")
@@ -59,12 +59,12 @@ def measure() -> list[Measure]:
         ),
         Measure(f"calls with {WIDE} or more positional arguments", "206", f"{len(wide_calls(own))}", "< 40"),
         Measure("class names defined twice", "60", f"{len(doubled_classes(own))}", "< 10"),
-        Measure(f"functions of {LONG} lines or more with a comment", "17 %", commented(own), "> 50 %"),
+        Measure(f"functions of {LONG} lines or more with a comment", "18 %", commented(own), "> 50 %"),
         Measure(
-            "public functions of numbers whose docstring names units", "25 %", _documented(own, NUMBER, UNIT), "> 80 %"
+            "public functions of numbers whose docstring names units", "53 %", _documented(own, NUMBER, UNIT), "> 80 %"
         ),
         Measure(
-            "public functions of arrays whose docstring names shapes", "4 %", _documented(own, ARRAY, SHAPE), "> 80 %"
+            "public functions of arrays whose docstring names shapes", "31 %", _documented(own, ARRAY, SHAPE), "> 80 %"
         ),
         Measure("lines of the longest node", "188", f"{max(len(m.text.splitlines()) for m in nodes)}", "<= 150"),
     ]

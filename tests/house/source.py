@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import io
+import re
 import tokenize
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -41,9 +42,10 @@ class Module:
         return found
 
     def comment_lines(self) -> set[int]:
-        """Numbers of the lines that hold a comment."""
+        """Numbers of the lines that hold a comment for readers, not one for tools."""
         tokens = tokenize.generate_tokens(io.StringIO(self.text).readline)
-        return {token.start[0] for token in tokens if token.type == tokenize.COMMENT}
+        comments = (token for token in tokens if token.type == tokenize.COMMENT)
+        return {each.start[0] for each in comments if not re.match(r"# (?:fmt|noqa|type|mypy|pragma)\b", each.string)}
 
     def code_lines(self) -> int:
         """Lines that are not blank, comment or docstring."""

@@ -38,7 +38,9 @@ def compiled_kernels() -> int:
 
 
 class _KernelCompiler(Compiler):
-    """numba's compiler with a `KernelLibrary`, and a name of the function that is the same in each process."""
+    """numba's compiler with a `KernelLibrary`, and a name of the function that is the same in each
+    process.
+    """
 
     is_entry = False
 

@@ -6,7 +6,8 @@ where only other compiled functions call it: a kernel at the bottom of six level
 times and more. Here a kernel stays intermediate code until a function needs machine code: an entry
 that Python calls, or a kernel that has grown to `LARGEST_LINKED` with all that is linked into it.
 Such a large kernel is compiled once and called by its symbol; it is not looked into, which costs
-nothing at its size. The order of operations on numbers stays as written, so results keep their bits.
+nothing at its size. The order of operations on numbers stays as written, so results keep their
+bits.
 
 Machine code is made by a second process (`assembler.py`) while this one types and lowers the next
 kernels; whatever Python is about to call waits for it.
@@ -84,7 +85,9 @@ class KernelLibrary(JITCodeLibrary):
 
     @property
     def codegen(self) -> Any:
-        """numba's generator of code; one that sets no variables of an engine which does not know them."""
+        """numba's generator of code; one that sets no variables of an engine which does not know
+        them.
+        """
         return self._codegen if self.is_loaded else _WithoutEngine(self._codegen)
 
     @property
@@ -103,7 +106,9 @@ class KernelLibrary(JITCodeLibrary):
             self.callees.update(library.callees)
 
     def finalize(self) -> None:
-        """End of the function's own code: keep it as it is, or make machine code where it is wanted."""
+        """End of the function's own code: keep it as it is, or make machine code where it is
+        wanted.
+        """
         require_global_compiler_lock()
         self._raise_if_finalized()
         self._symbols = [each.name for each in self._final_module.functions if not each.is_declaration]
@@ -192,7 +197,9 @@ class KernelLibrary(JITCodeLibrary):
         return self._size
 
     def own_module(self) -> Any:
-        """Its own intermediate code, ready to be linked into others; without content where it is machine code."""
+        """Its own intermediate code, ready to be linked into others; without content where it is
+        machine code.
+        """
         self._ensure_finalized()
         if self._shared_module is None:
             if self.is_machine_code:
@@ -283,7 +290,9 @@ def finish() -> None:
 
 
 def when_loaded(result: Any, action: Callable[[], None]) -> None:
-    """Do it at once, or after `finish` where the machine code of a compiled function is in the making."""
+    """Do it at once, or after `finish` where the machine code of a compiled function is in the
+    making.
+    """
     library = result.library
     if isinstance(library, KernelLibrary) and library.is_machine_code and not library.is_loaded:
         _when_loaded.append(action)

@@ -18,7 +18,6 @@ from contact_sim_pkg.nodes.protocol.simulated_run import SimulatedRun
 from contact_sim_pkg.nodes.protocol.states import DONE, RunState
 from contact_sim_pkg.nodes.simulator_publishers import SimulatorPublishers
 from contact_sim_pkg.records.messages import BenchRecorded
-from contact_sim_pkg.run.compilation import reported_compilation
 from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.rigs import make_simulation
 
@@ -62,8 +61,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         answers = subscription(self, "bench/recorded", partial(self._on_recorded, run)) if self._logged else None
         progress, supervised = self._out.progress.publisher, self.supervisor > 0
         self._peers = Peers(self, inputs, self._out.results, progress, answers, supervised=supervised)
-        with reported_compilation(scene, partial(self._out.progress.send, RunState.STARTING)):
-            self._computing.call(simulation.prepare)
+        run.prepare(self._computing)
 
     def tick(self, now: float) -> float:
         """Look for peers before ready; advance until the end; then leave once the bag is closed."""

@@ -31,10 +31,10 @@ def forecast(model: RollerModel, block: int = 0) -> RollerStability | None:
     time = block * model.timing.block_length
     curvatures = model.programme.curvatures_at(time)
     load = model.contact_load(float(model.programme.loads(numpy.array([time]))[0]), curvatures)
-    return _told(model, block, curvatures, load)
+    return _stability(model, block, curvatures, load)
 
 
-def _told(model: RollerModel, block: int, curvatures: Curvatures, load: float) -> RollerStability:
+def _stability(model: RollerModel, block: int, curvatures: Curvatures, load: float) -> RollerStability:
     case = (curvatures, model.bending, model.modulus)
     try:
         found = stability(model.roller, *case, load)
@@ -94,7 +94,7 @@ def _row(model: RollerModel, place: int) -> tuple[Curvatures, float]:
 
 
 def _at_row(model: RollerModel, place: int) -> RollerStability:
-    return _told(model, 0, *_row(model, place))
+    return _stability(model, 0, *_row(model, place))
 
 
 def stability_facts(found: RollerStability) -> dict[str, Any]:

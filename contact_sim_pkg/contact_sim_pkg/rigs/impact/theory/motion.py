@@ -70,7 +70,7 @@ class FreeImpact(NamedTuple):
 
     @property
     def normal_law(self) -> tuple[NormalElastic, GeneralDissipative]:
-        """The same contact for a rig of `core/rigs`."""
+        """The same contact as parameters of the rig in `laws/one_mass`."""
         return normal_law(self.elastic, self.viscous, self.end)
 
 

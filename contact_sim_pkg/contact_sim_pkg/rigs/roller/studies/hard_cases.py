@@ -52,7 +52,7 @@ def no_contact() -> Finding:
     return exactly(float(numpy.abs(values).max()), 0.0)
 
 
-def separation_is_told() -> Finding:
+def separation_is_reported() -> Finding:
     """A wave of 1 mm throws the roller off: share of the time without contact, all values
     finite.
     """
@@ -64,7 +64,7 @@ def separation_is_told() -> Finding:
     return close_to(free if finite else math.nan, 0.75, 0.25)
 
 
-def divergence_is_told() -> Finding:
+def divergence_is_reported() -> Finding:
     """F R above k_psi, no spin: status, and the last tilt finite."""
     still, state = ROLLER._replace(spin=0.0, rolling_friction=0.0), numpy.array([1e-6, 0.0, 0.0, 0.0])
     record = numpy.empty((2, 4))
@@ -233,8 +233,8 @@ def far_away() -> Finding:
 
 CASES = [
     HardCase(ROLLING, "no contact: approach at and below 0", no_contact),
-    HardCase(ROLLING, "the roller leaves a wave of 1 mm", separation_is_told),
-    HardCase(ROLLING, "F R above the tilt stiffness", divergence_is_told),
+    HardCase(ROLLING, "the roller leaves a wave of 1 mm", separation_is_reported),
+    HardCase(ROLLING, "F R above the tilt stiffness", divergence_is_reported),
     HardCase(ROLLING, "1e4 spin periods without friction", energy_is_kept),
     HardCase(ROLLING, "flutter without damping", flutter_grows_as_its_root),
     HardCase(ROLLING, "neither friction nor damping: growth and damping requested", neutral_without_damping),
