@@ -30,7 +30,6 @@ def running() -> Any:
 
 
 def bitcode(text: str = SQUARE) -> bytes:
-    assembler.assemble  # noqa: B018 - importing it has made LLVM ready
     code: bytes = llvm.parse_assembly(text).as_bitcode()
     return code
 

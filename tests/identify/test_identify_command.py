@@ -16,7 +16,7 @@ from contact_sim_pkg.records.messages import BodyMotion
 BOX = ["--box", "0.1", "0.1", "0.1"]
 
 
-def told(capsys, *arguments):
+def reported(capsys, *arguments):
     """What the command prints as JSON, its parameters by name."""
     assert main(["identify", *map(str, arguments), *BOX, "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
@@ -55,7 +55,7 @@ def write_bench_motion(path, record):
 def test_odometry_of_others_gives_inertia_impulses_and_what_cannot_be_known(tmp_path, capsys):
     record = motions.planar()
     foreign_bag.write_odometry(tmp_path / "bag", motions.states_of(record))
-    facts, rows = told(capsys, tmp_path / "bag", "--plot", tmp_path / "picture.png")
+    facts, rows = reported(capsys, tmp_path / "bag", "--plot", tmp_path / "picture.png")
     assert rows["m/J"]["value"] == pytest.approx(600.0, rel=1e-9)
     assert rows["m/J"]["identified"] is True
     assert "mass is not identifiable without an external force" in facts["not_identifiable"][0]
@@ -68,7 +68,7 @@ def test_odometry_of_others_gives_inertia_impulses_and_what_cannot_be_known(tmp_
 @pytest.mark.parametrize("frame", ["map", "base_link"])
 def test_pose_and_twist_of_others_are_read_in_either_frame(tmp_path, capsys, frame):
     foreign_bag.write_pose_and_twist(tmp_path / "bag", motions.states_of(motions.planar()), frame)
-    assert told(capsys, tmp_path / "bag")[1]["m/J"]["value"] == pytest.approx(600.0, rel=1e-9)
+    assert reported(capsys, tmp_path / "bag")[1]["m/J"]["value"] == pytest.approx(600.0, rel=1e-9)
 
 
 def test_a_force_given_as_option_or_as_topic_tells_the_mass(tmp_path, capsys):
@@ -77,7 +77,7 @@ def test_a_force_given_as_option_or_as_topic_tells_the_mass(tmp_path, capsys):
     pushes = [(time, force, (0.0, 0.0, 0.0)) for time in states.time]
     foreign_bag.write_pose_and_twist(tmp_path / "bag", states, pushes=pushes)
     for known in (("--force", *force), ("--force-topic", "/push")):
-        rows = told(capsys, tmp_path / "bag", *known)[1]
+        rows = reported(capsys, tmp_path / "bag", *known)[1]
         assert rows["m"]["value"] == pytest.approx(motions.MASS, rel=1e-9)
         assert rows["J"]["value"] == pytest.approx(motions.MASS * motions.SIDE**2 / 6.0, rel=1e-9)
 
@@ -95,14 +95,14 @@ def test_a_weight_given_as_force_stands_for_gravity_and_fixes_the_mass(tmp_path,
     turned = [field @ numpy.transpose(turn) for field in (states.position, states.velocity, states.angular_velocity)]
     rotation = numpy.array(turn, dtype=float) @ states.rotation
     foreign_bag.write_odometry(tmp_path / "bag", (states.time, turned[0], rotation, *turned[1:]))
-    rows = told(capsys, tmp_path / "bag", "--gravity", "0", "--normal", *normal, "--force", *weight)[1]
+    rows = reported(capsys, tmp_path / "bag", "--gravity", "0", "--normal", *normal, "--force", *weight)[1]
     assert rows["m"]["value"] == pytest.approx(1.0, rel=1e-9)  # put in; the square has 1.3 kg
     assert rows["J"]["value"] == pytest.approx(1.0 / 600.0, rel=1e-9)
 
 
 def test_a_bag_of_the_bench_is_read_without_naming_a_topic(tmp_path, capsys):
     write_bench_motion(tmp_path / "bag", motions.planar())
-    assert told(capsys, tmp_path / "bag")[1]["m/J"]["value"] == pytest.approx(600.0, rel=1e-9)
+    assert reported(capsys, tmp_path / "bag")[1]["m/J"]["value"] == pytest.approx(600.0, rel=1e-9)
     assert read_body_states(tmp_path / "bag").frame == "bench"
 
 
@@ -124,7 +124,7 @@ def test_the_table_names_modes_and_what_is_not_known(tmp_path, capsys):
 
 def test_table_and_json_tell_how_the_bag_was_read(tmp_path, capsys):
     foreign_bag.write_pose_and_twist(tmp_path / "bag", motions.states_of(motions.planar()), every=2)
-    lines = told(capsys, tmp_path / "bag")[0]["reading"]
+    lines = reported(capsys, tmp_path / "bag")[0]["reading"]
     assert "the twist of /twist is read in world axes" in lines[0]
     assert "have no twist of the same stamp" in lines[1]
     assert main(["identify", str(tmp_path / "bag"), *BOX]) == 0

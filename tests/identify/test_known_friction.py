@@ -65,7 +65,7 @@ def sliding_block(force, start=(1.0, 0.4), slope=0.0, samples=300):
     )
 
 
-def told(found):
+def reported(found):
     return {parameter.name: parameter for parameter in found.parameters}
 
 
@@ -73,15 +73,15 @@ def test_a_ball_that_slides_under_a_known_force_tells_mass_and_inertia_if_fricti
     known = Setup(SPHERE, wrench=wrench.constant((2.0, 0.0, 1.0)), friction=FRICTION)
     found = identify(sliding_ball((2.0, 0.0, 1.0)), known)
     assert (found.rank, found.unobservable) == (2, [])
-    assert told(found)["1/m"].value == pytest.approx(1.0 / MASS, rel=1e-9)
-    assert told(found)["J/m"].value == pytest.approx(0.4 * RADIUS**2, rel=1e-9)
+    assert reported(found)["1/m"].value == pytest.approx(1.0 / MASS, rel=1e-9)
+    assert reported(found)["J/m"].value == pytest.approx(0.4 * RADIUS**2, rel=1e-9)
 
 
 def test_with_friction_unknown_the_same_slide_leaves_one_equation_and_says_what_is_lacking():
     found = identify(sliding_ball((2.0, 0.0, 1.0)), Setup(SPHERE, wrench=wrench.constant((2.0, 0.0, 1.0))))
     assert found.rank == 1
     assert "only where the friction coefficient is known too" in found.unobservable[0]
-    assert not told(found)["1/m"].identified
+    assert not reported(found)["1/m"].identified
 
 
 @pytest.mark.parametrize("friction", [None, FRICTION])
@@ -90,7 +90,7 @@ def test_a_force_along_the_edge_of_the_friction_cone_looks_like_contact(friction
     force = (-FRICTION * 2.0, 0.0, 2.0)
     found = identify(sliding_ball(force), Setup(SPHERE, wrench=wrench.constant(force), friction=friction))
     assert (found.rank, found.flights) == (1, 0)  # no flight of a light body either
-    assert not told(found)["1/m"].identified
+    assert not reported(found)["1/m"].identified
     if friction is not None:
         assert "the known force lies along the edge of the friction cone" in found.unobservable[0]
 
@@ -115,7 +115,7 @@ def test_a_block_that_slides_on_its_face_tells_the_mass_and_nothing_of_the_inert
     normal = (numpy.sin(slope), 0.0, numpy.cos(slope))
     known = Setup(BLOCK, geometry.plane(normal), wrench.constant(force), friction=FRICTION)
     found = identify(states, known)
-    mass = told(found)["1/m"]
+    mass = reported(found)["1/m"]
     assert mass.value == pytest.approx(1.0 / MASS, rel=error)
     assert abs(mass.value - 1.0 / MASS) < 4.0 * mass.deviation
     assert found.rank == 1
@@ -128,7 +128,7 @@ def test_a_block_that_slides_on_its_face_tells_the_mass_and_nothing_of_the_inert
 def test_noise_leaves_the_mass_within_what_is_reported(seed):
     force = (1.0, 4.0, -2.0)
     states = motions.noisy(sliding_block(force), seed, 1e-4, 1e-3)
-    found = told(identify(states, Setup(BLOCK, wrench=wrench.constant(force), friction=FRICTION)))["1/m"]
+    found = reported(identify(states, Setup(BLOCK, wrench=wrench.constant(force), friction=FRICTION)))["1/m"]
     assert abs(found.value - 1.0 / MASS) < 4.0 * found.deviation < 0.05
 
 

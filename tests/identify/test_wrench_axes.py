@@ -20,7 +20,7 @@ def write(path, states, frame, every=1):
     foreign_bag.write_pose_and_twist(path, states, pushes=pushes[::every], push_frame=frame)
 
 
-def told(capsys, path, *options):
+def reported(capsys, path, *options):
     """What the command prints as JSON, and its row of the mass."""
     assert main(["identify", str(path), *BOX, "--force-topic", "/push", *options, "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
@@ -32,7 +32,7 @@ def told(capsys, path, *options):
 def test_a_force_fixed_in_the_body_tells_the_mass_from_exact_motion(tmp_path, capsys, frame, every):
     """Between samples 1 ms apart the force turns by 5 to 10 mrad; straight lines miss up to (1e-2)^2 / 12 = 8e-6 of it."""
     write(tmp_path / "bag", pushed_box.motion(), frame, every)
-    facts, mass = told(capsys, tmp_path / "bag")
+    facts, mass = reported(capsys, tmp_path / "bag")
     assert len(facts["contacts"]) >= 2
     assert mass["value"] == pytest.approx(pushed_box.MASS, rel=8e-6)
     axes = {"base_link": "body", "map": "world"}[frame]
@@ -45,17 +45,17 @@ def test_noisy_motion_agrees_with_the_force_in_its_axes_and_contradicts_it_in_ot
     tmp_path, capsys, frame, right, wrong
 ):
     write(tmp_path / "bag", motions.noisy(pushed_box.motion(), 3, **NOISE), frame)
-    facts, mass = told(capsys, tmp_path / "bag")
+    facts, mass = reported(capsys, tmp_path / "bag")
     assert facts["consistency_warnings"] == []
     assert abs(mass["value"] - pushed_box.MASS) < 4.0 * mass["standard deviation"] < 0.01 * pushed_box.MASS
-    assert told(capsys, tmp_path / "bag", "--force-axes", right)[0]["parameters"] == facts["parameters"]
-    warnings = told(capsys, tmp_path / "bag", "--force-axes", wrong)[0]["consistency_warnings"]
+    assert reported(capsys, tmp_path / "bag", "--force-axes", right)[0]["parameters"] == facts["parameters"]
+    warnings = reported(capsys, tmp_path / "bag", "--force-axes", wrong)[0]["consistency_warnings"]
     assert any("the known wrench" in line for line in warnings)
 
 
 def test_a_force_recorded_in_world_axes_at_a_lower_rate_than_the_states_misses_its_turning(tmp_path, capsys):
     """50 ms apart it turns by 0.25 to 0.5 rad between samples: straight lines miss 0.25^2 / 12 = 5e-3 to 2e-2 of it."""
     write(tmp_path / "bag", pushed_box.motion(), "map", 50)
-    facts, mass = told(capsys, tmp_path / "bag")
+    facts, mass = reported(capsys, tmp_path / "bag")
     assert 2e-3 < abs(mass["value"] / pushed_box.MASS - 1.0) < 2e-2
     assert any("the known wrench" in line for line in facts["consistency_warnings"])

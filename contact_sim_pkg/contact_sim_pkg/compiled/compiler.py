@@ -68,7 +68,7 @@ class _EntryCompiler(_KernelCompiler):
 
 @contextmanager
 def _few_collections() -> Iterator[None]:
-    """A compilation makes many objects and little garbage: looking for it took a fifth of the time."""
+    """A compilation makes many objects and little garbage: looking for it took a tenth of the time."""
     before = gc.get_threshold()
     gc.set_threshold(100_000, 50, 1000)
     try:

@@ -6,8 +6,8 @@ where only other compiled functions call it: a kernel at the bottom of six level
 times and more. Here a kernel stays intermediate code until a function needs machine code: an entry
 that Python calls, or a kernel that has grown to `LARGEST_LINKED` with all that is linked into it.
 Such a large kernel is compiled once and called by its symbol; it is not looked into, which costs
-nothing at its size. The order of operations on numbers stays as written, so results keep their
-bits.
+nothing at its size. What is inlined where is LLVM's choice: results may differ from those of another
+way of linking in the last digits.
 
 Machine code is made by a second process (`assembler.py`) while this one types and lowers the next
 kernels; whatever Python is about to call waits for it.
@@ -284,7 +284,9 @@ def register(function: Callable[..., Any], dispatcher: Any, *, is_entry: bool) -
 def finish() -> None:
     """Wait until all machine code is made and loaded, and written where a cache asked for that."""
     while _awaited:
-        _awaited.pop(0).load_awaited()
+        if not _awaited[0].is_loaded:  # an interrupt came between loading and leaving the list
+            _awaited[0].load_awaited()
+        del _awaited[0]
     while _when_loaded:
         _when_loaded.pop(0)()
 

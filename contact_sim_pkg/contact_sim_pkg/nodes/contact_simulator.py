@@ -43,25 +43,25 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._computing.end = self._leave_computation
 
     def configure(self) -> None:
-        """Compile everything that the scene needs, and create publishers and subscriptions."""
+        """Create publishers and subscriptions, and compile all kernels while the nodes are matched."""
         self._run = None
         scene = read_scene(self._scene_name)
         pace, depth = declare_pace(self, scene.data["pace"]), queue_depth(scene)
         self.announce(f"{scene.name}: compiling")
-        self._out = SimulatorPublishers(self, scene, clock=self._publish_clock)
-        simulation = make_simulation(scene)
-        self._run = run = SimulatedRun(
-            simulation, self._out.progress, scene, pace, logged=self._logged, input_timeout=self._input_timeout
-        )
-        # every endpoint is there before the long compilation: the other nodes are matched meanwhile
-        inputs = {
-            name: numbered_subscription(self, name, partial(self._on_input, run, name), depth)
-            for name in simulation.inputs
-        }
-        answers = subscription(self, "bench/recorded", partial(self._on_recorded, run)) if self._logged else None
-        progress, supervised = self._out.progress.publisher, self.supervisor > 0
-        self._peers = Peers(self, inputs, self._out.results, progress, answers, supervised=supervised)
-        run.prepare(self._computing)
+        self._out = out = SimulatorPublishers(self, scene, clock=self._publish_clock)
+        with out.compiling():
+            simulation = make_simulation(scene)
+            self._run = run = SimulatedRun(
+                simulation, out.progress, scene, pace, logged=self._logged, input_timeout=self._input_timeout
+            )
+            inputs = {
+                name: numbered_subscription(self, name, partial(self._on_input, run, name), depth)
+                for name in simulation.inputs
+            }
+            answers = subscription(self, "bench/recorded", partial(self._on_recorded, run)) if self._logged else None
+            progress = out.progress.publisher
+            self._peers = Peers(self, inputs, out.results, progress, answers, supervised=self.supervisor > 0)
+            self._computing.call(simulation.prepare)
 
     def tick(self, now: float) -> float:
         """Look for peers before ready; advance until the end; then leave once the bag is closed."""

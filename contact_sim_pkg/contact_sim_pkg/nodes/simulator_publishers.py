@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from contextlib import AbstractContextManager
+from functools import partial
 
 from rclpy.node import Node
 
@@ -16,6 +18,7 @@ from contact_sim_pkg.nodes.protocol.states import RunState
 from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.run.bag_content import result_names
 from contact_sim_pkg.run.block_simulation import BlockResult
+from contact_sim_pkg.run.compilation import reported_compilation
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
@@ -31,7 +34,11 @@ class SimulatorPublishers:
         self.diagnostics = Diagnostics(node)
         self._scene = publisher(node, "bench/scene")
         self._scene.publish(encode(String(data=scene.to_yaml())))
-        self._block_length_ns = block_length_ns(scene)
+        self._block_length_ns, self._compiled = block_length_ns(scene), scene
+
+    def compiling(self) -> AbstractContextManager[None]:
+        """While the block of code lasts, `bench/progress` reports the kernels that it compiles."""
+        return reported_compilation(self._compiled, partial(self.progress.send, RunState.STARTING))
 
     def publish(self, number: int, result: BlockResult) -> None:
         """Send the messages of a block, and the simulated time of its end."""

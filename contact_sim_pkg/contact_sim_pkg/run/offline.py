@@ -73,8 +73,8 @@ def run_offline(
     """
     began, computing = time.perf_counter(), computing or Computing()
     sources = make_sources(scene) if sources is None else sources
-    simulation = make_simulation(scene)
     with reported_compilation(scene, on_set_up):
+        simulation = make_simulation(scene)
         simulation.prepare()
     descriptions = {topic: source.describe() for topic, source in sources.items()}
     if stop is not None and stop():

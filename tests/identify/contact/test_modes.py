@@ -71,7 +71,7 @@ def test_in_space_a_slip_that_turns_on_its_way_leaves_a_bound_and_not_mu():
 
 
 def test_in_the_plane_an_energetic_slide_that_keeps_its_direction_gives_mu():
-    random, told = numpy.random.default_rng(2), 0
+    random, decided = numpy.random.default_rng(2), 0
     for _ in range(20):
         before = numpy.array([random.uniform(-2.0, 2.0), 0.0, -random.uniform(0.5, 1.0)])
         found = energetic_impact(numpy.diag([3.0, 1.0, 1.0]) + 0.5 * mobility_of(random), before, planar=True)
@@ -79,9 +79,9 @@ def test_in_the_plane_an_energetic_slide_that_keeps_its_direction_gives_mu():
             continue
         mode = classify(found[0], before, found[1], 1e-9, FLAT, 1e-9)
         if mode.mode == SLIDE:
-            told += 1
+            decided += 1
             assert mode.friction == pytest.approx(FRICTION, rel=1e-9)
-    assert told >= 5
+    assert decided >= 5
 
 
 def test_a_reversed_slip_gives_no_friction_but_a_bound():
@@ -116,5 +116,5 @@ def test_a_turn_within_the_noise_does_not_hide_friction(turn, noise):
     slip = 0.5 * numpy.array([numpy.cos(turn), numpy.sin(turn), 0.0])
     push = numpy.array([-0.3, 0.0, 1.0])
     mode = classify(push, slip - geometry.UP, slip + 0.5 * geometry.UP, noise, FLAT)
-    told = abs(turn) <= 3.0 * noise / 0.5
-    assert (mode.friction is not None) == told or abs(abs(turn) - 6.0 * noise) < 1e-3 * abs(turn)
+    within_noise = abs(turn) <= 3.0 * noise / 0.5
+    assert (mode.friction is not None) == within_noise or abs(abs(turn) - 6.0 * noise) < 1e-3 * abs(turn)

@@ -69,7 +69,7 @@ def spinning_plate(spin):
     return BodyStates(time, place, turns, velocity, turning)
 
 
-def told(note):
+def reported(note):
     """Whether the friction in a note is a bound, its value and its deviation."""
     match = re.search(r"friction (>= )?(\S+) ± (\S+)$", note)
     assert match, note
@@ -81,7 +81,7 @@ def told_of_plate(states, noise):
     model = FlightModel(spatial_basis(), False, NO_WRENCH, GRAVITY)
     spread = SampleNoise(*(noise or (1e-9, 1e-9, 1e-9, 1e-9)))
     problem = IdentificationProblem(states, [], [], geometry.hull(CORNERS), geometry.plane(), model, spread, None)
-    return told(lasting_note(problem, 0, len(states.time) - 2).sentence)
+    return reported(lasting_note(problem, 0, len(states.time) - 2).sentence)
 
 
 @pytest.mark.parametrize("noise", NOISE.values(), ids=NOISE)
@@ -103,7 +103,7 @@ def test_corners_that_slip_alike_tell_mu():
 def test_a_slip_that_turns_leaves_a_bound(noise):
     states, normal = ball(slope=0.5, across=2.0)
     states = states if noise is None else motions.noisy(states, 5, *noise)
-    bound, value, deviation = told(identify(states, BALL._replace(ground=geometry.plane(normal))).contacts[0].note)
+    bound, value, deviation = reported(identify(states, BALL._replace(ground=geometry.plane(normal))).contacts[0].note)
     assert bound
     assert value == pytest.approx(FRICTION, abs=3.0 * deviation + 5e-3)  # step by step it turns by little
 
@@ -113,7 +113,7 @@ def test_a_slip_that_turns_leaves_a_bound(noise):
 def test_noise_does_not_raise_the_friction_of_a_straight_slide(speed, seed):
     """In 1 ms friction changes the velocity by 4 mm/s: sums of |c_t| of steps under noise are up to thrice that."""
     states = motions.noisy(ball()[0], seed, 1e-4, 1e-4, speed, speed)
-    bound, value, deviation = told(identify(states, BALL).contacts[0].note)
+    bound, value, deviation = reported(identify(states, BALL).contacts[0].note)
     assert not bound
     assert deviation < 0.02
     assert abs(value - FRICTION) < 4.0 * deviation + 5e-4  # of three digits

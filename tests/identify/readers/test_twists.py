@@ -1,4 +1,4 @@
-"""In which axes a twist of others is read, which twist goes with which pose, and that both are told."""
+"""In which axes a twist of others is read, which twist goes with which pose, and that both are reported."""
 
 import numpy
 import pytest

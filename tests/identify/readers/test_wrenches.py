@@ -1,4 +1,4 @@
-"""In which axes a wrench of others is read, how it is turned into those of the world, and that it is told."""
+"""In which axes a wrench of others is read, how it is turned into those of the world, and that it is reported."""
 
 import numpy
 import pytest

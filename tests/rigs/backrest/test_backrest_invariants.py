@@ -62,7 +62,7 @@ def test_the_same_shaking_gives_the_same_bits(at, mu):
     high=st.floats(-9.0, -6.0),
 )
 def test_two_accuracies_differ_by_no_more_than_both_report(at, loss, low, high):
-    """Above 1.5 g slaps double their period and any error grows; below, ten times the tolerance is what the ladder finds."""
+    """Above 1.5 g slaps double their period and any error grows; below, ten times the tolerance is what the study finds."""
     coarse, fine = (
         driven(one_mass(loss=NormalDissipative(loss)), sine(at[0] * GRAVITY, at[1]), 0.8, 10.0**power)
         for power in (low, high)

@@ -5,7 +5,6 @@ run. Without ROS.
 from __future__ import annotations
 
 import math
-from functools import partial
 
 from contact_sim_pkg.nodes.processes.scene_file import block_length_ns
 from contact_sim_pkg.nodes.protocol.input_blocks import Block, InputBlocks
@@ -16,8 +15,6 @@ from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, NodeError, RunSta
 from contact_sim_pkg.nodes.protocol.window import BlockWindow
 from contact_sim_pkg.records.messages import BenchRecorded
 from contact_sim_pkg.run.block_simulation import BlockResult, BlockSimulation
-from contact_sim_pkg.run.compilation import reported_compilation
-from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
@@ -38,7 +35,7 @@ class SimulatedRun:
             logged: the run has a logger.
             input_timeout: longest wait for a block that is due, [s].
         """
-        self.simulation, self.report, self._scene = simulation, report, scene
+        self.simulation, self.report = simulation, report
         self.inputs = InputBlocks(simulation.inputs, block_length_ns(scene), simulation.blocks)
         self.window = BlockWindow(simulation.blocks, logged=logged)
         self.logger = LoggerAnswers(self.window, logged=logged)
@@ -46,11 +43,6 @@ class SimulatedRun:
         self._pacer = Pacer(pace, scene.block_length)
         self._lateness = Lateness(self._pacer)
         self._timeout, self._advanced = input_timeout + scene.block_length / pace, math.inf
-
-    def prepare(self, computing: Computing[bool]) -> None:
-        """Compile or load all kernels; the report is STARTING, with their number."""
-        with reported_compilation(self._scene, partial(self.report.send, RunState.STARTING)):
-            computing.call(self.simulation.prepare)
 
     @property
     def state(self) -> RunState:

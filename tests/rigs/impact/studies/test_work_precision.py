@@ -1,25 +1,25 @@
-"""The ladders of the sphere's impact: published errors of the cheap levels, dear levels that meet the reference."""
+"""Work and precision of the impact: published errors of inexpensive levels; expensive ones meet the reference."""
 
 import pytest
 
-from contact_sim_pkg.records import work_precision as ladder_row
-from contact_sim_pkg.rigs.impact.studies import work_precision as ladder_impact
-from contact_sim_pkg.rigs.impact.studies import work_precision_material as ladder_impact_material
+from contact_sim_pkg.records import work_precision as records
+from contact_sim_pkg.rigs.impact.studies import work_precision as impact_levels
+from contact_sim_pkg.rigs.impact.studies import work_precision_material as impact_material
 from contact_sim_pkg.rigs.impact.studies import work_precision_memory as memory_studies
-from contact_sim_pkg.studies.accuracy import work_precision as ladder
+from contact_sim_pkg.studies.accuracy import work_precision as work_precision
 
 
 @pytest.fixture(scope="module", autouse=True)
 def few_samples():
-    kept = ladder_row.FEWEST, ladder_row.BUDGET
-    ladder_row.FEWEST, ladder_row.BUDGET = 1, 0.0
+    kept = records.FEWEST, records.BUDGET
+    records.FEWEST, records.BUDGET = 1, 0.0
     yield
-    ladder_row.FEWEST, ladder_row.BUDGET = kept
+    records.FEWEST, records.BUDGET = kept
 
 
 @pytest.fixture(scope="module")
 def rows():
-    return ladder_impact.rows()
+    return impact_levels.rows()
 
 
 def value_of(rows, loss_tangent, quantity, level, end="force", key="value"):
@@ -31,7 +31,7 @@ def value_of(rows, loss_tangent, quantity, level, end="force", key="value"):
 @pytest.mark.parametrize("level", ["table", "integrated"])
 def test_the_expensive_levels_meet_the_reference_in_every_quantity(rows, level):
     chosen = [row for row in rows if row["level"] == level]
-    assert {row["quantity"] for row in chosen} == set(ladder_impact.QUANTITIES)
+    assert {row["quantity"] for row in chosen} == set(impact_levels.QUANTITIES)
     assert max(row["error"] for row in chosen) < 1e-9
     assert len(chosen) >= 60
 
@@ -65,14 +65,14 @@ def test_the_corrected_constants_are_nearer_where_the_bodies_part_at_the_gap(row
 
 
 def test_the_material_comes_back_by_the_motion_and_twice_as_stiff_by_the_closed_form():
-    found = ladder_impact_material.rows()
+    found = impact_material.rows()
     assert max(row["error"] for row in found if row["level"] == "exact") < 1e-9
     first = next(row for row in found if (row["level"], row["quantity"]) == ("corrected", "E'"))
     assert first["value"] / first["expected"] == pytest.approx(2.2, abs=0.05)
 
 
 def test_the_front_s_formulas_come_nearer_for_slow_impacts():
-    found = ladder_impact_material.front_rows()
+    found = impact_material.front_rows()
     assert max(row["error"] for row in found if row["level"] == "integrated") < 1e-9
     small = [row["error"] for row in found if row["level"] == "small times"]
     assert small == sorted(small)
@@ -80,10 +80,10 @@ def test_the_front_s_formulas_come_nearer_for_slow_impacts():
 
 
 def test_the_rig_has_a_work_precision_study():
-    assert [entry.part for entry in ladder.studies_of("impact")] == [
-        ladder_impact.PART,
-        ladder_impact_material.PART,
-        ladder_impact_material.FRONT_PART,
+    assert [entry.part for entry in work_precision.studies_of("impact")] == [
+        impact_levels.PART,
+        impact_material.PART,
+        impact_material.FRONT_PART,
         memory_studies.HISTORY_PART,
         memory_studies.RESPONSE_PART,
     ]

@@ -1,18 +1,18 @@
-"""Ladders of the sample's memory: dear levels meet the reference, cheap ones are as wrong as their idea is."""
+"""Work and precision of the sample's memory: expensive levels meet the reference, inexpensive ones err as their idea does."""
 
 import pytest
 
-from contact_sim_pkg.records import work_precision as ladder_row
+from contact_sim_pkg.records import work_precision as records
 from contact_sim_pkg.rigs.impact.studies import work_precision_memory as memory_studies
-from contact_sim_pkg.studies.accuracy import work_precision as ladder
+from contact_sim_pkg.studies.accuracy import work_precision as work_precision
 
 
 @pytest.fixture(scope="module", autouse=True)
 def few_samples():
-    kept = ladder_row.FEWEST, ladder_row.BUDGET
-    ladder_row.FEWEST, ladder_row.BUDGET = 1, 0.0
+    kept = records.FEWEST, records.BUDGET
+    records.FEWEST, records.BUDGET = 1, 0.0
     yield
-    ladder_row.FEWEST, ladder_row.BUDGET = kept
+    records.FEWEST, records.BUDGET = kept
 
 
 def errors(rows, quantity, case):
@@ -41,5 +41,5 @@ def test_harmonic_balance_converges_and_the_linear_answer_fails_with_the_square_
 
 
 def test_both_studies_stand_under_impact():
-    parts = {each.part for each in ladder.studies_of("impact")}
+    parts = {each.part for each in work_precision.studies_of("impact")}
     assert {"viscoelastic history", "complex response"} <= parts
