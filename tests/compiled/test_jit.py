@@ -65,7 +65,15 @@ class Start:
         for room in (self.laws, self.package / "compiled"):
             room.mkdir(parents=True)
             (room / "__init__.py").touch()
-        for name in ("assembler.py", "compiler.py", "jit.py", "kernel_cache.py", "linking.py", "sources.py"):
+        for name in (
+            "assembler.py",
+            "companion.py",
+            "compiler.py",
+            "jit.py",
+            "kernel_cache.py",
+            "linking.py",
+            "sources.py",
+        ):
             shutil.copy(PACKAGE / "compiled" / name, self.package / "compiled" / name)
         (self.laws / "helper.py").write_text(HELPER)
         (self.laws / "caller.py").write_text(CALLER)
@@ -129,12 +137,9 @@ def test_h1_an_edited_helper_in_another_file_is_never_served_stale(start: Start)
     assert start()["value"] == 15.0
 
 
-@pytest.mark.parametrize(
-    ("kind", "damage"),
-    [("nbc", "empty"), ("nbc", "short"), ("nbc", "noise"), ("nbc", "flipped"), ("nbi", "empty"), ("nbi", "noise")],
-)
-def test_h2_a_damaged_cache_is_removed_and_compiled_again_with_one_warning(warm: Start, kind: str, damage: str) -> None:
-    files = list(warm.directory().glob(f"*.{kind}"))
+@pytest.mark.parametrize("damage", ["empty", "short", "noise", "flipped"])
+def test_h2_a_damaged_cache_is_removed_and_compiled_again_with_one_warning(warm: Start, damage: str) -> None:
+    files = list(warm.directory().iterdir())
     assert files
     for path in files:
         content = path.read_bytes()

@@ -16,7 +16,7 @@ def _often(monkeypatch):
 
 def test_the_number_of_compiled_kernels_is_reported_as_it_grows(monkeypatch):
     counted = itertools.chain([5, 5, 7], itertools.repeat(9))
-    monkeypatch.setattr(compilation, "compiled_kernels", lambda: next(counted))
+    monkeypatch.setattr(compilation, "_kernels", lambda: next(counted))
     lines: list[str] = []
     with compilation.reported_compilation(resolved("block_fall"), lines.append):
         limit = time.monotonic() + 10.0
@@ -29,7 +29,7 @@ def test_the_number_of_compiled_kernels_is_reported_as_it_grows(monkeypatch):
 
 def test_nothing_is_reported_where_all_kernels_come_from_the_disk(monkeypatch):
     looks = itertools.count()
-    monkeypatch.setattr(compilation, "compiled_kernels", lambda: (next(looks), 3)[1])
+    monkeypatch.setattr(compilation, "_kernels", lambda: (next(looks), 3)[1])
     lines: list[str] = []
     with compilation.reported_compilation(resolved("seat_slap"), lines.append):
         while next(looks) < 10:

@@ -51,11 +51,16 @@ class Assembler:
 
     def __init__(self) -> None:
         """Starts nothing yet."""
+        self.is_here = False  # without a process of its own
         self._process: subprocess.Popen[bytes] | None = None
         self._queue: ThreadPoolExecutor | None = None
 
     def submit(self, bitcode: bytes) -> Future[Assembly]:
         """Machine code of ``bitcode``, once it is there; starts the process at the first call."""
+        if self.is_here:
+            done: Future[Assembly] = Future()
+            done.set_result(assemble(bitcode))
+            return done
         if self._queue is None:
             self._queue = ThreadPoolExecutor(1, "assembler")
             self._queue.submit(self._start)

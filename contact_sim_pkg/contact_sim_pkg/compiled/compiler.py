@@ -20,6 +20,7 @@ from typing import Any, TypeVar
 import numba
 from numba.core.compiler import Compiler
 
+from contact_sim_pkg.compiled import companion
 from contact_sim_pkg.compiled.linking import KernelLibrary, Overload
 
 __all__ = ["compiled_kernels", "compiler_of"]
@@ -53,6 +54,7 @@ class _KernelCompiler(Compiler):
         # others of its name, found in no other process, for its code is kept on disk inside that of its callers
         function.unique_id = uuid.uuid4().int if overload is None else zlib.crc32(repr(overload).encode())
         function.unique_name = f"{function.func_qualname}${function.unique_id}"
+        companion.begin()
         codegen = state.targetctx.codegen()
         state.library = KernelLibrary(codegen, function.func_qualname, overload, is_machine_code=self.is_entry)
         with _few_collections():

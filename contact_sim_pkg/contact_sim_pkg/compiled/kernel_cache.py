@@ -31,7 +31,8 @@ import llvmlite
 import llvmlite.binding
 import numba
 import numpy
-from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+from numba.core.serialize import dumps
 
 from contact_sim_pkg.compiled import linking
 from contact_sim_pkg.compiled.sources import digest_of_sources
@@ -226,36 +227,42 @@ class _CheckedCacheImpl(CompileResultCacheImpl):
         return linking.rebuild(target_context, payload)
 
 
-class _CheckedFiles(IndexDataCacheFile):
-    """numba's index and data files, each led by the hash of its content."""
+class _CheckedFiles:
+    """One file for each overload of a function, led by the hash of its content.
 
-    def _load_index(self) -> Any:
+    numba keeps an index of numbered files, in which two processes that save at once can take each
+    other's number. Here the name of a file follows from the key, which it also holds.
+    """
+
+    def __init__(self, directory: str, name: str) -> None:
+        self._directory, self._name = Path(directory), name
+
+    def load(self, key: Any) -> Any:
+        """What was saved under ``key``; None where nothing was."""
         try:
-            content = self._read(self._index_path)
+            content = self._path(key).read_bytes()
         except FileNotFoundError:
-            return {}
-        stamp, overloads = pickle.loads(content)  # noqa: S301 - own directory, hash checked
-        return overloads if stamp == self._source_stamp else {}
-
-    def _save_index(self, overloads: Any) -> None:
-        self._write(self._index_path, self._dump((self._source_stamp, overloads)))
-
-    def _load_data(self, name: str) -> Any:
-        return pickle.loads(self._read(self._data_path(name)))  # noqa: S301 - own directory, hash checked
-
-    def _save_data(self, name: str, data: Any) -> None:
-        self._write(self._data_path(name), self._dump(data))
-
-    def _read(self, path: str) -> bytes:
-        content = Path(path).read_bytes()
+            return None
         digest, payload = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
         if hashlib.sha256(payload).digest() != digest:
-            raise pickle.UnpicklingError(f"{Path(path).name}: the content does not match its hash")
-        return payload
+            raise pickle.UnpicklingError(f"{self._path(key).name}: the content does not match its hash")
+        saved, data = pickle.loads(payload)  # noqa: S301 - own directory, hash checked
+        return data if saved == key else None
 
-    def _write(self, path: str, payload: bytes) -> None:
-        with self._open_for_write(path) as file:
-            file.write(hashlib.sha256(payload).digest() + payload)
+    def save(self, key: Any, data: Any) -> None:
+        """Replace what was saved under ``key``, in one step for other processes."""
+        payload = dumps((key, data))
+        path = self._path(key)
+        written = path.with_name(f"{path.name}.{os.getpid()}")
+        try:
+            written.write_bytes(hashlib.sha256(payload).digest() + payload)
+            written.replace(path)
+        except BaseException:
+            written.unlink(missing_ok=True)
+            raise
+
+    def _path(self, key: Any) -> Path:
+        return self._directory / f"{self._name}.{hashlib.sha256(repr(key).encode()).hexdigest()[:16]}"
 
 
 class _CheckedCache(FunctionCache):
@@ -267,7 +274,7 @@ class _CheckedCache(FunctionCache):
 
     def __init__(self, py_func: Any, form: str) -> None:
         super().__init__(py_func)
-        self._cache_file = _CheckedFiles(self._cache_path, self._impl.filename_base + form, _session.name)
+        self._cache_file: Any = _CheckedFiles(self._cache_path, self._impl.filename_base + form)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         if _session.directory is None:

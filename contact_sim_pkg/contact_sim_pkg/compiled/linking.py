@@ -34,7 +34,17 @@ from numba.core.environment import lookup_environment
 
 from contact_sim_pkg.compiled.assembler import DYNAMIC, ENVIRONMENT, Assembler, Assembly, assemble
 
-__all__ = ["KernelLibrary", "Overload", "finish", "rebuild", "reduce", "register", "stop", "when_loaded"]
+__all__ = [
+    "KernelLibrary",
+    "Overload",
+    "finish",
+    "make_at_once",
+    "rebuild",
+    "reduce",
+    "register",
+    "stop",
+    "when_loaded",
+]
 
 LARGEST_LINKED = 60_000
 """[bytes of bitcode] A kernel that is larger, with all that would be linked into it, becomes
@@ -131,7 +141,7 @@ class KernelLibrary(JITCodeLibrary):
         self._awaited = _assembler.submit(self._final_module.as_bitcode())
         self._finalized = True
         _awaited.append(self)
-        if self.is_entry:
+        if self.is_entry or _assembler.is_here:
             finish()
 
     def _refuse_unknown_symbols(self) -> None:
@@ -289,6 +299,11 @@ def finish() -> None:
         del _awaited[0]
     while _when_loaded:
         _when_loaded.pop(0)()
+
+
+def make_at_once() -> None:
+    """In this process, without another: each kernel is on disk as soon as it is compiled."""
+    _assembler.is_here = True
 
 
 def when_loaded(result: Any, action: Callable[[], None]) -> None:

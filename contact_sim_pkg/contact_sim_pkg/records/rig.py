@@ -33,6 +33,8 @@ class Rig:
             that its tire needs; empty: it rides on none.
         work: ``module:function`` of a resolved scene -> parts of its work beside that of blocks and
             fields; empty: none.
+        other_half: ``module:function`` of a resolved scene, called in a second process: compiles
+            kernels that the run comes to late; empty: none.
         unused_axes: plain data of its effects by contact -> axes whose vibration moves nothing.
         accuracy: modules whose `ACCURACY` holds `records.accuracy.AccuracyStudy`: `bench accuracy
             SCENE`.
@@ -56,6 +58,7 @@ class Rig:
     report: tuple[str, ...] = ()
     road_strip: str = ""
     work: str = ""
+    other_half: str = ""
     unused_axes: Callable[[Mapping[str, Any]], str] = lambda _effects: ""
     accuracy: tuple[str, ...] = ()
     work_precision: tuple[str, ...] = ()

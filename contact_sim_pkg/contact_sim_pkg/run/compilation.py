@@ -1,34 +1,40 @@
-"""Reports while kernels are compiled: the first start of a scene, or of an effect, takes its time."""
+"""Compilation before a run: the first start of a scene, or of an effect, takes its time. It is
+reported, and shared with a second process.
+"""
 
 from __future__ import annotations
 
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
+from contact_sim_pkg.compiled.companion import accompanied
 from contact_sim_pkg.compiled.jit import compiled_kernels
+from contact_sim_pkg.compiled.kernel_cache import cache_directory
 from contact_sim_pkg.records.registry import rigs
+from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["reported_compilation"]
+__all__ = ["compile_other_half", "reported_compilation"]
 
 PERIOD = 1.0  # [s] between two looks
 
 
 @contextmanager
 def reported_compilation(scene: ResolvedScene, report: Callable[[str], None]) -> Iterator[None]:
-    """While the block of code lasts, ``report`` gets a sentence each second in which kernels were
-    compiled, from a thread of its own: their number, what the richest scene of the rig compiles,
-    seconds so far. Silent where all kernels come from the cache.
+    """While the block of code lasts, a second process compiles what the rig lets it, and ``report``
+    gets a sentence each second in which kernels were compiled, from a thread of its own: their
+    number in both, what the richest scene of the rig compiles, seconds so far. Silent where all
+    kernels come from the cache.
     """
-    over, began, before = threading.Event(), time.monotonic(), compiled_kernels()
+    over, began, before = threading.Event(), time.monotonic(), _kernels()
     expected = rigs()[scene.data["rig"]].kernels
 
     def repeat() -> None:
         reported = 0
         while not over.wait(PERIOD):
-            number = compiled_kernels() - before
+            number = _kernels() - before
             if number > reported:
                 reported = number
                 of = f" of about {expected}" if expected >= number else ""
@@ -37,7 +43,21 @@ def reported_compilation(scene: ResolvedScene, report: Callable[[str], None]) ->
     thread = threading.Thread(target=repeat, name="reported compilation", daemon=True)
     thread.start()
     try:
-        yield
+        with ExitStack() as stack:
+            if rigs()[scene.rig].other_half and cache_directory() is not None:
+                stack.enter_context(accompanied(f"{__name__}:{compile_other_half.__name__}", scene.to_yaml()))
+            yield
     finally:
         over.set()
         thread.join()
+
+
+def _kernels() -> int:
+    directory = cache_directory()
+    return compiled_kernels() if directory is None else sum(1 for _ in directory.iterdir())
+
+
+def compile_other_half(text: str) -> None:
+    """In the second process: what the rig of a resolved scene, as YAML, lets it compile."""
+    scene = ResolvedScene.from_own_yaml(text, {})
+    load(rigs()[scene.rig].other_half)(scene)

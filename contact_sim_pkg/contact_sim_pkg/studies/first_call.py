@@ -11,11 +11,11 @@ import time
 
 def main(scene_name: str, *, field: bool = True) -> None:
     """Write one JSON object: seconds from the start of the imports to a block done, seconds of the
-    first field solve (null without ``field`` and where there is none), kernels compiled.
+    first field solve (null without ``field`` and where there is none).
     """
     began = time.perf_counter()
-    from contact_sim_pkg.compiled.jit import compiled_kernels
     from contact_sim_pkg.records.registry import rigs
+    from contact_sim_pkg.run.compilation import reported_compilation
     from contact_sim_pkg.run.rigs import make_simulation
     from contact_sim_pkg.scene.resolve import load_resolved
     from contact_sim_pkg.studies.cases import objects
@@ -24,8 +24,9 @@ def main(scene_name: str, *, field: bool = True) -> None:
     studies = objects(rigs()[scene.data["rig"]].accuracy, "ACCURACY")
     first_calls = [each.first_call for each in studies if each.first_call is not None]
     solved = next((call(scene) for call in first_calls), None) if field else None
-    make_simulation(scene).prepare()
-    facts = {"simulation": time.perf_counter() - began, "field": solved, "kernels": compiled_kernels()}
+    with reported_compilation(scene, lambda _sentence: None):
+        make_simulation(scene).prepare()
+    facts = {"simulation": time.perf_counter() - began, "field": solved}
     sys.stdout.write(json.dumps(facts))
 
 

@@ -277,20 +277,21 @@ class LocatedBody:
         is spoiled.
         """
         body, ground, motion, work = self.body, self.ground, self.motion, self.work
+        work.flags[:] = ACTIVE
+        # first what a drop comes to last: a second process begins here while the first drops a body
+        self._turn_on(1e-9, numpy.zeros((1, self._columns[-1])))
+        self._substeps.attempt(1e-3, 1e-9)
         for contacts in (len(work.flags), 1):  # an impact of several, and of one
             work.flags[:], work.u[:: body.width] = SEPARATED, -self.rest_speed
             work.flags[:contacts] = TOUCHING
             active_contacts.prepare_impact(body, work, 0.0)
             self._solver.collide(work, self.rule)
         active_contacts.finish_impact(body, motion, work, self.rest_speed)
-        work.flags[:] = ACTIVE
-        self._substeps.attempt(1e-3, 1e-9)
         active_contacts.gap_after(body, ground, motion, work, 1e-3, 0)
         active_contacts.landing_part(body, ground, motion, work, 1e-3, self.size)
         accept_substep(body, ground, motion, work, 1e-3, self.size, 1e-9)
         contacts_turn(body, ground, motion, work, motion.velocity, self.size)
         slip_turns(body, motion, work, 1e-9)
-        self._turn_on(1e-9, numpy.zeros((1, self._columns[-1])))
         stay_on_the_ground(body, ground, motion, work, self.size, 1e-9)
         self.advance(1e-6)
 

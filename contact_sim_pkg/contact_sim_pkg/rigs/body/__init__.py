@@ -40,6 +40,7 @@ RIGS = (
             "box_3d_tumble": 6,
         },
         simulation=f"{__name__}.simulation:BlockBodySimulation",
+        other_half=f"{__name__}.simulation:warm_up_solvers",
         work=f"{__name__}.work:work_of_block",
         report=(f"{__name__}.report:BLOCK_REPORT",),
         accuracy=(f"{__name__}.studies.accuracy",),

@@ -59,7 +59,7 @@ class BlockBodySimulation:
             for _ in range(3):
                 status_after(body, model, 1e-3)  # however it ends: the run has another start
         if model.contact is None:
-            _warm_up_solvers(model)
+            _warm_up(model)
         contact_arms(model, model.start.position, model.start.rotation)
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
@@ -190,7 +190,14 @@ def _above(model: BlockModel, motion: Motion, height: float) -> Motion:
     return state
 
 
-def _warm_up_solvers(model: BlockModel) -> None:
+def _warm_up(model: BlockModel) -> None:
     """Load the solvers that the drop did not call."""
     body = LocatedBody(model.body, model.ground, _above(model, model.start, 0.0), model.rule, model.facets)
     body.warm_up()
+
+
+def warm_up_solvers(scene: ResolvedScene) -> None:
+    """Compile, in a second process, what the drop of `prepare` comes to last."""
+    model = build_block(scene)
+    if model.contact is None:
+        _warm_up(model)

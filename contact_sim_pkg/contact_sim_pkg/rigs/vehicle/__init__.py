@@ -27,6 +27,7 @@ SEAT = Contact(
     topics=(FORCE, WRENCH, PATCH),
 )
 _SIMULATION = f"{__name__}.simulation:Simulation"
+_OTHER_HALF = f"{__name__}.other_half:compile_all_but_fields"
 _ACCURACY = (f"{__name__}.studies.accuracy",)
 _TIRE_REPORT, _SEAT_REPORT = f"{__name__}.tire.report:TIRE_REPORT", f"{__name__}.seat.report:SEAT_REPORT"
 _ROAD_STRIP = f"{__name__}.lattice:road_strip"
@@ -48,6 +49,7 @@ RIGS = (
             "tire_texture": 27,
         },
         simulation=_SIMULATION,
+        other_half=_OTHER_HALF,
         work=f"{__name__}.work:work_of_tire",
         report=(_TIRE_REPORT,),
         road_strip=_ROAD_STRIP,
@@ -65,6 +67,7 @@ RIGS = (
         needs=("vibration",),
         scenes={"seat_ride": 0, "seat_drop": 16},
         simulation=_SIMULATION,
+        other_half=_OTHER_HALF,
         work=f"{__name__}.work:work_of_seat",
         report=(_SEAT_REPORT,),
         unused_axes=lambda effects: "x" if effects["seat"].get("friction") is None else "",
@@ -86,6 +89,7 @@ RIGS = (
         takes=("slip", "vibration"),
         scenes={"car_full_bench": 28},
         simulation=_SIMULATION,
+        other_half=_OTHER_HALF,
         work=f"{__name__}.work:work_of_car",
         report=(_TIRE_REPORT, _SEAT_REPORT),
         road_strip=_ROAD_STRIP,

@@ -12,6 +12,8 @@ state. What is left after the last correction is a jump at the instant, measured
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy
 from numpy.typing import NDArray
@@ -21,10 +23,12 @@ from contact_sim_pkg.laws.parameters import ElasticLaw, NormalElastic
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, make_half_space
 from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, refuse_bad_gap
-from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.pressure.settings import FieldSettings, widened
 from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
+from contact_sim_pkg.scene.errors import Fault, SceneError
 
 Field = NDArray[numpy.float64]
+SOLVER: type = RollingField
 TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law is laid
 TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
 
@@ -56,7 +60,7 @@ class PressureField:
         self.settings = settings
         self.contact = contact
         self.half_space: HalfSpace = half_space_of(settings)
-        self._field = RollingField(self.half_space)
+        self._field = SOLVER(self.half_space)
         self._row: int | None = None  # of the road under row 0, at the last solve
         self.pressure: Field = self._field.pressure
         self.load = 0.0
@@ -120,6 +124,25 @@ class PressureField:
             raise FieldError(f"{self.contact}: {error}") from None
 
 
+@dataclass(frozen=True)
+class FieldGrids:
+    """The pressure field of one contact, and the wider one that takes over where the contact
+    outgrows it.
+    """
+
+    usual: PressureField
+    wide: PressureField
+
+    def both(self) -> tuple[PressureField, PressureField]:
+        """Usual grid first."""
+        return (self.usual, self.wide)
+
+
+def make_grids(settings: FieldSettings, contact: str) -> FieldGrids:
+    """Field of a contact on its usual grid and on the wide one."""
+    return FieldGrids(PressureField(settings, contact), PressureField(widened(settings), contact))
+
+
 def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
     """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between
     instants.
@@ -132,6 +155,29 @@ def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
     second = field.solve_load(gap, load * TANGENT_LOAD_STEP, tolerance)
     exponent = math.log(TANGENT_LOAD_STEP) / math.log(second / first)
     return NormalElastic(load / first**exponent, exponent)
+
+
+def tangent_law(
+    grids: FieldGrids, gap_on: Callable[[FieldSettings], NDArray[numpy.float64]], load: float, contact: str
+) -> tuple[NormalElastic, float]:
+    """Tangent law of a contact at its standing ``load`` [N], and the length [m] of the contact
+    along the rows.
+
+    gap_on: settings of a grid -> undeformed gap [rows, cols] [m]. On the wide grid where the usual
+    one does not hold the contact. Raises SceneError where that does not either.
+    """
+    for field in grids.both():
+        try:
+            law = fit_tangent(field, gap_on(field.settings), load)
+            return law, int((field.pressure > 0.0).any(axis=1).sum()) * field.settings.cell_x
+        except FieldError as error:
+            reason = error
+    # Neither grid holds the contact: the scene is wrong.
+    where = f"effects.{contact}.contact_field"
+    sentence = (
+        f"the contact does not fit on its grid at the standing load of {load:.6g} N: {reason}; enlarge length and width"
+    )
+    raise SceneError([Fault("scene", 0, 0, where, sentence)])
 
 
 def correction_of(elastic: ElasticLaw, field: PressureField, gap: Field, approach: float, geometric: float) -> float:

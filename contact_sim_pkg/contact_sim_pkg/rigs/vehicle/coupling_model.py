@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
-from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids
+from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing

@@ -12,8 +12,13 @@ from numpy.typing import NDArray
 from contact_sim_pkg.laws.normal_force import pressure_factor
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldEdgeError, FieldError, PressureField, correction_of
-from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids
+from contact_sim_pkg.rigs.vehicle.contact_field import (
+    FieldEdgeError,
+    FieldError,
+    FieldGrids,
+    PressureField,
+    correction_of,
+)
 from contact_sim_pkg.rigs.vehicle.model import seat_cells, seat_gap_on
 from contact_sim_pkg.rigs.vehicle.outputs import FieldRecord
 from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape

@@ -15,7 +15,7 @@ from contact_sim_pkg.laws.elastic_law import approach_of_force
 from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, Friction
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids, make_grids, tangent_law
+from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
 from contact_sim_pkg.rigs.vehicle.coupling_model import (
     CouplingRule,
     allowance_of,

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactShear, EnergyLedger
 from contact_sim_pkg.rigs.vehicle import entries as columns
-from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids
+from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.tire.rolling_shear import Sheared
 from contact_sim_pkg.run.contact_patch import contact_patch

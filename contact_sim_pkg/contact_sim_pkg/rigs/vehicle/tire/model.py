@@ -15,7 +15,7 @@ from contact_sim_pkg.laws.parameters import Contact, NormalElastic
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, power_law
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids, make_grids, tangent_law
+from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
 from contact_sim_pkg.rigs.vehicle.coupling_model import coupled_timing, uniform_segments
 from contact_sim_pkg.rigs.vehicle.lattice import (
     contact_modulus,

@@ -9,8 +9,7 @@ import numpy
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
-from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids
+from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, Gap
 from contact_sim_pkg.rigs.vehicle.tire.footprint import tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
