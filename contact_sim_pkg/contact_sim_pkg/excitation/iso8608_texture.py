@@ -14,8 +14,8 @@ n < 1/longest), with I(z) the regularised incomplete beta function of (1/2, w/2)
 from math import gamma, pi, sqrt
 
 import numpy
+import scipy  # its parts are imported on use: they take 0.1 to 0.3 s
 from numpy.typing import NDArray
-from scipy.special import betainc
 
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.periodic import PeriodicTable, synthesise
@@ -78,7 +78,8 @@ class Texture:
         [cycles/m], 0 to 1."""
         upper = numpy.clip(1.0 - (n * self.shortest) ** 2, 0.0, 1.0)
         lower = numpy.clip(1.0 - (n * self.longest) ** 2, 0.0, 1.0)
-        return numpy.asarray(betainc(0.5, 0.5 * self.exponent, upper) - betainc(0.5, 0.5 * self.exponent, lower))
+        share, power = scipy.special.betainc, 0.5 * self.exponent
+        return numpy.asarray(share(0.5, power, upper) - share(0.5, power, lower))
 
     def heights(self, x: NDArray[numpy.float64], y: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """Heights in [m], [len(x), len(y)]; ExcitationError for a track wider than the strip."""

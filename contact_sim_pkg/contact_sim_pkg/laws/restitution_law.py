@@ -23,8 +23,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
+import scipy  # its parts are imported on use: they take 0.1 to 0.3 s
 
 from contact_sim_pkg.compiled.guards import require
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
@@ -136,7 +135,7 @@ def _course(
 
     # A trial step of a runaway motion may overflow; it is taken again
     with numpy.errstate(all="ignore"):
-        return solve_ivp(rate, (0.0, LONGEST), start, "DOP853", events=ends, rtol=1.0e-12, atol=1.0e-14)
+        return scipy.integrate.solve_ivp(rate, (0.0, LONGEST), start, "DOP853", events=ends, rtol=1.0e-12, atol=1.0e-14)
 
 
 def _speed_before(severity: float, restitution: float, n: float, p: float, q: float, lowest_force: float) -> float:
@@ -172,7 +171,7 @@ def _speed_after(
 
     if surplus(1.0) <= 0.0:
         return 1.0
-    return float(brentq(surplus, least, 1.0, xtol=tolerance)) if surplus(least) < 0.0 else 0.0
+    return float(scipy.optimize.brentq(surplus, least, 1.0, xtol=tolerance)) if surplus(least) < 0.0 else 0.0
 
 
 def _holding_margin(severity: float, n: float, p: float, q: float) -> float:
@@ -237,7 +236,9 @@ def _refuse_held(restitution: float, n: float, p: float, q: float, lowest_force:
     if _holding_margin(HIGHEST_SEVERITY, n, p, q) <= 0.0:
         return
     ends = math.log(LEAST_SEVERITY), math.log(HIGHEST_SEVERITY)
-    at_hold = math.exp(brentq(lambda logarithm: _holding_margin(math.exp(logarithm), n, p, q), *ends, xtol=1.0e-6))
+    at_hold = math.exp(
+        scipy.optimize.brentq(lambda logarithm: _holding_margin(math.exp(logarithm), n, p, q), *ends, xtol=1.0e-6)
+    )
     if _speed_before(at_hold, restitution, n, p, q, lowest_force) >= 1.0:
         return
     lowest = _speed_after(at_hold, n, p, q, lowest_force, restitution, 1.0e-5)

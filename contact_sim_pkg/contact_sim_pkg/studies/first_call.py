@@ -7,6 +7,10 @@ from __future__ import annotations
 import json
 import sys
 import time
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
 def main(scene_name: str, *, field: bool = True) -> None:
@@ -14,20 +18,25 @@ def main(scene_name: str, *, field: bool = True) -> None:
     first field solve (null without ``field`` and where there is none).
     """
     began = time.perf_counter()
-    from contact_sim_pkg.records.registry import rigs
     from contact_sim_pkg.run.compilation import reported_compilation
     from contact_sim_pkg.run.rigs import make_simulation
     from contact_sim_pkg.scene.resolve import load_resolved
-    from contact_sim_pkg.studies.cases import objects
 
     scene = load_resolved(scene_name)
-    studies = objects(rigs()[scene.data["rig"]].accuracy, "ACCURACY")
-    first_calls = [each.first_call for each in studies if each.first_call is not None]
-    solved = next((call(scene) for call in first_calls), None) if field else None
+    solved = _first_solve(scene) if field else None
     with reported_compilation(scene, lambda _sentence: None):
         make_simulation(scene).prepare()
     facts = {"simulation": time.perf_counter() - began, "field": solved}
     sys.stdout.write(json.dumps(facts))
+
+
+def _first_solve(scene: ResolvedScene) -> Any:
+    from contact_sim_pkg.records.registry import rigs
+    from contact_sim_pkg.studies.cases import objects
+
+    studies = objects(rigs()[scene.data["rig"]].accuracy, "ACCURACY")
+    first_calls = [each.first_call for each in studies if each.first_call is not None]
+    return next((call(scene) for call in first_calls), None)
 
 
 if __name__ == "__main__":

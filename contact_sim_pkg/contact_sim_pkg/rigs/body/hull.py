@@ -10,8 +10,8 @@ import math
 from typing import NamedTuple
 
 import numpy
+import scipy  # its parts are imported on use: they take 0.1 to 0.3 s
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError
 
 __all__ = ["Hull", "homogeneous_hull"]
 
@@ -34,8 +34,8 @@ def homogeneous_hull(points: list[list[float]], mass: float) -> Hull:
     given = numpy.array(points, dtype=numpy.float64)
     size = given.shape[1]
     try:
-        hull = ConvexHull(given)
-    except (QhullError, ValueError):
+        hull = scipy.spatial.ConvexHull(given)
+    except (scipy.spatial.QhullError, ValueError):
         raise ArithmeticError("the points span no volume") from None
     middle = given.mean(axis=0)
     volume, first, second = 0.0, numpy.zeros(size), numpy.zeros((size, size))

@@ -6,8 +6,8 @@ import time
 from typing import TypeAlias
 
 import numpy
+import scipy  # its parts are imported on use: they take 0.1 to 0.3 s
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.rigid.body import Motion, rise_to_ground
 from contact_sim_pkg.rigid.motion.compliant import CompliantMotion, sentence_of
@@ -136,7 +136,9 @@ class BlockBodySimulation:
             return float(model.force[0] * moved[0] + model.force[2] * moved[1] - model.torque[1] * turned)
         if not model.torque.any():
             return float(model.force @ moved)
-        turns = Rotation.from_matrix(record.rotation[1:] @ record.rotation[:-1].transpose(0, 2, 1)).as_rotvec()
+        turns = scipy.spatial.transform.Rotation.from_matrix(
+            record.rotation[1:] @ record.rotation[:-1].transpose(0, 2, 1)
+        ).as_rotvec()
         return float(model.force @ moved + model.torque @ turns.sum(axis=0))
 
     def _kinetic_potential(self) -> tuple[float, float]:

@@ -10,7 +10,7 @@ and Carlson, 1980), so that no wear is read where nothing is dangerous.
 from __future__ import annotations
 
 import numpy
-from scipy.interpolate import PchipInterpolator
+import scipy  # its parts are imported on use: they take 0.1 to 0.3 s
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.roller.model import RollerModel
@@ -44,7 +44,7 @@ def damage_table(model: RollerModel, body: str = "shaft") -> Table:
     places = numpy.linspace(numpy.cbrt(first), numpy.cbrt(largest), rows)
     shares = numpy.array([0.0, *(_share(model, body, float(place**3)) for place in places[1:])])
     fine = numpy.linspace(places[0], places[-1], FINER * (rows - 1) + 1)
-    read = numpy.maximum(PchipInterpolator(places, shares / places**3)(fine), 0.0) * fine**3
+    read = numpy.maximum(scipy.interpolate.PchipInterpolator(places, shares / places**3)(fine), 0.0) * fine**3
     return numpy.append(0.0, fine**3), numpy.append(0.0, read)
 
 
