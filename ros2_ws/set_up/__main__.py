@@ -3,12 +3,12 @@
 import fcntl
 import os
 import sys
-import time
 
 from . import preflight, stamps
-from .environment import make_environment
+from .environment import make_environment, modules_compiled
 from .errors import MISSING, SetUpError
 from .layout import ENVIRONMENT, WORKSPACE, environment_python
+from .progress import Progress
 from .underlay import Underlay, clean_environ, find_underlay
 from .workspace import build_workspace, is_built
 
@@ -25,14 +25,16 @@ def set_up() -> None:
     _check_machine(underlay, environ)
     if not environment_is_current:
         source = "from PyPI" if underlay.prefix is None else f"in {underlay.prefix}"
-        _say(f"ROS 2 Jazzy {source}, {underlay.python}: making the environment {ENVIRONMENT} (some minutes)")
-        make_environment(underlay, environ)
+        _PROGRESS.say(
+            f"ROS 2 Jazzy {source}, {underlay.python}: making the environment {ENVIRONMENT} (once, about a minute)"
+        )
+        make_environment(underlay, environ, _PROGRESS)
         stamps.write(stamps.ENVIRONMENT_STAMP, key)
-    _say("building contact_msgs_defs and contact_sim_pkg with colcon")
     stamps.WORKSPACE_STAMP.unlink(missing_ok=True)
-    build_workspace(environ)
+    with modules_compiled(environ):
+        build_workspace(environ, _PROGRESS)
     stamps.write(stamps.WORKSPACE_STAMP, build_key)
-    _say("done; `source ros2_ws/setup.bash` puts `bench` on the PATH")
+    _PROGRESS.say("done; `source ros2_ws/setup.bash` puts `bench` on the PATH")
 
 
 def main() -> int:
@@ -45,10 +47,10 @@ def main() -> int:
         set_up()
     except SetUpError as error:
         for fault in error.faults:
-            _say(fault)
+            _PROGRESS.say(fault)
         return error.status
     except KeyboardInterrupt:
-        _say("interrupted; the next call starts over")
+        _PROGRESS.say("interrupted; the next call starts over")
         return 130
     finally:
         os.close(lock)
@@ -59,7 +61,7 @@ def _wait_for(lock: int) -> None:
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        _say("another set-up of this project is at work; waiting for it")
+        _PROGRESS.say("another set-up of this project is at work; waiting for it")
         fcntl.flock(lock, fcntl.LOCK_EX)
 
 
@@ -70,11 +72,7 @@ def _check_machine(underlay: Underlay, environ: dict[str, str]) -> None:
         raise SetUpError(*found, status=MISSING)
 
 
-def _say(sentence: str) -> None:
-    print(f"set-up [{time.monotonic() - _START:3.0f} s]: {sentence}", file=sys.stderr, flush=True)
-
-
-_START = time.monotonic()
+_PROGRESS = Progress(sys.stderr)
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -1,31 +1,52 @@
 """Builds both packages with colcon, on the environment's interpreter."""
 
+import re
 import shutil
-import subprocess
+from pathlib import Path
 
 from .errors import SetUpError
 from .layout import COLCON_DEFAULTS, ENVIRONMENT, PACKAGES, WORKSPACE, environment_python
+from .progress import Count, Progress
 
 _COLCON = "import sys; from colcon_core.command import main; sys.exit(main(argv=sys.argv[1:]))"
+_STEP = re.compile(r"\[(\d+)/(\d+)\]|\[ *(\d+)%\]")  # of ninja, of make
+_HOOK = Path(__file__).parent / "idl_trees"  # read by each generator of messages as it starts
 _IN_ENVIRONMENT = '. "$1/local_setup.sh" && shift && exec "$@"'
 
 
-def build_workspace(environ: dict[str, str]) -> None:
+def build_workspace(environ: dict[str, str], progress: Progress) -> None:
     """Build from scratch: half a build, or one for another environment, is not worth trusting.
 
     Raises SetUpError where colcon fails.
     """
     for folder in ("build", "install", "log"):
         shutil.rmtree(WORKSPACE / folder, ignore_errors=True)
-    environ = environ | {"COLCON_DEFAULTS_FILE": str(COLCON_DEFAULTS), "CMAKE_GENERATOR": _generator(environ)}
-    colcon = [str(environment_python()), "-c", _COLCON, "build"]
+    trees = WORKSPACE / "build" / "idl_trees"
+    trees.mkdir(parents=True)
+    environ = environ | {
+        "COLCON_DEFAULTS_FILE": str(COLCON_DEFAULTS),
+        "CMAKE_GENERATOR": _generator(environ),
+        "IDL_TREES": str(trees),
+        "PYTHONPATH": ":".join(filter(None, (str(_HOOK), environ.get("PYTHONPATH")))),
+        "PYTHONUNBUFFERED": "1",
+    }
+    # what the builds print says how far they are
+    colcon = [str(environment_python()), "-c", _COLCON, "build", "--event-handlers", "console_direct+"]
     command = ["/bin/sh", "-c", _IN_ENVIRONMENT, "sh", str(ENVIRONMENT), *colcon]
-    status = subprocess.run(command, env=environ, cwd=WORKSPACE, check=False, close_fds=False).returncode
+    status = progress.run(command, "building messages and package", environ=environ, cwd=WORKSPACE, count=built)
     if status:
         raise SetUpError(
             f"colcon build ended with {status} (its messages stand above and in {WORKSPACE / 'log' / 'latest_build'}): "
             "correct what it names and call make setup again."
         )
+
+
+def built(line: str) -> Count | None:
+    """Steps of the build that are done, from a line that CMake's generator prints."""
+    match = _STEP.match(line)
+    if match is None:
+        return None
+    return Count(int(match[3]), 100) if match[3] else Count(int(match[1]), int(match[2]))
 
 
 def is_built() -> bool:

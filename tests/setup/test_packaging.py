@@ -4,9 +4,12 @@ import ast
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
+from contextlib import suppress
+from importlib.metadata import PackageNotFoundError, requires
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
 
 from set_up.environment import system_requirements
 
@@ -40,6 +43,18 @@ def test_no_name_is_locked_twice_for_the_same_python():
 
 def test_the_lock_holds_all_102_wheels_of_ros():
     assert sum(line.startswith("ros-") for line in pins()) == 102
+
+
+def test_the_lock_holds_all_that_its_packages_ask_for():
+    """Installers look for nothing beyond it; of pytest's plug-ins colcon needs none to build."""
+    asked = set()
+    locked = {re.split(r"[\[=]", line)[0].lower().replace("_", "-") for line in pins()}
+    for name in locked:
+        with suppress(PackageNotFoundError):  # of another version of Python
+            asked |= {text for text in requires(name) or [] if "extra ==" not in text and applies(text)}
+    names = {re.split(r"[ \[<>=!~;(]", text)[0].lower().replace("_", "-") for text in asked}
+    assert len(names) > 50
+    assert names - locked == {"pytest-cov", "pytest-repeat", "pytest-rerunfailures"}
 
 
 def test_every_dependency_of_setup_py_is_locked():
@@ -120,6 +135,11 @@ def test_a_sourced_ros_keeps_its_own_numpy_and_generators():
 def test_no_unneeded_bag_or_build_product_is_tracked():
     ignored = (PROJECT / ".gitignore").read_text().splitlines()
     assert {"/.ros2/", "/ros2_ws/build/", "/ros2_ws/install/", "/ros2_ws/log/", "/bags/*"} <= set(ignored)
+
+
+def applies(text: str) -> bool:
+    marker = Requirement(text).marker
+    return marker is None or marker.evaluate()
 
 
 def top_level_imports(path: Path) -> set[str]:
