@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from contact_sim_pkg.cli.output.progress import RunDisplay
 from contact_sim_pkg.cli.output.tables import overwrite_option
 
 
@@ -27,9 +28,6 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_ver
     """
     from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.bag.versions import differences_from, differences_of_bags, installed_versions
-    from contact_sim_pkg.report.comparison.runs import write_comparison
-    from contact_sim_pkg.report.reading import scenes_fit
-    from contact_sim_pkg.report.report import write_report
     from contact_sim_pkg.run.bag_content import kernel_fingerprint
 
     recorded = [open_bag(bag, skip_bad=skip_bad) for bag in bags]
@@ -43,10 +41,21 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_ver
     ]
     for line in filter(None, others):
         click.echo(line, err=True)
-    with scenes_fit(recorded):
-        page = (
-            write_report(recorded[0], out, overwrite=overwrite)
-            if len(recorded) == 1
-            else write_comparison(recorded, out, overwrite=overwrite)
-        )
+    begin = "report: reading the bag" if len(bags) == 1 else "report: comparing the bags"
+    with RunDisplay(1.0, begin, "section") as display:
+
+        def on_section(number: int, count: int, title: str) -> None:
+            display.update(number / count, f"report: section {number + 1} of {count}, {title}")
+
+        # the libraries of pictures are loaded under the display
+        from contact_sim_pkg.report.comparison.runs import write_comparison
+        from contact_sim_pkg.report.reading import scenes_fit
+        from contact_sim_pkg.report.report import write_report
+
+        with scenes_fit(recorded):
+            page = (
+                write_report(recorded[0], out, overwrite=overwrite, on_section=on_section)
+                if len(recorded) == 1
+                else write_comparison(recorded, out, overwrite=overwrite)
+            )
     click.echo(f"report: {page}")

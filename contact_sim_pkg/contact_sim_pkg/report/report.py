@@ -4,6 +4,8 @@ anything to load.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from contact_sim_pkg.bag.reader import Bag
@@ -24,14 +26,20 @@ from contact_sim_pkg.report.tiles import tiles
 TEMPLATE = "report.html.j2"
 FILE_NAME = "report.html"
 
+OnSection = Callable[[int, int, str], object]
+"""Called before a section is drawn: its number from 0, the number of sections, its name."""
 
-def write_report(bag: Bag, out: Path | None = None, *, overwrite: bool = False) -> Path:
+
+def write_report(
+    bag: Bag, out: Path | None = None, *, overwrite: bool = False, on_section: OnSection = lambda *_: None
+) -> Path:
     """Write the report of a bag.
 
     Args:
         bag: opened with `open_bag`; unfinished bags give a report of what they hold.
         out: file to write; a page of this command is made again, another
             file only by `overwrite`; `report.html` in the bag's directory where it is None.
+        on_section: called before each section.
 
     Returns:
         Where the page is.
@@ -44,13 +52,13 @@ def write_report(bag: Bag, out: Path | None = None, *, overwrite: bool = False) 
     read = (bag.path, bag.path.parent)
     check_output(path, read, overwrite=overwrite, ours=is_page)
     # Everything is read before the file is touched
-    page = render(read_recording(bag))
+    page = render(read_recording(bag), on_section)
     with new_file(path, read, overwrite=overwrite, ours=is_page) as file:
         file.write(page.encode())
     return path
 
 
-def render(recording: Recording) -> str:
+def render(recording: Recording, on_section: OnSection = lambda *_: None) -> str:
     """The page as text. Everything that comes from the bag is escaped."""
     summary = summarise_recording(recording)
     page: str = (
@@ -68,7 +76,7 @@ def render(recording: Recording) -> str:
             excitations=facts.excitation_facts(recording),
             versions=facts.version_rows(recording),
             scene=scene_rows(recording.scene),
-            sections=sections(recording),
+            sections=sections(recording, on_section),
             topics=recording.topics,
             duration=recording.duration,
         )
@@ -76,18 +84,24 @@ def render(recording: Recording) -> str:
     return page
 
 
-def sections(recording: Recording) -> list[Section]:
+def sections(recording: Recording, on_section: OnSection = lambda *_: None) -> list[Section]:
     """Sections with pictures, in the order of the page; what the scene lacks has none."""
+    drawn: list[tuple[str, Callable[[], list[Section]]]] = [
+        (name, partial(_contact_sections, number, name, recording)) for number, name in enumerate(recording.contacts)
+    ]
+    for report in rig_reports.reports_of(recording):
+        if report.closing_sections:
+            drawn.append((report.contact, partial(load(report.closing_sections), recording)))
+    ledger, cost = recording.ledger, recording.cost
+    if ledger is not None:
+        drawn.append(("energy", lambda: [Section("energy", "Energy", [energy_balance(ledger)])]))
+    if cost is not None:
+        drawn.append(("cost", lambda: [Section("cost", "Cost", [real_time_factor(cost)])]))
+    found: list[Section] = []
     with style():
-        found: list[Section] = []
-        for number, name in enumerate(recording.contacts):
-            found += _contact_sections(number, name, recording)
-        for report in rig_reports.reports_of(recording):
-            found += load(report.closing_sections)(recording) if report.closing_sections else []
-        if recording.ledger is not None:
-            found.append(Section("energy", "Energy", [energy_balance(recording.ledger)]))
-        if recording.cost is not None:
-            found.append(Section("cost", "Cost", [real_time_factor(recording.cost)]))
+        for number, (name, draw) in enumerate(drawn):
+            on_section(number, len(drawn), name)
+            found += draw()
     return [section for section in found if section.pictures]
 
 

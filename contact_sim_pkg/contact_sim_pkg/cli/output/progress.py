@@ -1,4 +1,4 @@
-"""Live progress of a run on standard error."""
+"""Live progress of a run, a replay or a report on standard error."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Protocol
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-PLAIN_SECONDS = 4.0  # between two lines where standard error is no terminal
+PLAIN_SECONDS = 3.0  # between two lines where standard error is no terminal
 
 
 class DisplayedProgress(Protocol):
@@ -41,13 +41,13 @@ class DisplayedProgress(Protocol):
 
 
 class RunDisplay:
-    """A bar on a terminal, a line every five seconds elsewhere; lines of the nodes go above the
-    bar.
+    """A bar on a terminal; elsewhere a line at the start, at the first block, and every three
+    seconds. Lines of the nodes go above the bar.
     """
 
-    def __init__(self, duration: float, begin: str = "0 s: set-up, or the first block", item: str = "block") -> None:
-        """Prepare for a run or a replay of `duration` simulated seconds; nothing is shown before it
-        is entered.
+    def __init__(self, duration: float, begin: str = "starting", item: str = "block") -> None:
+        """Prepare for a run or a replay of `duration` simulated seconds, or for so many sections of
+        a report; nothing is shown before it is entered.
 
         `begin` is shown before the first update; `item` is named where nothing moves.
         """
@@ -58,7 +58,7 @@ class RunDisplay:
         self._over = threading.Event()
         columns = (BarColumn(24), TextColumn("{task.description}"), TimeRemainingColumn())
         self._bar = Progress(*columns, console=self._console, transient=True, disable=not self._console.is_terminal)
-        self._task = self._bar.add_task("starting", total=duration)
+        self._task = self._bar.add_task(begin, total=duration)
 
     def show(self, progress: DisplayedProgress) -> None:
         """Show the state of the run."""
@@ -76,26 +76,26 @@ class RunDisplay:
 
     def show_set_up(self, text: str) -> None:
         """Show what is done before the first block."""
-        if text != self._text:
-            self._moved = time.monotonic()
         self.update(0.0, text)
 
     def update(self, completed: float, text: str) -> None:
         """Show how much of the duration is done, [s], and a text."""
         now = time.monotonic()
-        if completed != self._completed:
-            self._completed, self._moved = completed, now
-        self._text = text
-        if now - self._moved > PLAIN_SECONDS:
-            text = f"{self._text}; no further {self._item} for {now - self._moved:.0f} s"
+        first = self._completed == 0.0 < completed
+        if completed != self._completed or (completed == 0.0 and text != self._text):
+            self._moved = now
+        self._completed, self._text = completed, text
+        held = now - self._moved
+        if held > PLAIN_SECONDS:
+            text += f"; no further {self._item} for {held:.0f} s" if completed else f" (for {held:.0f} s)"
         if self._console.is_terminal:
             self._bar.update(self._task, completed=completed, description=text)
-        elif time.monotonic() - self._printed > PLAIN_SECONDS:
-            self._printed = time.monotonic()
+        elif first or now - self._printed > PLAIN_SECONDS:
+            self._printed = now
             self.print_line(text)
 
     def _repeat(self) -> None:
-        """Repeat the text while a block lasts long."""
+        """Repeat the text while a block, or a section, lasts long."""
         while not self._over.wait(0.5):
             self.update(self._completed, self._text)
 
@@ -106,6 +106,8 @@ class RunDisplay:
     def __enter__(self) -> RunDisplay:
         """Start the bar."""
         self._bar.start()
+        if not self._console.is_terminal:
+            self.print_line(self._text)
         threading.Thread(target=self._repeat, daemon=True).start()
         return self
 

@@ -4,6 +4,8 @@ traceback.
 
 from __future__ import annotations
 
+import atexit
+import gc
 import os
 import signal
 import threading
@@ -156,6 +158,7 @@ def _change_policy(usual: int, wanted: int) -> None:
 
 def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
     """Run one node until it ends or a signal comes; returns the exit status of the process."""
+    atexit.register(gc.freeze)  # the process ends without looking through every object
     signals = StopSignals()
     node: Any = None
     try:
