@@ -3,12 +3,13 @@
 import fcntl
 import os
 import sys
+import time
 
 from . import preflight, stamps
 from .environment import make_environment, modules_compiled
 from .errors import MISSING, SetUpError
 from .layout import ENVIRONMENT, WORKSPACE, environment_python
-from .progress import Progress
+from .progress import LOOK, Progress
 from .underlay import Underlay, clean_environ, find_underlay
 from .workspace import build_workspace, is_built
 
@@ -58,11 +59,12 @@ def main() -> int:
 
 
 def _wait_for(lock: int) -> None:
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        _PROGRESS.say("another set-up of this project is at work; waiting for it")
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    while True:
+        try:
+            return fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            _PROGRESS.show("waiting for another set-up of this project")
+            time.sleep(LOOK)
 
 
 def _check_machine(underlay: Underlay, environ: dict[str, str]) -> None:

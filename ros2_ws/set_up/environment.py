@@ -37,7 +37,7 @@ def make_environment(underlay: Underlay, environ: dict[str, str], progress: Prog
 
     Raises SetUpError where venv or pip fail.
     """
-    _remove(ENVIRONMENT)
+    progress.remove(ENVIRONMENT)
     options = [] if underlay.prefix is None else ["--system-site-packages"]
     command = [str(underlay.python), "-m", "venv", *options, str(ENVIRONMENT)]
     if progress.run(command, "making the virtual environment", environ=environ, cwd=Path("/")):
@@ -107,7 +107,7 @@ class Packages:
         self._downloaded += words[:2] == ["", "Downloaded"]
         if self._collected:
             return Count(min(self._collected, self._total), self._total)
-        return Count(self._downloaded, self._begun) if self._begun else None
+        return Count(self._downloaded, self._begun, "downloads") if self._begun else None
 
 
 def _install(underlay: Underlay, environ: dict[str, str], progress: Progress) -> None:
@@ -132,14 +132,14 @@ def _install(underlay: Underlay, environ: dict[str, str], progress: Progress) ->
     if variables is not None:
         (uv_pin,) = [pin for pin in lines if _name(pin) == "uv"]
         uv = [str(ENVIRONMENT / "bin" / "uv"), "pip", "install", "--python", python]
-        if succeeds([*install, uv_pin], "installing uv, which installs the rest", Packages(1)) and succeeds(
+        if succeeds([*install, uv_pin], "installing uv, the installer", Packages(1)) and succeeds(
             [*uv, *options],
-            f"installing {len(lines)} packages by uv, large ones downloaded",
+            f"installing {len(lines)} packages",
             Packages(0),
             variables | environ,
         ):
             return
-    what = f"installing {len(lines)} packages by pip, some minutes"
+    what = "installing packages by pip, some minutes"
     if not succeeds([*install, "--prefer-binary", *options], what, Packages(len(lines))):
         raise SetUpError(
             "the locked packages could not be installed (pip's message stands above): "
@@ -172,10 +172,3 @@ def _cmake_version(environ: dict[str, str]) -> tuple[int, int]:
     shown = subprocess.run(["cmake", "--version"], env=environ, capture_output=True, text=True, check=False).stdout
     match = re.search(r"version (\d+)\.(\d+)", shown)
     return (int(match[1]), int(match[2])) if match else (0, 0)
-
-
-def _remove(folder: Path) -> None:
-    if folder.is_symlink() or folder.is_file():
-        folder.unlink()
-    elif folder.exists():
-        shutil.rmtree(folder)

@@ -19,8 +19,7 @@ def build_workspace(environ: dict[str, str], progress: Progress) -> None:
 
     Raises SetUpError where colcon fails.
     """
-    for folder in ("build", "install", "log"):
-        shutil.rmtree(WORKSPACE / folder, ignore_errors=True)
+    progress.remove(*(WORKSPACE / folder for folder in ("build", "install", "log")))
     trees = WORKSPACE / "build" / "idl_trees"
     trees.mkdir(parents=True)
     environ = environ | {

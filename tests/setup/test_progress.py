@@ -78,9 +78,9 @@ def test_on_a_terminal_one_line_is_drawn_again_as_a_bar(tmp_path):
     drawn = b"".join(pieces).decode()
     left = [line.rsplit("\x1b[K", 1)[-1].strip() for line in drawn.split("\n")]
     assert [line.partition("]: ")[2] for line in left] == ["building", "done", ""]
-    bars = re.findall(r"\r\x1b\[Kset-up \[ *\d+ s\]: ([█░]{24}) building(?:, (\d) of 3)?", drawn)
+    bars = re.findall(r"\r\x1b\[Kset-up \[ *\d+ s\]: ([█░]{16}) building(?:, (\d) of 3)?", drawn)
     assert {done for _, done in bars} >= {"1", "2", "3"}
-    assert all(bar.count("█") == 8 * int(done or 0) for bar, done in bars)
+    assert all(bar.count("█") == 16 * int(done or 0) // 3 for bar, done in bars)
 
 
 def test_what_a_failing_program_printed_is_shown_with_its_status():
@@ -88,6 +88,29 @@ def test_what_a_failing_program_printed_is_shown_with_its_status():
     status, _ = run(stream, ["/bin/sh", "-c", "echo on out; echo on err >&2; exit 3"])
     assert status == 3
     assert "on out\non err\n" in stream.getvalue()
+
+
+def test_waiting_is_said_at_once_and_again():
+    stream = io.StringIO()
+    shown = Progress(stream, Clock())
+    for _ in range(20):
+        shown.show("waiting")
+    at = [int(re.match(r"set-up \[ *(\d+) s\]: waiting$", line)[1]) for line in stream.getvalue().splitlines()]
+    assert at[0] <= 3
+    assert len(at) > 5
+    assert max(later - earlier for earlier, later in pairwise(at)) <= 5
+
+
+def test_what_was_made_before_is_removed_and_what_is_missing_is_no_fault(tmp_path):
+    (tmp_path / "build" / "deep").mkdir(parents=True)
+    stream = io.StringIO()
+    shown = Progress(stream)
+    shown.remove(tmp_path / "build", tmp_path / "install")
+    assert list(tmp_path.iterdir()) == []
+    assert "removing the old build, install" in stream.getvalue()
+    said = len(stream.getvalue())
+    shown.remove(tmp_path / "build", tmp_path / "install")
+    assert len(stream.getvalue()) == said
 
 
 def test_what_a_program_that_succeeds_printed_is_not_shown():
@@ -101,7 +124,7 @@ def test_what_a_program_that_succeeds_printed_is_not_shown():
     [
         (["Collecting numpy==2.2.6", "  Downloading numpy-2.2.6.whl", "Collecting scipy"], Count(2, 9)),
         (["Resolved 9 packages in 1.2s", "Downloading scipy (33.7MiB)", "Downloading numpy (16.0MiB)",
-          " Downloaded numpy"], Count(1, 2)),
+          " Downloaded numpy"], Count(1, 2, "downloads")),
         (["Resolved 9 packages in 1.2s", "Installed 9 packages in 58ms"], None),
     ],
 )  # fmt: skip
