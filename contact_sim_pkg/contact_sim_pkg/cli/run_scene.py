@@ -116,7 +116,9 @@ def _report_outcome(scene: ResolvedScene, ended: RunEnd, forecast: dict[str, Any
     if ended.exit_status == 2:
         return 2
     hint = _leave_metadata(scene, ended)
-    facts = describe(scene, ended) | forecast
+    # the recording is read for its summary
+    with RunDisplay(1.0, "summing up"):
+        facts = describe(scene, ended) | forecast
     if as_json:
         print_json(facts)
     else:
