@@ -27,7 +27,7 @@ setup:  ## make the environment in .ros2/ and build the workspace; does nothing 
 	@$(SET_UP)
 
 run:  ## run the full bench on real nodes, record a bag, write its report
-	@SECONDS=0; bag="bags/car_full_bench_$$(date +%Y-%m-%d_%H-%M-%S)"; $(ENTER) && \
+	@SECONDS=0; bag="bags/car_full_bench_$$(date +%Y-%m-%d_%H-%M-%S)"; echo "make run: the full bench, recorded in $$bag"; $(ENTER) && \
 	bench run car_full_bench --pace max --out "$$bag" && bench report "$$bag"; $(REPORT_TIME)
 
 check: lint  ## check style, format and types, run the tests that need neither compiler nor ROS nor programs; for every edit

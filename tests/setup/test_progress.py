@@ -5,12 +5,11 @@ import os
 import re
 import subprocess
 import sys
-import threading
-from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from tests.terminal import Terminal
 
 from set_up.environment import Packages, uv_variables
 from set_up.progress import Count, Progress
@@ -61,21 +60,9 @@ def test_without_a_terminal_no_five_seconds_pass_without_a_line_and_none_is_a_fl
 
 
 def test_on_a_terminal_one_line_is_drawn_again_as_a_bar(tmp_path):
-    master, terminal = os.openpty()
-    pieces: list[bytes] = []
-
-    def read() -> None:
-        with suppress(OSError):  # the other end is closed
-            while True:
-                pieces.append(os.read(master, 65536))
-
-    reader = threading.Thread(target=read)
-    reader.start()
-    with open(terminal, "w") as stream:
-        run(stream, slow_program(tmp_path), count=built)
-    reader.join()
-    os.close(master)
-    drawn = b"".join(pieces).decode()
+    with Terminal() as terminal:
+        run(terminal.stream, slow_program(tmp_path), count=built)
+    drawn = terminal.drawn
     left = [line.rsplit("\x1b[K", 1)[-1].strip() for line in drawn.split("\n")]
     assert [line.partition("]: ")[2] for line in left] == ["building", "done", ""]
     bars = re.findall(r"\r\x1b\[Kset-up \[ *\d+ s\]: ([█░]{16}) building(?:, (\d) of 3)?", drawn)

@@ -1,11 +1,11 @@
 """What a run shows of itself on standard error."""
 
-import os
 import sys
 from itertools import pairwise
 from types import SimpleNamespace
 
 import pytest
+from tests.terminal import Terminal
 
 from contact_sim_pkg.cli.output import progress
 from contact_sim_pkg.run.offline import RunProgress
@@ -49,15 +49,13 @@ def test_elsewhere_than_on_a_terminal_a_line_comes_at_the_first_block_and_every_
 
 
 def test_on_a_terminal_a_bar_is_drawn_on_standard_error_and_removed(capfd, monkeypatch):
-    master, terminal = os.openpty()
-    with open(terminal, "w") as stream:
-        monkeypatch.setattr(sys, "stderr", stream)
+    with Terminal() as terminal:
+        monkeypatch.setattr(sys, "stderr", terminal.stream)
         monkeypatch.setenv("TERM", "xterm")
         with progress.RunDisplay(10.0) as display:
             display.update(5.0, "5.00 of 10 s")
             display._bar.refresh()
-    drawn = os.read(master, 65536).decode()
-    os.close(master)
+    drawn = terminal.drawn
     assert "5.00 of 10 s" in drawn
     assert "━" in drawn
     assert drawn.rstrip().endswith("\x1b[2K")  # the line is empty again

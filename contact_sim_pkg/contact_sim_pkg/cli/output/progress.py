@@ -58,7 +58,7 @@ class RunDisplay:
         self._over = threading.Event()
         columns = (BarColumn(24), TextColumn("{task.description}"), TimeRemainingColumn())
         self._bar = Progress(*columns, console=self._console, transient=True, disable=not self._console.is_terminal)
-        self._task = self._bar.add_task(begin, total=duration)
+        self._task = self._bar.add_task(begin, total=None)
 
     def show(self, progress: DisplayedProgress) -> None:
         """Show the state of the run."""
@@ -89,7 +89,9 @@ class RunDisplay:
         if held > PLAIN_SECONDS:
             text += f"; no further {self._item} for {held:.0f} s" if completed else f" (for {held:.0f} s)"
         if self._console.is_terminal:
-            self._bar.update(self._task, completed=completed, description=text)
+            # without a total the bar moves to and fro
+            total = self._duration if completed else None
+            self._bar.update(self._task, total=total, completed=completed, description=text)
         elif first or now - self._printed > PLAIN_SECONDS:
             self._printed = now
             self.print_line(text)
