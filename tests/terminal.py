@@ -10,7 +10,7 @@ class Terminal:
 
     def __enter__(self) -> "Terminal":
         self._reading, writing = os.openpty()
-        self.stream = open(writing, "w")  # noqa: SIM115
+        self.stream = open(writing, "w")
         self._pieces: list[bytes] = []
         self._reader = threading.Thread(target=self._read)
         self._reader.start()
