@@ -1,5 +1,6 @@
 """Builds both packages with colcon, on the environment's interpreter."""
 
+import os
 import re
 import shutil
 from pathlib import Path
@@ -26,6 +27,8 @@ def build_workspace(environ: dict[str, str], progress: Progress) -> None:
         "COLCON_DEFAULTS_FILE": str(COLCON_DEFAULTS),
         "CMAKE_GENERATOR": _generator(environ),
         "IDL_TREES": str(trees),
+        # else colcon has one compilation at a time on a busy machine
+        "MAKEFLAGS": environ.get("MAKEFLAGS") or f"-j{len(os.sched_getaffinity(0))}",
         "PYTHONPATH": ":".join(filter(None, (str(_HOOK), environ.get("PYTHONPATH")))),
         "PYTHONUNBUFFERED": "1",
     }
