@@ -28,7 +28,7 @@ def build_workspace(environ: dict[str, str], progress: Progress) -> None:
         "CMAKE_GENERATOR": _generator(environ),
         "IDL_TREES": str(trees),
         # else colcon has one compilation at a time on a busy machine
-        "MAKEFLAGS": environ.get("MAKEFLAGS") or f"-j{len(os.sched_getaffinity(0))}",
+        "MAKEFLAGS": f"-j{len(os.sched_getaffinity(0))}",
         "PYTHONPATH": ":".join(filter(None, (str(_HOOK), environ.get("PYTHONPATH")))),
         "PYTHONUNBUFFERED": "1",
     }

@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 from tests.terminal import Terminal
 
-from set_up.environment import Packages, uv_variables
 from set_up.progress import Count, Progress
 from set_up.workspace import built
 
@@ -107,20 +106,6 @@ def test_what_a_program_that_succeeds_printed_is_not_shown():
 
 
 @pytest.mark.parametrize(
-    ("lines", "counted"),
-    [
-        (["Collecting numpy==2.2.6", "  Downloading numpy-2.2.6.whl", "Collecting scipy"], Count(2, 9)),
-        (["Resolved 9 packages in 1.2s", "Downloading scipy (33.7MiB)", "Downloading numpy (16.0MiB)",
-          " Downloaded numpy"], Count(1, 2, "downloads")),
-        (["Resolved 9 packages in 1.2s", "Installed 9 packages in 58ms"], None),
-    ],
-)  # fmt: skip
-def test_packages_are_counted_in_the_lines_of_pip_and_of_uv(lines, counted):
-    packages = Packages(9)
-    assert [packages(line) for line in lines][-1] == counted
-
-
-@pytest.mark.parametrize(
     ("line", "counted"),
     [
         ("[12/102] Building C object x.c.o", Count(12, 102)),
@@ -130,27 +115,6 @@ def test_packages_are_counted_in_the_lines_of_pip_and_of_uv(lines, counted):
 )
 def test_steps_of_a_build_are_read_from_ninja_and_from_make(line, counted):
     assert built(line) == counted
-
-
-def test_uv_looks_for_packages_where_pip_is_told_to():
-    configured = (
-        ":env:.extra-index-url='https://a.example https://b.example'\n"
-        ":env:.index-url='https://here.example'\n"
-        "global.find-links='\\n/one\\n/two'\n"
-        "global.index-url='https://there.example'\n"
-        "global.timeout='60'\n"
-    )
-    assert uv_variables(configured) == {
-        "UV_DEFAULT_INDEX": "https://here.example",
-        "UV_INDEX": "https://a.example https://b.example",
-        "UV_FIND_LINKS": "/one,/two",
-    }
-    assert uv_variables("") == {}
-
-
-def test_pip_installs_by_itself_where_it_is_told_what_uv_cannot_be():
-    assert uv_variables("global.proxy='http://proxy.example'\n") is None
-    assert uv_variables(":env:.no-index='1'\n") is None
 
 
 def test_a_message_definition_is_parsed_by_the_first_generator_alone(tmp_path):
