@@ -73,6 +73,7 @@ class Start:
             "kernel_cache.py",
             "linking.py",
             "sources.py",
+            "transforms.py",
         ):
             shutil.copy(PACKAGE / "compiled" / name, self.package / "compiled" / name)
         (self.laws / "helper.py").write_text(HELPER)

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.guards import require_count, require_positive, require_values
 from contact_sim_pkg.compiled.jit import entry, kernel
-from contact_sim_pkg.pressure.field.transforms import rocket_fft
+from contact_sim_pkg.compiled.transforms import rocket_fft
 
 __all__ = ["Buffers", "HalfSpace", "coarsened", "displacement", "make_buffers", "make_half_space", "part_of"]
 
