@@ -57,8 +57,10 @@ def modules_compiled(environ: dict[str, str]) -> Iterator[None]:
         ["nice", "-n", "19", *compile_all], env=environ, cwd="/", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         close_fds=False,
     ) as program:  # fmt: skip
-        yield
-        program.terminate()
+        try:
+            yield
+        finally:
+            program.terminate()
 
 
 def system_requirements(lock: Iterable[str], system_has_colcon: bool) -> list[str]:
