@@ -16,7 +16,10 @@ POLICY = ROOT / "contact_sim_pkg" / "config" / "sros2_policy.xml"
 
 UNSAFE_IMPORTS = {"pickle", "cPickle", "dill", "marshal", "shelve", "joblib", "cloudpickle"}
 UNSAFE_CALLS = {"eval", "exec", "compile", "os.system", "os.popen", "yaml.load", "__import__"}
-TRUSTED = {"kernel_cache.py"}  # numba's cache is pickled: of the user alone, with a hash in front (tests of G3)
+TRUSTED = {
+    "kernel_cache.py",  # numba's cache is pickled: of the user alone, with a hash in front (tests of G3)
+    "sitecustomize.py",  # set-up: trees of one build, in the folder of the build that the same build has emptied
+}
 
 
 def unsafe_in(path: Path) -> list[str]:
