@@ -40,4 +40,7 @@ def _first_solve(scene: ResolvedScene) -> Any:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], field="--no-field" not in sys.argv)
+    try:
+        main(sys.argv[1], field="--no-field" not in sys.argv)
+    except KeyboardInterrupt:
+        sys.exit(130)
