@@ -1,8 +1,9 @@
 """The elastic law of a contact, picked by the class of its parameters when a rig is compiled: power
-law, or foam.
+law, foam or table.
 
 The functions are those of ``laws/normal_elastic.py``, and call them for a ``NormalElastic``; a
-``FoamElastic`` has its own (``laws/foam_elastic.py``). Rigs and dissipative laws call these. Called
+``FoamElastic`` and a ``TabulatedElastic`` have their own (``laws/foam_elastic.py``,
+``laws/tabulated_elastic.py``). Rigs and dissipative laws call these. Called
 from Python they check what they are given: a law within its range (``laws/parameters.py``), an
 argument that is a number, a result within the range of numbers; compiled they check nothing.
 """
@@ -17,7 +18,8 @@ from contact_sim_pkg.compiled.guards import require, require_positive
 from contact_sim_pkg.compiled.jit import kernel_overload
 from contact_sim_pkg.laws import foam_elastic as foam
 from contact_sim_pkg.laws import normal_elastic as power
-from contact_sim_pkg.laws.parameters import ElasticLaw, FoamElastic
+from contact_sim_pkg.laws import tabulated_elastic as table
+from contact_sim_pkg.laws.parameters import ElasticLaw, FoamElastic, TabulatedElastic
 
 Kernels = tuple[Callable[..., Any], ...]
 _POWER: Kernels = (
@@ -26,6 +28,10 @@ _POWER: Kernels = (
 _OF_LAW: dict[Any, Kernels] = {
     FoamElastic: (
         foam.foam_force, foam.foam_order, foam.foam_stiffness, foam.foam_energy, foam.foam_approach_of_force,
+    ),
+    TabulatedElastic: (
+        table.tabulated_force, table.tabulated_order, table.tabulated_stiffness, table.tabulated_energy,
+        table.tabulated_approach_of_force,
     ),
 }  # fmt: skip
 
@@ -82,6 +88,8 @@ def check_elastic(elastic: ElasticLaw) -> None:
                 f"foam densification is {elastic.densification} Pa, modulus {elastic.modulus} Pa and plateau {elastic.plateau} "
                 "Pa: the first must be 0 or above, the modulus above the plateau"
             )
+    elif isinstance(elastic, TabulatedElastic):
+        require_positive("table spacing", elastic.spacing)
     else:
         require_positive("elastic coefficient", elastic.coefficient)
         require_positive("elastic exponent", elastic.exponent)

@@ -16,10 +16,16 @@ fitted.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.jit import kernel
 from contact_sim_pkg.laws.parameters import FoamElastic
 
+Field = NDArray[numpy.float64]
 GREATEST_STRAIN = 0.999
 NEWTON_STEPS = 200
 SERIES_BELOW = 1.0e-2  # the first term left out is then below 1e-16
@@ -38,9 +44,9 @@ def _excess(power, logarithm):
 @kernel
 def foam_stress(foam: FoamElastic, strain: float) -> float:
     """Compressive stress in [Pa], positive, at ``strain`` 0 to 0.999."""
-    logarithm = math.log1p(-strain)
-    first = math.expm1(-logarithm) - math.expm1((foam.modulus / foam.plateau - 1.0) * logarithm)
-    second = math.expm1(-(foam.densification_exponent + 1.0) * logarithm) - math.expm1(-logarithm)
+    logarithm = numpy.log1p(-strain)
+    first = numpy.expm1(-logarithm) - numpy.expm1((foam.modulus / foam.plateau - 1.0) * logarithm)
+    second = numpy.expm1(-(foam.densification_exponent + 1.0) * logarithm) - numpy.expm1(-logarithm)
     return foam.plateau * first + foam.densification * second
 
 
@@ -135,3 +141,31 @@ def foam_approach_of_force(foam: FoamElastic, force: float) -> float:
             return following
         x = following
     return x
+
+
+def column_stresses(foam: FoamElastic, strain: Field) -> Field:
+    """Stress [Pa] of many columns at ``strain``, of any shape and below 0.999; with the modulus of
+    first contact where the strain is negative.
+    """
+    return numpy.where(strain > 0.0, _of_columns(foam_stress, foam, strain), _first_modulus(foam) * strain)
+
+
+def column_tangent_moduli(foam: FoamElastic, strain: Field) -> Field:
+    """d(stress)/d(strain) [Pa] of many columns, as ``column_stresses``."""
+    return _of_columns(foam_tangent_modulus, foam, strain)
+
+
+def column_energies(foam: FoamElastic, strain: Field) -> Field:
+    """Energy per volume [J/m^3] of many columns, as ``column_stresses``."""
+    density = numpy.vectorize(getattr(_energy_density, "py_func", _energy_density), excluded=(0,), otypes=[float])
+    return numpy.where(strain > 0.0, density(foam, numpy.maximum(strain, 0.0)), 0.5 * _first_modulus(foam) * strain**2)
+
+
+def _first_modulus(foam: FoamElastic) -> float:
+    """Tangent modulus [Pa] at first contact."""
+    return foam.modulus + foam.densification_exponent * foam.densification
+
+
+def _of_columns(law: Callable[..., Any], foam: FoamElastic, strain: Field) -> Field:
+    """A law written for numbers, as Python, of the positive part of each strain."""
+    return numpy.asarray(getattr(law, "py_func", law)(foam, numpy.maximum(strain, 0.0)))

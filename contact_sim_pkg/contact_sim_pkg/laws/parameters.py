@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import NamedTuple, TypeAlias
 
+from contact_sim_pkg.compiled.arrays import Vector
+
 
 class NormalElastic(NamedTuple):
     """Elastic normal law F = coefficient * approach**exponent."""
@@ -29,7 +31,19 @@ class FoamElastic(NamedTuple):
     densification_exponent: float  # r, > 0
 
 
-ElasticLaw: TypeAlias = NormalElastic | FoamElastic
+class TabulatedElastic(NamedTuple):
+    """Elastic law by a table of forces, cubic between them (``laws/tabulated_elastic.py``)."""
+
+    spacing: float  # [m] between the approaches of the table, > 0
+    pieces: Vector  # [nodes, 5] energy [J], force [N], slope [N/m], second and third coefficient, from each node on
+
+    @property
+    def reach(self) -> float:
+        """Last approach [m] of the table; beyond it the slope stays."""
+        return self.spacing * (len(self.pieces) - 1)
+
+
+ElasticLaw: TypeAlias = NormalElastic | FoamElastic | TabulatedElastic
 
 
 class NormalDissipative(NamedTuple):

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.laws.foam_elastic import foam_force
-from contact_sim_pkg.laws.parameters import ElasticLaw, FoamElastic, NormalElastic
+from contact_sim_pkg.laws.parameters import ElasticLaw, FoamElastic, NormalElastic, TabulatedElastic
 
 Field = NDArray[numpy.float64]
 
@@ -42,6 +42,8 @@ def _form_of(elastic: ElasticLaw, depth: Field) -> Field:
     """Pressure of the bed at each depth in [m], up to a factor."""
     if isinstance(elastic, NormalElastic):
         return numpy.where(depth > 0.0, numpy.maximum(depth, 0.0) ** (elastic.exponent - 1.0), 0.0)
+    if isinstance(elastic, TabulatedElastic):
+        raise ValueError("the law by a table is that of a cushion, which has maps of its own")
     form = numpy.empty_like(depth)
     _foam_columns(elastic, depth, form)
     return form

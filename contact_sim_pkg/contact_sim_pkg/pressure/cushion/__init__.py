@@ -1,0 +1,1 @@
+"""Pressure field of a foam cushion of finite thickness, and the force law that is its integral."""

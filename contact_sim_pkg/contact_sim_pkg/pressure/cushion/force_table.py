@@ -1,0 +1,78 @@
+"""Force and pressure maps of a cushion at evenly spaced approaches: the force law of a run, and the
+map that belongs to it, from the same solutions.
+
+The law is the monotone cubic through the forces (``laws/tabulated_elastic.py``). A map between two
+nodes is the linear mixture of theirs, scaled so that it adds up to the force that acts; the loss of
+a contact multiplies force and pressure alike. A map never acts back on the force.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.guards import require_positive
+from contact_sim_pkg.laws.parameters import TabulatedElastic
+from contact_sim_pkg.laws.tabulated_elastic import tabulated_law
+from contact_sim_pkg.pressure.cushion.foam_layer import Compression, FoamLayer
+
+__all__ = ["REACH", "SPACING", "ForceTable", "make_table"]
+
+Field = NDArray[numpy.float64]
+SPACING = 5e-4  # [m]; the force between two nodes is then right to 4e-4
+REACH = 0.85  # of the thickness, the last approach
+
+
+class ForceTable(NamedTuple):
+    """Forces and maps at the approaches 0, ``spacing``, 2 ``spacing`` ..."""
+
+    spacing: float  # [m]
+    cell_area: float  # [m^2]
+    force: Field  # [nodes] [N]
+    largest_strain: Field  # [nodes]
+    pressure: NDArray[numpy.float32]  # [nodes, rows, cols] [Pa]
+
+    def law(self) -> TabulatedElastic:
+        """The elastic law through the forces."""
+        return tabulated_law(self.spacing, self.force)
+
+    def map_at(self, approach: float, force: float) -> Field:
+        """Pressure [Pa] [rows, cols] at ``approach`` [m], whose sum times the area of a cell is
+        ``force`` [N]; zeros for ``force <= 0``. Beyond the last node: its form.
+        """
+        if force <= 0.0:
+            return numpy.zeros(self.pressure.shape[1:])
+        last = len(self.force) - 1
+        first = int(numpy.argmax(self.force > 0.0))  # a node before has no map to take the form of
+        place = min(max(approach / self.spacing, float(first)), float(last))
+        i = min(int(place), last - 1)
+        part = place - i
+        form = (1.0 - part) * self.pressure[i].astype(numpy.float64) + part * self.pressure[i + 1]
+        return numpy.asarray(form * (force / (form.sum() * self.cell_area)))
+
+
+def make_table(
+    layer: FoamLayer,
+    spacing: float = SPACING,
+    reach: float = REACH,
+    on_progress: Callable[[float], None] | None = None,
+) -> ForceTable:
+    """Table of a layer up to ``reach`` of its thickness [1], each solution from the one before.
+
+    spacing: [m]; on_progress: is handed the part done, 0 to 1. Raises CushionError as
+    ``FoamLayer.solve``.
+    """
+    require_positive("spacing", spacing, "m")
+    nodes = 1 + round(reach * layer.foam.thickness / spacing)
+    force, strain = numpy.zeros(nodes), numpy.zeros(nodes)
+    pressure = numpy.zeros((nodes, layer.grid.rows, layer.grid.cols), dtype=numpy.float32)
+    found: Compression | None = None
+    for i in range(1, nodes):
+        found = layer.solve(i * spacing, found)
+        force[i], strain[i], pressure[i] = found.force, found.largest_strain, found.pressure
+        if on_progress is not None:
+            on_progress(i / (nodes - 1))
+    return ForceTable(spacing, layer.grid.cell_area, force, strain, pressure)

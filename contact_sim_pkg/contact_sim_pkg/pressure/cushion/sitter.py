@@ -1,0 +1,132 @@
+"""Lower surface of a seated person, and the surface of the back, as gaps over a flat cushion.
+
+Buttocks, thighs and back are superellipsoids: ``S(rho; c, n) = c (1 - (1 - rho)^(1/n))`` is the
+height over the lowest point, continued along its tangent from rho = 0.95. The pan: under each
+tuberosity a buttock, ``i + S(|x/a_x|^n + |Y/a_y|^n; a_z, n) - i exp(-(x^2 + Y^2)/(2 r^2))``, whose
+last term is the tuberosity; before it a thigh, ``rise + slope x + S((|y - y_c|/w)^m; c, m)``, that
+bends up at knee and hip; all joined by a smooth minimum of width 4 mm. x forward from the
+tuberosities, y left. The back: x up from its lower edge, y left.
+
+The shape is that under load: soft tissue is not compressed again. Its form is a choice of this
+project; the sizes scale with body dimensions: hip breadth sitting (Pheasant and Haslegrave,
+Bodyspace, 2006; US adults: 5th percentile woman 310 mm, 50th man 360, 95th man 410) and buttock to
+popliteal length (440, 495, 550 mm).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.guards import require_values
+from contact_sim_pkg.records.constants import GRAVITY
+
+__all__ = ["PERCENTILES", "LumbarSupport", "Sitter", "back_gap", "pan_gap", "pan_weight"]
+
+Field = NDArray[numpy.float64]
+BLEND = 0.004  # [m] width of the smooth minimum
+FINE = 0.002  # [m] lattice on which the lowest point is sought
+TANGENT_FROM = 0.95
+
+
+class Sitter(NamedTuple):
+    """Sizes of a person by percentile."""
+
+    mass: float  # [kg] whole body
+    breadth: float  # hip breadth over that of the 50th percentile
+    length: float  # buttock to popliteal length over that of the 50th percentile
+
+
+PERCENTILES = {5: Sitter(50.0, 0.86, 0.89), 50: Sitter(78.0, 1.0, 1.0), 95: Sitter(102.0, 1.14, 1.11)}
+"""Percentile -> person: 5 a woman, 50 and 95 men."""
+
+PAN_SHARE = 0.73
+"""Of the body's weight that the pan carries: 70 to 75 % with the feet on the floor."""
+
+
+class LumbarSupport(NamedTuple):
+    """Bulge of the seat back under the lumbar spine, as wide as the back."""
+
+    depth: float = 0.0  # [m] in its middle; 0: none
+    height: float = 0.20  # [m] of its middle over the lower edge
+    length: float = 0.06  # [m] of its standard deviation up the back
+
+
+def pan_weight(sitter: Sitter) -> float:
+    """Load [N] of the pan."""
+    return PAN_SHARE * sitter.mass * GRAVITY
+
+
+def pan_gap(sitter: Sitter, x: Field, y: Field, tilt: float = 0.0) -> Field:
+    """Gap [m] of buttocks and thighs over their lowest point, [len(x), len(y)].
+
+    x: [m] forward of the tuberosities; y: [m] left; tilt: [rad] of the pan, front up.
+    """
+    return _over_lowest(lambda along, across: _lower_surface(sitter, along, across) - math.tan(tilt) * along, x, y)
+
+
+def back_gap(sitter: Sitter, support: LumbarSupport, x: Field, y: Field) -> Field:
+    """Gap [m] of the back over its lowest point, [len(x), len(y)].
+
+    x: [m] up from the lower edge of the seat back; y: [m] left.
+    """
+    b, s = sitter.breadth, sitter.length
+
+    def surface(up: Field, across: Field) -> Field:
+        spine = 0.006 * numpy.exp(-(across**2) / (2.0 * 0.020**2))
+        lumbar = 0.014 * numpy.exp(-0.5 * ((up - 0.20 * s) / (0.09 * s)) ** 2)
+        shoulders = numpy.maximum(up - 0.42 * s, 0.0) ** 2 / (2.0 * 0.35 * s)
+        pelvis = numpy.maximum(0.10 - up, 0.0) ** 2 / 0.5
+        bend = (up - 0.28 * s) ** 2 / (4.0 * 0.9 * s)
+        supported = support.depth * numpy.exp(-0.5 * ((up - support.height) / support.length) ** 2)
+        trunk = _superellipsoid(numpy.abs(across / (0.19 * b)) ** 2.2, 0.09, 2.2)
+        return numpy.asarray(trunk + spine + lumbar + shoulders + pelvis + bend - supported)
+
+    return _over_lowest(surface, x, y)
+
+
+def _lower_surface(sitter: Sitter, along: Field, across: Field) -> Field:
+    """Height [m] of buttocks and thighs over any plane."""
+    b, s = sitter.breadth, sitter.length
+    half, length = 0.5 * 0.125 * b, 0.32 * s
+    part = numpy.clip(along / length, 0.0, 1.3)
+    # A thigh rises towards the knee and behind the hip.
+    ends = numpy.maximum(along - 0.6 * length, 0.0) ** 2 / (2.0 * 0.30 * s)
+    ends = 0.016 + 0.03 * numpy.maximum(along, 0.0) + ends + numpy.maximum(-along, 0.0) ** 2 / (2.0 * 0.08)
+    pieces = []
+    for side in (-1.0, 1.0):
+        lateral = across - side * half
+        rho = numpy.abs(along / (0.185 * s)) ** 2.4 + numpy.abs(lateral / (0.130 * b)) ** 2.4
+        tuberosity = 0.014 * (1.0 - numpy.exp(-(along**2 + lateral**2) / (2.0 * (0.024 * s) ** 2)))
+        pieces.append(_superellipsoid(rho, 0.100 * s, 2.4) + tuberosity)
+        middle, width = side * (half + 0.05 * b * part), 0.105 * b * (1.0 - 0.15 * part)
+        pieces.append(_superellipsoid((numpy.abs(across - middle) / width) ** 2.6, 0.080 * s, 2.6) + ends)
+    return _smooth_minimum(pieces)
+
+
+def _over_lowest(surface: Callable[[Field, Field], Field], x: Field, y: Field) -> Field:
+    """A surface [m] over its lowest point between the ends of x and y, which lies on no cell."""
+    x, y = require_values("x", x, "m", shape=(None,)), require_values("y", y, "m", shape=(None,))
+    on_cells = surface(x[:, None], y[None, :])
+    fine = surface(numpy.arange(x[0], x[-1], FINE)[:, None], numpy.arange(y[0], y[-1], FINE)[None, :])
+    return numpy.asarray(on_cells - min(float(fine.min()), float(on_cells.min())))
+
+
+def _superellipsoid(rho: Field, height: float, power: float) -> Field:
+    """S(rho; height, power) in [m]."""
+    inside = numpy.minimum(rho, TANGENT_FROM)
+    slope = height / power * (1.0 - TANGENT_FROM) ** (1.0 / power - 1.0)
+    return numpy.asarray(height * (1.0 - (1.0 - inside) ** (1.0 / power)) + slope * (rho - inside))
+
+
+def _smooth_minimum(pieces: list[Field]) -> Field:
+    """-BLEND log(sum of exp(-z/BLEND)) of all pieces z in [m]."""
+    least = numpy.minimum.reduce(pieces)
+    total = numpy.zeros_like(least)
+    for each in pieces:
+        total += numpy.exp(-(each - least) / BLEND)
+    return numpy.asarray(least - BLEND * numpy.log(total))

@@ -1,0 +1,115 @@
+"""Table of a cushion: force law between the nodes, maps that add up to the force, and tables kept on disk."""
+
+import os
+
+import numpy
+import pytest
+from tests.pressure.cushion.cushions import pan_layer
+
+from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force, elastic_stiffness
+from contact_sim_pkg.pressure.cushion.force_table import ForceTable, make_table
+from contact_sim_pkg.pressure.cushion.kept_tables import MOST_KEPT, kept_table
+
+F_TABLE = (5.6, 18.2, 40.4, 88.8, 183.1, 293.4, 402.6, 512.2, 628.8, 759.6, 920.3, 1140.0, 1504.0)  # at 5, 10 ... 65 mm
+
+
+@pytest.fixture(scope="module")
+def layer():
+    return pan_layer()
+
+
+@pytest.fixture(scope="module")
+def table(layer):
+    return make_table(layer)
+
+
+def test_regression_of_the_median_on_the_pan(table):
+    law = table.law()
+    found = [elastic_force(law, 5e-3 * i) for i in range(1, 14)]
+    # The lowest point lies between cells: 0.06 mm of approach.
+    assert found == pytest.approx(F_TABLE, rel=0.01, abs=1.7)
+
+
+def test_between_the_nodes_the_law_is_the_layer(layer, table):
+    law = table.law()
+    for approach in (0.00325, 0.01025, 0.02025, 0.03525, 0.05025, 0.06225):
+        found = layer.solve(approach)
+        assert elastic_force(law, approach) == pytest.approx(found.force, rel=2e-3)
+        assert elastic_energy(law, approach) == pytest.approx(layer.energy(found), rel=2e-3)
+    for approach in (0.02, 0.0395, 0.055):
+        mean = numpy.mean([elastic_stiffness(law, approach + d) for d in numpy.linspace(-1e-3, 1e-3, 21)])
+        ends = [layer.solve(approach + d).force for d in (-1e-3, 1e-3)]
+        assert mean == pytest.approx((ends[1] - ends[0]) / 2e-3, rel=0.01)
+
+
+def test_every_map_adds_up_to_the_force(table):
+    law = table.law()
+    for approach in (1e-6, 1e-4, 7.3e-4, 0.0123, 0.0399, 0.0679, 0.07, 0.2):
+        for factor in (1.0, 0.3):
+            force = factor * elastic_force(law, approach)
+            pressure = table.map_at(approach, force)
+            assert pressure.min() >= 0.0
+            assert pressure.sum() * table.cell_area == pytest.approx(force, rel=1e-12)
+    assert not table.map_at(0.02, 0.0).any()
+
+
+def test_a_map_between_two_nodes_is_that_of_the_layer(layer, table):
+    for approach in (0.0123, 0.02525, 0.0394, 0.05525):
+        found = layer.solve(approach)
+        miss = table.map_at(approach, found.force) - found.pressure
+        assert numpy.linalg.norm(miss) <= 0.012 * numpy.linalg.norm(found.pressure)
+
+
+def test_progress_is_reported_to_the_end():
+    parts = []
+    make_table(pan_layer(cell=0.02), spacing=4e-3, on_progress=parts.append)
+    assert len(parts) == 17
+    assert parts[-1] == 1.0
+    assert parts == sorted(parts)
+
+
+def small_table(value=1.0):
+    pressure = numpy.full((3, 2, 2), value, dtype=numpy.float32)
+    return ForceTable(1e-3, 1e-4, numpy.array([0.0, 1.0, value + 2.0]), numpy.array([0.0, 0.1, 0.2]), pressure)
+
+
+def refuse():
+    raise AssertionError("it was kept")
+
+
+def test_a_table_is_computed_once_for_each_description(tmp_path):
+    first = kept_table("a", small_table, tmp_path)
+    again = kept_table("a", refuse, tmp_path)
+    assert again.spacing == first.spacing
+    assert again.cell_area == first.cell_area
+    for name in ("force", "largest_strain", "pressure"):
+        assert numpy.array_equal(getattr(again, name), getattr(first, name))
+    assert kept_table("b", lambda: small_table(5.0), tmp_path).force[2] == 7.0
+    assert kept_table("a", refuse, tmp_path).force[2] == 3.0
+
+
+@pytest.mark.parametrize("damage", ["cut", "bit", "empty", "foreign"])
+def test_a_damaged_file_is_computed_again(tmp_path, damage):
+    kept_table("a", small_table, tmp_path)
+    (path,) = tmp_path.iterdir()
+    content = bytearray(path.read_bytes())
+    if damage == "bit":
+        content[-20] ^= 1
+    path.write_bytes({"cut": content[:-7], "bit": content, "empty": b"", "foreign": b"PK\x03\x04"}[damage])
+    assert kept_table("a", small_table, tmp_path).force[2] == 3.0
+    assert kept_table("a", refuse, tmp_path).force[2] == 3.0
+
+
+def test_without_a_directory_the_table_is_computed_at_each_start(tmp_path):
+    missing = tmp_path / "none"
+    assert kept_table("a", small_table, missing).force[2] == 3.0
+    assert not missing.exists()
+
+
+def test_the_oldest_tables_give_way(tmp_path):
+    for number in range(MOST_KEPT + 3):
+        kept_table(f"n{number}", small_table, tmp_path)
+        for age, path in enumerate(sorted(tmp_path.iterdir(), key=lambda p: p.stat().st_mtime)):
+            os.utime(path, (1e9 + age, 1e9 + age))
+    assert len(list(tmp_path.iterdir())) == MOST_KEPT
+    assert kept_table(f"n{MOST_KEPT + 2}", refuse, tmp_path).force[2] == 3.0
