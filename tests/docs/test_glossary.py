@@ -14,7 +14,7 @@ ROWS = [
 ]
 NAMES = set(re.findall(r"`([^`]+)`", " ".join(row[3] for row in ROWS)))
 PAPERS = r"\*(Driver and Seat|Contact Area|Tire/Road Contact|Rolling Contact|Identifiability)\*"
-SOURCES = rf"Johnson|Pacejka|Brogliato|HNW|ISO|REP|ASAM|ROS 2|{PAPERS}"
+SOURCES = rf"Johnson|Pacejka|Brogliato|HNW|Fairley|Huang|ISO|REP|ASAM|ROS 2|{PAPERS}"
 
 
 def test_every_effect_stands_in_the_glossary():

@@ -17,9 +17,9 @@ FRICTION = Friction(2.0e4, 200.0, 0.4, 0.35)
 
 def _shaken_seat(friction, fore_aft=0.0, count=1500):
     """States and forces of an occupant who is shaken until he leaves the cushion."""
-    masses = (numpy.array([33.4]), numpy.array([35776.0]), numpy.array([761.0]))
+    seat = Seat(0, numpy.array([6.7, 33.4]), numpy.array([[0, 1]]), numpy.array([[35776.0], [761.0]]))
     contact = Contact(NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), friction)
-    rig = Vehicle(9.81, None, None, None, Seat(0, 6.7, *masses), contact)
+    rig = Vehicle(9.81, None, None, None, seat, contact)
     states = 4 + (3 if friction else 0) + 2
     times = numpy.arange(count + 1) * 1e-3
     zeros, a_z, a_x = numpy.zeros(count + 1), 15.0 * numpy.sin(24.0 * times), fore_aft * numpy.sin(19.0 * times)

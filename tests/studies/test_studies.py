@@ -59,6 +59,7 @@ def test_every_effect_of_a_scene_has_a_row_with_its_topics():
         "friction",
         "contact_field",
         "pressure_mat",
+        "softening",
     }
     by_name = {row["effect"]: row for row in rows}
     assert "seat/patch" in by_name["pressure_mat"]["topics"], "a mat shows the contact and does not act on it"

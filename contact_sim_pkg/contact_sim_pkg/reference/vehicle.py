@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 __all__ = ["Law", "Occupant", "Quarter", "normal_force", "states_at_segments"]
 
@@ -74,15 +75,22 @@ class Quarter(NamedTuple):
 
 
 class Occupant(NamedTuple):
-    """Frame mass in contact and masses that hang on it [kg], [N/m], [N s/m]; state [z_0 .. z_n, v_0
-    .. v_n].
+    """Masses [kg], the first in contact and perhaps 0, and links between any two [N/m], [N s/m];
+    state [z_0 .. z_n, v_0 .. v_n], v_0 of a massless one being of no account.
     """
 
-    frame_mass: float
     masses: State
+    ends: NDArray[numpy.int64]  # [links, 2]
     stiffness: State
     damping: State
     law: Law
+
+    def matrix(self, values: State) -> State:
+        """Matrix [masses, masses] of the links with these stiffnesses or dampings."""
+        incidence = numpy.zeros((len(values), len(self.masses)))
+        for row, (lower, upper) in zip(incidence, self.ends, strict=True):
+            row[lower], row[upper] = -1.0, 1.0
+        return incidence.T @ numpy.diag(values) @ incidence
 
 
 class _Drive(NamedTuple):
@@ -167,12 +175,28 @@ def _cushion(
     quarter: Quarter | None, occupant: Occupant, drive: _Drive, time: float, state: State
 ) -> tuple[float, float]:
     first = 0 if quarter is None else quarter.states
-    speed = first + 1 + len(occupant.masses)
+    speed = first + len(occupant.masses)
     floor, floor_speed = (0.0, 0.0) if quarter is None else (state[1], state[3])
-    return (
-        float(floor + _at(drive.cushion, drive, time) - state[first]),
-        float(floor_speed + drive.cushion[1] - state[speed]),
-    )
+    approach, cushion_speed = floor + _at(drive.cushion, drive, time) - state[first], floor_speed + drive.cushion[1]
+    if occupant.masses[0] == 0.0:
+        return float(approach), cushion_speed - _massless_speed(occupant, approach, cushion_speed, state[first:])
+    return float(approach), float(cushion_speed - state[speed])
+
+
+def _massless_speed(occupant: Occupant, approach: float, cushion_speed: float, state: State) -> float:
+    """Speed of a massless seat interface, at which the forces on it cancel."""
+    count = len(occupant.masses)
+    stiffness, damping = occupant.matrix(occupant.stiffness)[0], occupant.matrix(occupant.damping)[0]
+    held = stiffness @ state[:count] + damping[1:] @ state[count + 1 : 2 * count]
+
+    def left(speed: float) -> float:
+        return float(normal_force(occupant.law, approach, cushion_speed - speed) - held - damping[0] * speed)
+
+    free = -held / damping[0]
+    if left(free) == 0.0:
+        return float(free)
+    other = free + 1.001 * left(free) / damping[0]
+    return float(brentq(left, free, other, xtol=1e-15 * max(1.0, abs(free), abs(other)), rtol=8.9e-16))
 
 
 def _event_functions(
@@ -194,15 +218,20 @@ def _event_functions(
 
 
 def _rate(gravity: float, quarter: Quarter | None, occupant: Occupant | None, drive: _Drive) -> Rate:
-    def rate(time: float, state: State) -> State:
+    def rates(time: float, state: State) -> State:
         out = numpy.empty_like(state)
         shake = _at(drive.acceleration, drive, time)
         carried = 0.0
         if occupant is not None:
-            carried = normal_force(occupant.law, *_cushion(quarter, occupant, drive, time, state))
+            approach, rate = _cushion(quarter, occupant, drive, time, state)
+            carried = normal_force(occupant.law, approach, rate)
             first = 0 if quarter is None else quarter.states
             weight = gravity + (shake if quarter is None else 0.0)
-            out[first:] = _occupant_rate(occupant, carried, weight, state[first:])
+            own = state[first:].copy()
+            if occupant.masses[0] == 0.0:
+                floor_speed = 0.0 if quarter is None else state[3]
+                own[len(occupant.masses)] = floor_speed + drive.cushion[1] - rate
+            out[first:] = _occupant_rate(occupant, carried, weight, own)
         if quarter is not None:
             z_w, z_b, v_w, v_b = state[:4]
             link = quarter.stiffness * (z_w - z_b) + quarter.damping * (v_w - v_b)
@@ -218,12 +247,13 @@ def _rate(gravity: float, quarter: Quarter | None, occupant: Occupant | None, dr
             out[3] = (link - carried) / quarter.body_mass - gravity + shake
         return out
 
-    return rate
+    return rates
 
 
 def _occupant_rate(occupant: Occupant, carried: float, weight: float, state: State) -> State:
-    count = 1 + len(occupant.masses)
+    count = len(occupant.masses)
     z, v = state[:count], state[count : 2 * count]
-    links = occupant.stiffness * (z[1:] - z[0]) + occupant.damping * (v[1:] - v[0])
-    frame = (carried + links.sum()) / occupant.frame_mass - weight
-    return numpy.concatenate([v, [frame], -links / occupant.masses - weight])
+    force = -occupant.matrix(occupant.stiffness) @ z - occupant.matrix(occupant.damping) @ v
+    force[0] += carried
+    heavy = occupant.masses > 0.0
+    return numpy.concatenate([v, numpy.where(heavy, force / numpy.where(heavy, occupant.masses, 1.0) - weight, 0.0)])

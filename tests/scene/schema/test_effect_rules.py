@@ -9,7 +9,7 @@ from contact_sim_pkg.records.registry import contacts, effects
 
 EFFECTS = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
-    "pressure_mat", "shell_modes", "contact_search", "rigid_ring",
+    "pressure_mat", "softening", "shell_modes", "contact_search", "rigid_ring",
     "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
@@ -22,7 +22,7 @@ OF_THE_ROLLER = (
 )  # fmt: skip
 BODY_ONLY = ("rigid_contact", "compliant_contact", *OF_THE_ROLLER)
 """Of the rigid body on the ground, and of the roller on its shaft."""
-SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction", "pressure_mat"}
+SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction", "pressure_mat", "softening"}
 """Of the vehicle's contacts."""
 IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
 """What acts cell by cell, and so needs the pressure field."""
@@ -34,7 +34,7 @@ ELSEWHERE = set(EFFECTS) - set(OF_THE_BACK)
 OF_THE_IMPACT = (
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
 )  # fmt: skip
-OF_FOAM = ("foam", "foam_hysteresis", "pressure_mat")
+OF_FOAM = ("foam", "foam_hysteresis", "pressure_mat", "softening")
 SHELL = ("shell_modes", "contact_search")
 OF_VEHICLES = tuple(name for name in EFFECTS if name not in (*SHELL, *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY))
 SUBSETS = {
@@ -50,7 +50,7 @@ SUBSETS = {
     + [{"normal_elastic", "friction"}, {"normal_elastic", "contact_field"}],
     "roller": [set(chosen) for count in range(9) for chosen in combinations(("normal_elastic", *OF_THE_ROLLER), count)]
     + [{"normal_elastic", "friction"}, {"normal_elastic", "rigid_contact"}],
-    "seat": [set(chosen) for count in range(9) for chosen in combinations(EFFECTS[:8], count)]
+    "seat": [set(chosen) for count in range(10) for chosen in combinations(EFFECTS[:9], count)]
     + [{"normal_elastic", "contact_field", name} for name in sorted(TIRE_ONLY)],
 }
 

@@ -5,6 +5,7 @@ import pytest
 BUMP = {"kind": "bump", "position": 1.0, "height": 0.1, "length": 0.5}
 CLEAT = {"kind": "cleat", "position": 1.0, "height": 0.01, "length": 0.05}
 ISO = {"kind": "iso8608", "roughness_class": "C"}
+OWN = {"model": "own", "frame_mass": 2.0, "masses": [5.0, 6.0], "stiffness": [1e4, 1e4], "damping": [9.0, 9.0]}
 SWEEP = {"kind": "sweep", "start_frequency": 1.0, "end_frequency": 20.0, "amplitude": 1.0}
 SHOCK = {"kind": "half_sine", "amplitude": 10.0, "duration": 0.05}
 LOSS = "effects.seat.normal_dissipative"
@@ -92,6 +93,38 @@ BREACHES = [
         "2 values, masses has 1",
     ),
     ("seat", {"seat": {"occupant": {"damping": []}}}, "seat.occupant.damping", "0 values, masses has 2"),
+    ("seat", {"seat": {"occupant": {"model": "own"}}}, "seat.occupant.model", "own needs frame_mass and masses"),
+    ("seat", {"seat": {"occupant": {**OWN, "posture": 1.2}}}, "seat.occupant.posture", "scales a model by name"),
+    ("seat", {"seat": {"occupant": {"percentile": 5, "mass": 40.0}}}, "seat.occupant.mass", "leave one out"),
+    (
+        "seat",
+        {"seat": {"occupant": {"posture": 1.5, "damping": [1.0, 2.0]}}},
+        "seat.occupant.damping",
+        "follows from posture as",
+    ),
+    ("seat", {"seat": {"occupant": {"frame_mass": 0.05}}}, "seat.occupant.frame_mass", "write 0 for a massless frame"),
+    (
+        "seat",
+        {"seat": {"occupant": {**OWN, "frame_mass": 0.0, "links": [[0, 1], [1, 2]], "damping": [0.0, 9.0]}}},
+        "seat.occupant.frame_mass",
+        "needs a damper in a link to it",
+    ),
+    ("seat", {"seat": {"occupant": {**OWN, "links": [[0, 1], [1, 3]]}}}, "seat.occupant.links.1", "masses has 2"),
+    ("seat", {"seat": {"occupant": {**OWN, "links": [[0, 1], [2, 2]]}}}, "seat.occupant.links.1", "to itself"),
+    (
+        "seat",
+        {"seat": {"occupant": {**OWN, "links": [[0, 1], [1, 0]]}}},
+        "seat.occupant.links",
+        "mass 2 hangs on nothing",
+    ),
+    (
+        "seat",
+        {"seat": {"occupant": {**OWN, "links": [[0, 1], [0, 2], [1, 2]], "damping": [9.0, 9.0, 9.0]}}},
+        "seat.occupant.stiffness",
+        "links has 3; each link",
+    ),
+    ("seat", {"seat": {"occupant": {**OWN, "head": 3}}}, "seat.occupant.head", "is mass 3, masses has 2"),
+    ("seat", {"effects.seat.softening": {"least": 2.5}}, "effects.seat.softening.least", "is not below most"),
     (
         "seat",
         {"effects.seat.friction": {"coefficient_kinetic": 0.41}},
@@ -128,6 +161,8 @@ def test_a_contradiction_is_one_fault_at_its_key(maker, base, changes, where, to
         ("seat", {"vibration": {**SHOCK, "start": 0.99, "axis": "x"}}),
         ("seat", {"vibration": {**SHOCK, "duration": 0.01}}),
         ("seat", {"seat": {"occupant": {"masses": [], "stiffness": [], "damping": []}}}),
+        ("seat", {"seat": {"occupant": {**OWN, "links": [[0, 1], [2, 1]], "head": 2}}}),
+        ("seat", {"seat": {"occupant": {"model": "wan_schimmels", "percentile": 95, "posture": 1.2}}}),
         ("seat", {"effects.seat.friction": {"coefficient_kinetic": 0.4}}),
         ("seat", {LOSS: {"restitution": 1.0, "reference_speed": 0.5}}),
         ("car", {}),

@@ -15,7 +15,7 @@ from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative
 from contact_sim_pkg.reference import impact
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
-from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.parameters import Vehicle, rigid_occupant
 from contact_sim_pkg.studies.hard import hard_cases
 from contact_sim_pkg.studies.laws import hard_cases_impact
 
@@ -88,11 +88,10 @@ def test_the_restitution_does_not_depend_on_stiffness_exponent_or_speed(coeffici
 def test_friction_never_chatters_nor_passes_its_limit_while_the_seat_shakes_and_lifts_off(
     stiffness, damping, static, ratio, shake_x, shake_z
 ):
-    none = numpy.zeros(0)
     contact = Contact(
         NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), Friction(stiffness, damping, static, static * ratio)
     )
-    rig = Vehicle(9.81, None, None, None, Seat(0, 50.0, none, none, none), contact)
+    rig = Vehicle(9.81, None, None, None, rigid_occupant(50.0), contact)
     count = 1000
     times = numpy.arange(count + 1) * 1e-3
     a_x, a_z = shake_x * numpy.sin(19.0 * times), shake_z * numpy.sin(25.0 * times)

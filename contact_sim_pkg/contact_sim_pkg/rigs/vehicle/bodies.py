@@ -81,7 +81,7 @@ class Bodies:
         rig = self.model.rig
         vertical = [0, 1] if rig.rigid_ring is None else [0, 1, rig.rigid_ring.offset]
         if rig.seat is not None:
-            vertical += range(rig.seat.offset, rig.seat.offset + 1 + len(rig.seat.masses))
+            vertical += range(rig.seat.offset, rig.seat.offset + len(rig.seat.masses))
         self.state[vertical] += height
 
     def weight(self) -> float:
@@ -92,7 +92,7 @@ class Bodies:
         if rig.rigid_ring is not None:
             mass += rig.rigid_ring.belt_mass
         if rig.seat is not None:
-            mass += rig.seat.frame_mass + float(rig.seat.masses.sum())
+            mass += float(rig.seat.masses.sum())
         return mass * rig.gravity
 
     def start(self, first: BlockDrive, corrections: Corrections) -> None:

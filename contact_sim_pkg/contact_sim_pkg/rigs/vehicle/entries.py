@@ -11,12 +11,12 @@ from contact_sim_pkg.compiled.vectors import copy_row
 from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, set_event_directions
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
-from contact_sim_pkg.laws.elastic_law import elastic_energy
-from contact_sim_pkg.laws.foam_hysteresis import hysteresis_energy
+from contact_sim_pkg.laws.contact_force import contact_energy, contact_force
 from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection, friction_force
 from contact_sim_pkg.rigs.vehicle import motion as vehicle
 from contact_sim_pkg.rigs.vehicle import quarter_car
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
+from contact_sim_pkg.rigs.vehicle.seat.motion import seat_energies, seat_mass, slide_index
 
 TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
 SEAT_NORMAL, SEAT_TANGENTIAL, SEAT_APPROACH, SEAT_HEIGHT, SEAT_RATE = 4, 5, 6, 7, 8
@@ -45,7 +45,7 @@ def _tangential(friction, seat, mode, normal, state):
     """Friction force on the occupant in [N]."""
     if friction is None:
         return 0.0
-    x = vehicle._slide_index(seat)
+    x = slide_index(seat)
     return -friction_force(friction, mode[0], normal, state[x + 2], state[x + 1])
 
 
@@ -54,9 +54,9 @@ def _observe(rig, drive, mode, state, out):
     """Forces, approaches and heights of both contacts at the start of the segment."""
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = quarter_car.drive_at(drive, drive.start)
     tire_x, tire_v = quarter_car.tire_approach(rig.tire, rig.rigid_ring, height, height_rate, state)
-    seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
-    seat_normal = vehicle.normal_force(rig.seat_contact, seat_x, seat_v, state)
-    out[TIRE_NORMAL] = vehicle.normal_force(rig.tire_contact, tire_x, tire_v, state)
+    seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, rig.seat_contact, cushion, cushion_rate, state)
+    seat_normal = contact_force(rig.seat_contact, seat_x, seat_v, state)
+    out[TIRE_NORMAL] = contact_force(rig.tire_contact, tire_x, tire_v, state)
     out[TIRE_APPROACH] = tire_x
     out[TIRE_HEIGHT] = height
     out[TIRE_RATE] = tire_v
@@ -136,45 +136,14 @@ def _rigid_ring_energies(rigid_ring, gravity, state):
 
 
 @borrowing_kernel
-def _seat_energies(seat, gravity, state):
-    if seat is None:
-        return 0.0, 0.0, 0.0
-    count = seat.masses.shape[0]
-    z = seat.offset
-    v = seat.offset + 1 + count
-    kinetic = 0.5 * seat.frame_mass * state[v] ** 2
-    potential = gravity * seat.frame_mass * state[z]
-    stored = 0.0
-    for i in range(count):
-        kinetic += 0.5 * seat.masses[i] * state[v + 1 + i] ** 2
-        potential += gravity * seat.masses[i] * state[z + 1 + i]
-        stored += 0.5 * seat.stiffness[i] * (state[z + 1 + i] - state[z]) ** 2
-    return kinetic, potential, stored
-
-
-@borrowing_kernel
 def _slide_energies(friction, seat, mode, normal, state):
     if friction is None:
         return 0.0, 0.0
-    x = vehicle._slide_index(seat)
+    x = slide_index(seat)
     deflection = state[x + 2]
     if mode[0] == SLIP_FORWARD or mode[0] == SLIP_BACKWARD:
         deflection = following_deflection(friction, mode[0], normal, state[x + 1])
-    return 0.5 * vehicle.seat_mass(seat) * state[x + 1] ** 2, 0.5 * friction.stiffness * deflection**2
-
-
-@borrowing_kernel
-def _contact_energy(contact, approach):
-    if contact is None:
-        return 0.0
-    return elastic_energy(contact.elastic, approach)
-
-
-@borrowing_kernel
-def _hysteresis_energy(contact, state):
-    if contact is None:
-        return 0.0
-    return hysteresis_energy(contact.hysteresis, state)
+    return 0.5 * seat_mass(seat) * state[x + 1] ** 2, 0.5 * friction.stiffness * deflection**2
 
 
 @entry
@@ -191,14 +160,15 @@ def energies(
     potential += belt_potential
     stored += belt_stored
     # The occupant on its cushion, whose friction has a spring and whose foam has a memory.
-    seat_kinetic, seat_potential, seat_stored = _seat_energies(rig.seat, rig.gravity, state)
+    seat_kinetic, seat_potential, seat_stored = seat_energies(rig.seat, rig.gravity, state)
     tire_x, _tire_v = quarter_car.tire_approach(rig.tire, rig.rigid_ring, height, 0.0, state)
-    seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, 0.0, state)
-    normal = vehicle.normal_force(rig.seat_contact, seat_x, _seat_v, state)
+    seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, rig.seat_contact, cushion, 0.0, state)
+    normal = contact_force(rig.seat_contact, seat_x, _seat_v, state)
     slide_kinetic, spring = _slide_energies(vehicle._friction_of(rig.seat_contact), rig.seat, mode, normal, state)
-    hysteresis = _hysteresis_energy(rig.seat_contact, state)
+    in_tire, _none = contact_energy(rig.tire_contact, tire_x, state)
+    in_cushion, hysteresis = contact_energy(rig.seat_contact, seat_x, state)
     stored += seat_stored + spring + hysteresis
-    stored += _contact_energy(rig.tire_contact, tire_x) + _contact_energy(rig.seat_contact, seat_x)
+    stored += in_tire + in_cushion
     # The last two states are the works supplied and dissipated; what is still stored is no loss
     # yet.
     last = state.shape[0]

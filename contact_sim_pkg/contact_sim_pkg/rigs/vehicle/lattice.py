@@ -53,6 +53,9 @@ def field_settings(
 
 def occupant_mass(occupant: OccupantSection) -> float:
     """Mass of the whole occupant in [kg]."""
+    # A resolved scene leaves neither open.
+    assert occupant.frame_mass is not None
+    assert occupant.masses is not None
     return occupant.frame_mass + sum(occupant.masses)
 
 

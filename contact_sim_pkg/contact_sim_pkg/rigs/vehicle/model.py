@@ -24,9 +24,11 @@ from contact_sim_pkg.rigs.vehicle.coupling_model import (
     shortest_time,
 )
 from contact_sim_pkg.rigs.vehicle.lattice import field_settings, occupant_mass, standing_load
-from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.parameters import MasslessNode, Seat, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
+from contact_sim_pkg.rigs.vehicle.seat.biodynamics import rest_deflections
 from contact_sim_pkg.rigs.vehicle.seat.mat import PanMat, build_pan_mat
+from contact_sim_pkg.rigs.vehicle.seat.occupants import OccupantModel
 from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap, shape_of
 from contact_sim_pkg.rigs.vehicle.tire import schema as tire_schema
 from contact_sim_pkg.rigs.vehicle.tire.model import Asperities, RollingFriction, TireGeometry, Tread, build_tire
@@ -51,6 +53,7 @@ class Model:
     timing: Timing
     scale: Vector  # [states] error allowed per step
     bodies: tuple[str, ...]
+    occupant: OccupantModel | None
     tire_geometry: TireGeometry | None
     tire_field: FieldGrids | None
     tread: Tread | None
@@ -81,7 +84,7 @@ def build(scene: ResolvedScene) -> Model:
     tire_field = None if tire is None else tire.field
     # The states of the seat follow those of the quarter car: 4, or 6 with a rigid ring.
     behind = 0 if tire is None else 4 if tire.rigid_ring is None else 6
-    seat = None if given_seat is None else _seat(given_seat.occupant, offset=behind)
+    seat = None if given_seat is None else _seat(scene, given_seat, offset=behind)
     seat_contact = None if seat is None else _seat_contact(scene, seat, seat_field, shape)
     rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
     if tire is not None:
@@ -94,6 +97,7 @@ def build(scene: ResolvedScene) -> Model:
         timing=timing,
         scale=_scale(rig, given(scene.integrator.relative_tolerance)),
         bodies=_bodies(rig),
+        occupant=None if given_seat is None else given_seat.occupant.model_of(),
         tire_geometry=None if tire is None else tire.geometry,
         tire_field=tire_field,
         tread=None if tire is None else tire.tread,
@@ -137,11 +141,34 @@ def _coupling(
     return CouplingRule(tolerance, allowances, longest_travel(footprint, tolerance), shortest, segments)
 
 
-def _seat(occupant: seat_schema.OccupantSection, offset: int) -> Seat:
-    masses, stiffness, damping = (
-        numpy.array(values, dtype=numpy.float64) for values in (occupant.masses, occupant.stiffness, occupant.damping)
+def _seat(scene: ResolvedScene, given_seat: seat_schema.SeatSection, offset: int) -> Seat:
+    occupant = given_seat.occupant.model_of()
+    ends = numpy.array([link[:2] for link in occupant.links], dtype=numpy.int64).reshape(-1, 2)
+    springs = numpy.array([link[2:] for link in occupant.links], dtype=numpy.float64).reshape(-1, 2)
+    node = None
+    if occupant.masses[0] == 0.0:
+        node = MasslessNode(sum(link.damping for link in occupant.links if 0 in link[:2]))
+    seat = Seat(offset, numpy.array(occupant.masses, dtype=numpy.float64), ends, springs.T.copy(), node)
+    effect = scene.effect("seat", seat_schema.SofteningSection)
+    if effect is None:
+        return seat
+    # Behind the states of slide and foam.
+    behind = _behind_occupant(scene, seat) + (0 if hysteresis(scene, "seat", 0) is None else 1)
+    heights = rest_deflections(occupant, GRAVITY)
+    softening = Softening(
+        behind,
+        effect.exponent,
+        effect.time_constant,
+        effect.least,
+        effect.most,
+        heights[ends[:, 1]] - heights[ends[:, 0]],
     )
-    return Seat(offset, occupant.frame_mass, masses, stiffness, damping)
+    return seat._replace(softening=softening)
+
+
+def _behind_occupant(scene: ResolvedScene, seat: Seat) -> int:
+    """Index of the first state behind those of the masses and of their slide."""
+    return seat.offset + 2 * len(seat.masses) + (0 if friction(scene, "seat") is None else 3)
 
 
 def _seat_field(scene: ResolvedScene, seat: seat_schema.SeatSection) -> tuple[FieldGrids | None, SeatShape | None]:
@@ -174,9 +201,8 @@ def _seat_contact(scene: ResolvedScene, seat: Seat, field: FieldGrids | None, sh
         law, _length = tangent_law(field, lambda grid: seat_gap_on(shape, grid), mass * GRAVITY, "seat")
     else:
         law = elastic_law(scene, "seat")
-    rubbing = friction(scene, "seat")
-    offset = seat.offset + 2 * (1 + len(seat.masses)) + (0 if rubbing is None else 3)
-    return Contact(law, normal_loss(scene, "seat", law, mass), rubbing, hysteresis(scene, "seat", offset))
+    memory = hysteresis(scene, "seat", _behind_occupant(scene, seat))
+    return Contact(law, normal_loss(scene, "seat", law, mass), friction(scene, "seat"), memory)
 
 
 def _contact_scale(contact: Contact | None, load: float, mass: float) -> tuple[float, float]:
@@ -195,10 +221,11 @@ def _contact_scale(contact: Contact | None, load: float, mass: float) -> tuple[f
 def _scale(rig: Vehicle, tolerance: float) -> Vector:
     """Error allowed per step and state; the two works at the end are not controlled."""
     position, velocity = POSITION_SCALE * tolerance, VELOCITY_SCALE * tolerance
-    occupant = 0.0 if rig.seat is None else rig.seat.frame_mass + float(rig.seat.masses.sum())
+    occupant = 0.0 if rig.seat is None else float(rig.seat.masses.sum())
     on_seat = (POSITION_SCALE, VELOCITY_SCALE)
     if rig.seat is not None:
-        on_seat = _contact_scale(rig.seat_contact, occupant * rig.gravity, rig.seat.frame_mass)
+        touching = float(rig.seat.masses[0]) or occupant  # a massless interface moves with what hangs on it
+        on_seat = _contact_scale(rig.seat_contact, occupant * rig.gravity, touching)
     seat_position, seat_velocity = (size * tolerance for size in on_seat)
     scale: list[float] = []
     if rig.tire is not None:
@@ -213,11 +240,14 @@ def _scale(rig: Vehicle, tolerance: float) -> Vector:
             scale += [road_position, road_velocity]
     if rig.seat is not None:
         count = len(rig.seat.masses)
-        scale += [seat_position] + [position] * count + [seat_velocity] + [velocity] * count
+        node = seat_velocity if rig.seat.node is None else numpy.inf  # settled at every instant
+        scale += [seat_position] + [position] * (count - 1) + [node] + [velocity] * (count - 1)
         if rig.seat_contact is not None and rig.seat_contact.friction is not None:
             scale += [position, velocity, _spring_scale(rig.seat_contact.friction, occupant * rig.gravity) * tolerance]
         if rig.seat_contact is not None and rig.seat_contact.hysteresis is not None:
             scale.append(tolerance)  # its internal variable runs from -1 to 1
+        if rig.seat.softening is not None:
+            scale.append(tolerance)  # of 1 m^2/s^4
     return numpy.array([*scale, numpy.inf, numpy.inf])
 
 
@@ -235,7 +265,7 @@ def _bodies(rig: Vehicle) -> tuple[str, ...]:
     if rig.rigid_ring is not None:
         names.append("belt_z")
     if rig.seat is not None:
-        names += ["seat_frame_z", *(f"occupant{i + 1}_z" for i in range(len(rig.seat.masses)))]
+        names += ["seat_frame_z", *(f"occupant{i}_z" for i in range(1, len(rig.seat.masses)))]
         if rig.seat_contact is not None and rig.seat_contact.friction is not None:
             names.append("occupant_x")
     return tuple(names)
@@ -248,7 +278,7 @@ def standing_state(model: Model, height: float) -> Vector:
     rig = model.rig
     state = numpy.zeros(model.states)
     floor = 0.0
-    occupant = 0.0 if rig.seat is None else rig.seat.frame_mass + float(rig.seat.masses.sum())
+    occupant = 0.0 if rig.seat is None else float(rig.seat.masses.sum())
     # Wheel, belt and body from the road up: each spring carries what is above it.
     if rig.tire is not None and rig.tire_contact is not None:
         carried = (rig.tire.body_mass + occupant) * rig.gravity
@@ -261,8 +291,8 @@ def standing_state(model: Model, height: float) -> Vector:
         floor = state[1] = state[0] - carried / rig.tire.suspension_stiffness
     # The occupant on the cushion, its masses on their springs.
     if rig.seat is not None and rig.seat_contact is not None:
-        first = rig.seat.offset
-        state[first] = floor - approach_of_force(rig.seat_contact.elastic, occupant * rig.gravity)
-        for i, mass in enumerate(rig.seat.masses):
-            state[first + 1 + i] = state[first] - mass * rig.gravity / rig.seat.stiffness[i]
+        first, count = rig.seat.offset, len(rig.seat.masses)
+        state[first : first + count] = floor - approach_of_force(rig.seat_contact.elastic, occupant * rig.gravity)
+        assert model.occupant is not None
+        state[first : first + count] += rest_deflections(model.occupant, rig.gravity)
     return state

@@ -202,7 +202,7 @@ def _motion_rows(model: Model, record: BlockRecord) -> dict[str, Array]:
     if rig.rigid_ring is not None:
         indices.append((rig.rigid_ring.offset, rig.rigid_ring.offset + 1))
     if rig.seat is not None:
-        count = 1 + len(rig.seat.masses)
+        count = len(rig.seat.masses)
         indices += [(rig.seat.offset + i, rig.seat.offset + count + i) for i in range(count)]
         if "occupant_x" in model.bodies:
             indices.append((rig.seat.offset + 2 * count, rig.seat.offset + 2 * count + 1))

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from contact_sim_pkg.compiled.arrays import Vector
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.laws.parameters import Contact
 
 
@@ -38,19 +40,42 @@ class RigidRing(NamedTuple):
     damping: float  # [N s/m]
 
 
-class Seat(NamedTuple):
-    """Occupant on a cushion: a frame mass in contact, and masses that hang on it by spring and
-    damper, in parallel.
+class MasslessNode(NamedTuple):
+    """Seat interface without a mass: its velocity follows from the balance of its forces."""
 
-    State, from ``offset``: frame_z, masses_z..., frame_v, masses_v...; with friction also
-    occupant_x, occupant_vx and the deflection of the friction spring.
+    damping: float  # [N s/m] of its links together, > 0
+
+
+class Softening(NamedTuple):
+    """Links of an occupant that soften with the running mean square of the seat's acceleration."""
+
+    offset: int  # of the mean square [m^2/s^4] in the state vector
+    exponent: float  # beta: stiffness by r^-2 beta, damping by r^-beta, r the rms over 1 m/s^2
+    time_constant: float  # [s]
+    least: float  # [m/s^2] rms, below which nothing changes
+    most: float  # [m/s^2]
+    rest: Vector  # [links] [m] deflections about which they soften
+
+
+class Seat(NamedTuple):
+    """Occupant on a cushion: masses, the first of them in contact, on springs and dampers between
+    any two.
+
+    State, from ``offset``: heights of the masses..., velocities...; with friction also occupant_x,
+    occupant_vx and the deflection of the friction spring.
     """
 
-    offset: int  # index of frame_z in the state vector
-    frame_mass: float  # [kg]
-    masses: Vector  # [kg], may be empty
-    stiffness: Vector  # [N/m], one a mass
-    damping: Vector  # [N s/m], one a mass
+    offset: int  # index of the first height in the state vector
+    masses: Vector  # [kg]
+    ends: Modes  # [links, 2] numbers of the masses, the lower first
+    springs: Vector  # [2, links] stiffness [N/m], damping [N s/m]
+    node: MasslessNode | None = None  # None where the first mass is above 0
+    softening: Softening | None = None
+
+
+def rigid_occupant(mass: float, offset: int = 0) -> Seat:
+    """A seat under one rigid ``mass`` [kg], its height at ``offset`` of the state vector."""
+    return Seat(offset, numpy.array([mass]), numpy.zeros((0, 2), dtype=numpy.int64), numpy.zeros((2, 0)))
 
 
 class Vehicle(NamedTuple):

@@ -35,11 +35,15 @@ def work_of_car(scene: ResolvedScene) -> Iterator[Work]:
 
 def seat_steps(scene: ResolvedScene) -> Iterator[Work]:
     """Steps of the occupant and of its contact with the cushion."""
-    occupant = scene.section(SeatSection).occupant
-    rows = zip(occupant.masses, occupant.stiffness, occupant.damping, strict=True)
-    links = [Link("occupant", min(mass, occupant.frame_mass), k, c) for mass, k, c in rows]
-    load = (occupant.frame_mass + sum(occupant.masses)) * GRAVITY
-    yield from integrator_steps(scene, "seat", [*links, *links_of_laws(scene, "seat", occupant.frame_mass, load)])
+    occupant = scene.section(SeatSection).occupant.model_of()
+    # A massless interface moves with what hangs on it, and makes nothing faster.
+    masses = [mass or occupant.mass for mass in occupant.masses]
+    links = [
+        Link("occupant", min(masses[link.lower], masses[link.upper]), link.stiffness, link.damping)
+        for link in occupant.links
+    ]
+    laws = links_of_laws(scene, "seat", masses[0], occupant.mass * GRAVITY)
+    yield from integrator_steps(scene, "seat", [*links, *laws])
 
 
 def tire_steps(scene: ResolvedScene) -> Iterator[Work]:

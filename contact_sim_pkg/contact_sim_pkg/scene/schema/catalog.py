@@ -129,7 +129,7 @@ def _leaf(location: Location, annotation: Any, info: FieldInfo) -> Entry:
         if isinstance(part, FieldInfo):
             metadata += part.metadata
         elif get_origin(part) is Literal:
-            words += list(get_args(part))
+            words += [str(word) for word in get_args(part)]
             kind = "choice" if kind == "text" else kind
         elif part in (float, int, bool):
             kind = {float: "number", int: "integer", bool: "flag"}[part]

@@ -18,7 +18,7 @@ from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, close_
 from contact_sim_pkg.reference.belt_slider import StickSlip, period_of_rigid_law, slip_starts, state_at
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
-from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.parameters import Vehicle, rigid_occupant
 
 MASS, SPRING, BELT_SPEED, LOAD = 1.0, 100.0, 0.1, 9.81
 STATIC, KINETIC = 0.4, 0.3
@@ -142,8 +142,7 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     mass, gravity = 50.0, 9.81
     friction = Friction(2.0e4, 200.0, 0.4, 0.35)
     contact = Contact(NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), friction)
-    none = numpy.zeros(0)
-    rig = Vehicle(gravity, None, None, None, Seat(0, mass, none, none, none), contact)
+    rig = Vehicle(gravity, None, None, None, rigid_occupant(mass), contact)
     count = 4000
     times = numpy.arange(count + 1) * 1e-3
     a_x, a_z = 6.0 * numpy.sin(2 * math.pi * 3.1 * times), 14.0 * numpy.sin(2 * math.pi * 4.0 * times)

@@ -95,8 +95,9 @@ def slow_run(drive: DrivenBackrest) -> BackrestMotion | None:
     if law is None or rig.stiffness.any() or contact.hysteresis is not None:
         return None
     mass, none = float(rig.mass[0]), numpy.zeros(0)
+    unlinked = numpy.zeros((0, 2), dtype=numpy.int64)
     pressed, still = float(rig.preload[0]) / mass, numpy.zeros(len(drive.acceleration))
-    back = Occupant(mass, none, none, none, law)
+    back = Occupant(rig.mass, unlinked, none, none, law)
     found = states_at_segments(
         pressed, None, back, -drive.model.start[:2], drive.segment, cushion=still, height=still,
         acceleration=drive.acceleration,

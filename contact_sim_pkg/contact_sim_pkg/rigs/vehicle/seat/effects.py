@@ -1,12 +1,15 @@
 """Effects of the contact between occupant and cushion.
 
 A scene calls for friction where the floor moves fore and aft, with a tangential demand above about
-0.3 of mu N; for a loss where the contact opens. What carries the load is a choice of the model.
+0.3 of mu N; for a loss where the contact opens; for a softening occupant where the vibration spans
+more than a factor 2 within a run. What carries the load is a choice of the model.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+
+import numpy
 
 from contact_sim_pkg.records.effect import Effect, Observed, Verdict, choice_of_model, needed_where_it_opens
 
@@ -16,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["SEAT_EFFECTS"]
 
 DEMAND = 0.3  # of mu N
+SPAN, PARTS = 2.0, 4  # of the vibration's rms within a run, and the parts that it is cut into
 
 
 def _friction(scene: ResolvedScene, observed: Observed) -> Verdict:
@@ -30,6 +34,14 @@ def _friction(scene: ResolvedScene, observed: Observed) -> Verdict:
     demand = occupant_mass(scene.section(SeatSection).occupant) * observed.forward
     share = demand / limit if limit > 0.0 else float("inf")
     return share > DEMAND, f"fore-aft demand up to {share:.2g} of mu N, limit {DEMAND:g}"
+
+
+def _softening(_scene: ResolvedScene, observed: Observed) -> Verdict:
+    force = observed.forces["seat"]
+    parts = [float(part.std()) for part in numpy.array_split(force, PARTS) if len(part)]
+    span = max(parts) / min(parts) if min(parts) > 0.0 else float("inf") if max(parts) > 0.0 else 1.0
+    said = f"rms of the force on the seat spans a factor {span:.2g} between quarters of the run, limit {SPAN:g}"
+    return span > SPAN, said
 
 
 _SCHEMA, _LAWS = f"{__package__}.schema", "contact_sim_pkg.scene.schema.laws"
@@ -70,5 +82,9 @@ SEAT_EFFECTS = (
         name="pressure_mat", section=f"{_SCHEMA}:PressureMat", help="pressure map of a point contact",
         needs=("normal_elastic",), excludes=("contact_field",), publishes="patch", feeds=("patch",),
         called_for=choice_of_model("needed where a map of the pressure is requested"),
+    ),
+    Effect(
+        name="softening", section=f"{_SCHEMA}:SofteningSection", help="occupant that softens with vibration",
+        source="Huang and Griffin 2006", feeds=("force", "wrench"), called_for=_softening,
     ),
 )  # fmt: skip

@@ -2,49 +2,137 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field
 
+from contact_sim_pkg.rigs.vehicle.seat.occupants import OCCUPANTS, SEATED_MASS, Link, OccupantModel, scaled, stiffened
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
 from contact_sim_pkg.scene.schema.laws import HuntCrossley, PowerLaw
 from contact_sim_pkg.scene.schema.pressure_field import GridSection, PressureFieldSection
 
+OWN = "own"
+NAMES = (*OCCUPANTS, OWN)
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.schema.scene import Scene
+
+    ModelName: TypeAlias = str
+else:
+    ModelName = Literal[NAMES]
+
 Mass: TypeAlias = Annotated[float, Field(ge=0.05, le=1000.0)]
 Stiffness: TypeAlias = Annotated[float, Field(ge=100.0, le=1e8)]
 Damping: TypeAlias = Annotated[float, Field(ge=0.0, le=1e6)]
+Ends: TypeAlias = Annotated[list[Annotated[int, Field(ge=0, le=8)]], Field(min_length=2, max_length=2)]
 
 
 class OccupantSection(Section):
-    """Masses that hang in parallel on the frame mass, which sits on the cushion; Wei and Griffin
-    1998, two masses.
+    """Masses on springs and dampers, the first of them in contact with the cushion: an occupant of
+    the literature by name, scaled and stiffened, or your own; a value that is given replaces that
+    of the model.
     """
 
-    frame_mass: float = number(0.1, 1000.0, "kg", "mass in contact with the cushion", default=6.7)
-    masses: list[Mass] = numbers(
+    model: ModelName = choice(
+        f"occupant of the literature, or {OWN}: masses, stiffness and damping are given", default="wei_griffin_2"
+    )
+    percentile: Literal[5, 50, 95] | None = choice(
+        "body whose mass the model is scaled to, 73 % of it on the cushion: 36.5 (woman), 57 or 74.5 kg", default=None
+    )
+    mass: float | None = number(
+        1.0, 1000.0, "kg", "mass on the cushion that the model is scaled to; its own by default", default=None
+    )
+    posture: float = number(
+        0.25, 4.0, "", "factor on the springs, damping ratios kept; erect or tense 1.1 to 1.25", default=1.0
+    )
+    frame_mass: float | None = number(
+        0.0, 1000.0, "kg", "mass in contact with the cushion, 0: massless; that of the model by default", default=None
+    )
+    masses: list[Mass] | None = numbers(
         "kg",
-        "masses on springs; an empty list is a rigid occupant",
-        "0 to 3 numbers, each 0.05 to 1000 kg",
-        default=[33.4, 10.7],
+        "masses on springs; an empty list is a rigid occupant; those of the model by default",
+        "0 to 8 numbers, each 0.05 to 1000 kg",
+        default=None,
         shortest=0,
-        longest=3,
+        longest=8,
     )
-    stiffness: list[Stiffness] = numbers(
+    links: list[Ends] | None = numbers(
+        "",
+        "ends of each link: 0 the frame, 1 the first of masses; each mass on the frame by default, or as in the model",
+        "0 to 16 pairs [lower, upper]",
+        default=None,
+        shortest=0,
+        longest=16,
+    )
+    stiffness: list[Stiffness] | None = numbers(
         "N/m",
-        "spring of each mass",
-        "one number a mass, each 100 to 1e8 N/m",
-        default=[35776.0, 38374.0],
+        "spring of each link; that of the model by default",
+        "one number a link, each 100 to 1e8 N/m",
+        default=None,
         shortest=0,
-        longest=3,
+        longest=16,
     )
-    damping: list[Damping] = numbers(
+    damping: list[Damping] | None = numbers(
         "N s/m",
-        "damper of each mass",
-        "one number a mass, each 0 to 1e6 N s/m",
-        default=[761.0, 458.0],
+        "damper of each link; that of the model by default",
+        "one number a link, each 0 to 1e6 N s/m",
+        default=None,
         shortest=0,
-        longest=3,
+        longest=16,
     )
+    head: int | None = number(
+        1, 8, "", "number of the mass that is the head; that of the model by default, if it has one", default=None
+    )
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        return self.following()
+
+    def following(self) -> dict[str, Any]:
+        """Values that follow from name, mass and posture; none for one's own."""
+        named = self.named()
+        if named is None:
+            return {}
+        values: dict[str, Any] = {
+            "frame_mass": named.masses[0],
+            "masses": list(named.masses[1:]),
+            "stiffness": [link.stiffness for link in named.links],
+            "damping": [link.damping for link in named.links],
+        }
+        # What an earlier version resolved has neither links nor a head.
+        links = [list(link[:2]) for link in named.links]
+        if links != _on_frame(len(links)):
+            values["links"] = links
+        if named.head is not None:
+            values["head"] = named.head
+        return values
+
+    def named(self) -> OccupantModel | None:
+        """The model of the name with mass and posture, before any other value; None for one's
+        own.
+        """
+        if self.model == OWN:
+            return None
+        found = OCCUPANTS[self.model]
+        mass = self.mass if self.percentile is None else SEATED_MASS[self.percentile]
+        found = found if mass is None else scaled(found, mass)
+        return found if self.posture == 1.0 else stiffened(found, self.posture)
+
+    def model_of(self) -> OccupantModel:
+        """The occupant, whose values `occupant_breaches` has found to belong together."""
+        values = {**self.following(), **self.model_dump(exclude_none=True)}
+        ends = values.get("links", _on_frame(len(values["masses"])))
+        links = zip(ends, values["stiffness"], values["damping"], strict=True)
+        return OccupantModel(
+            masses=(values["frame_mass"], *values["masses"]),
+            links=tuple(Link(lower, upper, k, c) for (lower, upper), k, c in links),
+            head=values.get("head"),
+            source=self.model if self.model == OWN else OCCUPANTS[self.model].source,
+        )
+
+
+def _on_frame(count: int) -> list[list[int]]:
+    """Ends of links side by side between the frame and each mass."""
+    return [[0, number] for number in range(1, count + 1)]
 
 
 class Body(Section):
@@ -114,6 +202,20 @@ class SeatField(PressureFieldSection):
 
     length: float = number(0.05, 5.0, "m", "extent forward", default=0.6)
     width: float = number(0.05, 5.0, "m", "extent to the left", default=0.5)
+
+
+class SofteningSection(Section):
+    """Links of the occupant that soften with vibration: stiffness by r^(-2 exponent), damping by
+    r^(-exponent), r the running rms of the seat's vertical acceleration over 1 m/s².
+    """
+
+    exponent: float = number(
+        0.0, 0.5, "", "0.195: apparent-mass peak from 6 Hz at 0.25 to 4 Hz at 2 m/s² rms; 0.11: from 5.4 to 4.2 Hz",
+        default=0.195,
+    )  # fmt: skip
+    time_constant: float = number(0.1, 60.0, "s", "of the running mean square", default=5.0)
+    least: float = number(0.01, 10.0, "m/s^2", "rms below which nothing changes", default=0.25)
+    most: float = number(0.01, 100.0, "m/s^2", "rms above which nothing changes, above least", default=2.5)
 
 
 class PressureMat(Section):

@@ -3,16 +3,100 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
-from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
+from contact_sim_pkg.rigs.vehicle.seat.schema import OWN, OccupantSection, SeatSection, SofteningSection
 from contact_sim_pkg.scene.errors import Breach
+from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.scene import Scene
+
+LIGHTEST = 0.1  # [kg] of a frame that is not massless: a lighter one swings faster than the rest by far
+VALUES = ("frame_mass", "masses", "links", "stiffness", "damping", "head")
 
 
 def occupant_breaches(scene: Scene) -> Iterator[Breach]:
-    """Springs and dampers that do not belong to a mass."""
-    occupant = scene.section(SeatSection).occupant
-    for name, values in (("stiffness", occupant.stiffness), ("damping", occupant.damping)):
-        if len(values) != len(occupant.masses):
-            sentence = f"has {len(values)} values, masses has {len(occupant.masses)}; each mass needs one"
-            yield Breach(f"seat.occupant.{name}", sentence, ("seat.occupant.masses",))
+    """Values of an occupant that do not belong together."""
+    section = scene.section(SeatSection).occupant
+    found = list(_choice_breaches(section)) or list(_link_breaches(section)) or list(_frame_breaches(section))
+    yield from found
+    softening = scene.effect("seat", SofteningSection)
+    if softening is not None and softening.least >= softening.most:
+        sentence = f"{show(softening.least)} m/s^2 is not below most ({show(softening.most)} m/s^2)"
+        yield Breach("effects.seat.softening.least", sentence)
+
+
+def _choice_breaches(section: OccupantSection) -> Iterator[Breach]:
+    """A model of one's own that lacks values; two masses; values beside a scaling that gives
+    others.
+    """
+    given = {name: value for name in VALUES if (value := getattr(section, name)) is not None}
+    scalings = [name for name in ("percentile", "mass") if getattr(section, name) is not None]
+    scalings += ["posture"] if section.posture != 1.0 else []
+    if section.percentile is not None and section.mass is not None:
+        yield Breach(
+            "seat.occupant.mass", "percentile gives the mass too; leave one out", ("seat.occupant.percentile",)
+        )
+    elif section.model == OWN:
+        missing = [name for name in ("frame_mass", "masses", "stiffness", "damping") if name not in given]
+        if missing:
+            yield Breach("seat.occupant.model", f"{OWN} needs {' and '.join(missing)} beside it")
+        for name in scalings:
+            yield Breach(
+                f"seat.occupant.{name}", f"scales a model by name; model: {OWN} is none", ("seat.occupant.model",)
+            )
+    elif scalings:
+        follows = section.following()
+        for name, value in given.items():
+            if value != follows.get(name):
+                sentence = f"follows from {scalings[0]} as {_shown(follows.get(name))}; leave one of them out"
+                yield Breach(f"seat.occupant.{name}", sentence, (f"seat.occupant.{scalings[0]}",))
+
+
+def _link_breaches(section: OccupantSection) -> Iterator[Breach]:
+    """Springs and dampers that do not belong to a link, links that do not lead anywhere."""
+    values: dict[str, Any] = {**section.following(), **section.model_dump(exclude_none=True)}
+    count, links = len(values["masses"]), values.get("links")
+    # Without links each mass hangs on the frame by its own.
+    thing, many = ("mass", count) if links is None else ("link", len(links))
+    for name in ("stiffness", "damping"):
+        if len(values[name]) != many:
+            told = "masses" if links is None else "links"
+            sentence = f"has {len(values[name])} values, {told} has {many}; each {thing} needs one"
+            yield Breach(f"seat.occupant.{name}", sentence, (f"seat.occupant.{told}",))
+    if links is not None:
+        yield from _end_breaches(links, count)
+    if values.get("head", 0) > count:
+        yield Breach("seat.occupant.head", f"is mass {values['head']}, masses has {count}", ("seat.occupant.masses",))
+
+
+def _end_breaches(links: list[list[int]], count: int) -> Iterator[Breach]:
+    """Links that lead from a mass to itself or to none, and masses that no link leads to."""
+    reached = {0}
+    for _each in range(count):
+        reached |= {end for pair in links if reached & set(pair) for end in pair}
+    for number, (lower, upper) in enumerate(links):
+        where = f"seat.occupant.links.{number}"
+        if max(lower, upper) > count:
+            yield Breach(where, f"names mass {max(lower, upper)}, masses has {count}", ("seat.occupant.masses",))
+            return
+        if lower == upper:
+            yield Breach(where, f"leads from {lower} to itself; a link joins two masses")
+            return
+    for number in sorted(set(range(1, count + 1)) - reached):
+        yield Breach("seat.occupant.links", f"mass {number} hangs on nothing; lead links from it to the frame")
+
+
+def _frame_breaches(section: OccupantSection) -> Iterator[Breach]:
+    """A frame so light that it would swing by itself, and a massless one that nothing slows."""
+    occupant = section.model_of()
+    frame = occupant.masses[0]
+    if 0.0 < frame < LIGHTEST:
+        sentence = f"{show(frame)} kg is below {show(LIGHTEST)} kg; write 0 for a massless frame"
+        yield Breach("seat.occupant.frame_mass", sentence)
+    if frame == 0.0 and not any(link.damping > 0.0 for link in occupant.links if 0 in link[:2]):
+        sentence = "a massless frame needs a damper in a link to it: nothing else slows it"
+        yield Breach("seat.occupant.frame_mass", sentence, ("seat.occupant.damping",))
+
+
+def _shown(value: Any) -> str:
+    return str(value) if isinstance(value, list) else show(value)

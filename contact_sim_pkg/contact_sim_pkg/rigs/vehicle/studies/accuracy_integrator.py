@@ -119,7 +119,7 @@ def _forces(drive: SceneDrive, states: Vector) -> list[Vector]:
         found.append(numpy.array([normal_force(tire_law, x, v) for x, v in zip(approach, speed, strict=True)]))
     if seat_law is not None and rig.seat is not None:
         first = rig.seat.offset
-        second = first + 1 + len(rig.seat.masses)
+        second = first + len(rig.seat.masses)
         floor = (0.0, 0.0) if rig.tire is None else (states[:, 1], states[:, 3])
         approach, speed = floor[0] - states[:, first], floor[1] - states[:, second]
         found.append(numpy.array([normal_force(seat_law, x, v) for x, v in zip(approach, speed, strict=True)]))

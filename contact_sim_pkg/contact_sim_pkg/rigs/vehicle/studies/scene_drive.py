@@ -16,7 +16,7 @@ from contact_sim_pkg.reference.vehicle import Belt, Law, Occupant, Quarter, stat
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
-from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
+from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_heights
 from contact_sim_pkg.rigs.vehicle.tire.schema import AsperityImpulsesSection
 from contact_sim_pkg.run.sources import make_sources, make_travel
@@ -121,8 +121,10 @@ def twin_laws(rig: Vehicle) -> tuple[Law | None, Law | None]:
 
 def twin_covers(rig: Vehicle) -> bool:
     """Whether the laws of all contacts are among those that the twin has: power laws without
-    hysteresis.
+    hysteresis, under an occupant that does not soften.
     """
+    if rig.seat is not None and rig.seat.softening is not None:
+        return False
     present = ((rig.tire, rig.tire_contact), (rig.seat, rig.seat_contact))
     return all(_is_covered(contact) for part, contact in present if part is not None)
 
@@ -141,8 +143,12 @@ def _law(contact: Contact | None) -> Law:
     return Law(coefficient, exponent, 0.0 if loss is None else loss.damping)
 
 
+def _occupant(seat: Seat, law: Law) -> Occupant:
+    return Occupant(seat.masses, seat.ends, seat.springs[0], seat.springs[1], law)
+
+
 def _twins(rig: Vehicle) -> tuple[Quarter | None, Occupant | None]:
     belt = None if rig.rigid_ring is None else Belt(*rig.rigid_ring[1:])
     quarter = None if rig.tire is None else Quarter(*rig.tire, _law(rig.tire_contact), belt)
-    occupant = None if rig.seat is None else Occupant(*rig.seat[1:], _law(rig.seat_contact))
+    occupant = None if rig.seat is None else _occupant(rig.seat, _law(rig.seat_contact))
     return quarter, occupant
