@@ -1,12 +1,10 @@
 """No command writes over what it reads, or over a file that it did not make, unasked."""
 
-import importlib
-
 import click
 import pytest
 from tests.report import synthetic_bag as known
 
-from contact_sim_pkg.cli.main import COMMANDS, main
+from contact_sim_pkg.cli.main import COMMANDS, bench, main
 
 IMPACTS = "m,R,V0,tau,k\n0.02,0.01,1,0.001,0.5\n0.02,0.01,1,0.001,0.51\n"
 OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
@@ -14,6 +12,7 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("material", "plot"): ["IMPACTS", "--plot", "FILE"],
     ("identify", "plot"): ["BAG", "--box", "1", "1", "1", "--plot", "FILE"],
     ("accuracy", "plot"): ["seat_ride", "--plot", "FILE"],
+    ("validation", "page"): ["--page", "FILE"],
     ("report", "out"): ["BAG", "--out", "FILE"],
     ("run", "out"): ["seat_ride", "--offline", "--out", "FILE"],
     ("recover", "target"): ["BAG", "FILE"],
@@ -35,8 +34,8 @@ def call(bag, folder, arguments, file):
 def test_every_path_of_a_command_is_a_known_output_or_an_input():
     paths = {
         (name, parameter.name)
-        for name, module in COMMANDS.items()
-        for parameter in importlib.import_module(f"contact_sim_pkg.cli.{module}").command.params
+        for name in COMMANDS
+        for parameter in bench.get_command(click.Context(bench), name).params
         if isinstance(parameter.type, click.Path)
     }
     assert {(name, parameter) for name, parameter in paths if parameter not in INPUTS} == set(OUTPUTS)

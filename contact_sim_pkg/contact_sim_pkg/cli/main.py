@@ -15,9 +15,9 @@ import click
 
 BEGAN = time.monotonic()  # start of the process, near enough: what a run calls its start-up counts from here
 
-COMMANDS = {  # command -> its module
-    "list": "list_scenes",
-    "show": "show",
+COMMANDS = {  # command -> its module, and its name there where that is not `command`
+    "list": "scenes:list_command",
+    "show": "scenes:show_command",
     "run": "run",
     "replay": "replay",
     "report": "report",
@@ -25,6 +25,7 @@ COMMANDS = {  # command -> its module
     "accuracy": "accuracy",
     "effects": "effects",
     "hard": "hard",
+    "validation": "validation",
     "goals": "goals",
     "material": "material",
     "recover": "recover",
@@ -45,8 +46,9 @@ class LazyGroup(click.Group):
         """The command of this name, imported now; None where there is none."""
         if name not in COMMANDS:
             return None
-        command: click.Command = import_module(f"contact_sim_pkg.cli.{COMMANDS[name]}").command
-        return command
+        module, _, command = COMMANDS[name].partition(":")
+        found: click.Command = getattr(import_module(f"contact_sim_pkg.cli.{module}"), command or "command")
+        return found
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})

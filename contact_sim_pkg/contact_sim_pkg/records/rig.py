@@ -42,6 +42,8 @@ class Rig:
             those of papers on the rig included: `bench accuracy RIG`.
         goals: modules whose `GOALS` holds `records.goal.GoalPart`: `bench goals`.
         hard_cases: modules whose `CASES` holds `records.hard_case.HardCase`: `bench hard`.
+        validation: modules whose `VALIDATION` holds `records.published.Published`: `bench
+            validation`.
         scenes: its shipped scenes, each with its place in `bench list`: the smaller the run, the
             sooner.
         forecast: module whose `facts_before_run` and `sentence_before_run` report what is known
@@ -64,6 +66,7 @@ class Rig:
     work_precision: tuple[str, ...] = ()
     goals: tuple[str, ...] = ()
     hard_cases: tuple[str, ...] = ()
+    validation: tuple[str, ...] = ()
     scenes: Mapping[str, int] = field(default_factory=dict)
     forecast: str = ""
     kernels: int = 0

@@ -1,0 +1,37 @@
+"""Published figures beside those of the bench."""
+
+import pytest
+
+from contact_sim_pkg.records.published import Published
+from contact_sim_pkg.studies.validation import validation
+
+INSIDE = Published(
+    machine="scale", quantity="weight of 1 kg", unit="N", value="9.81 ± 0.01", band=(9.80, 9.82), source="a book, 1901",
+    ours=lambda: 9.80665, fitted=True,
+)  # fmt: skip
+OUTSIDE = Published(
+    machine="clock", quantity="period", unit="s", value="2", band=(1.9, 2.1), source="another, 1673", ours=lambda: 2.5,
+    note="the pendulum is too long",
+)  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def _published(monkeypatch):
+    monkeypatch.setattr(validation, "all_published", lambda: [INSIDE, OUTSIDE])
+
+
+def test_a_row_holds_both_figures_and_whether_they_agree():
+    rows = validation.study()
+    assert [(row["ours"], row["inside"]) for row in rows] == [(9.80665, True), (2.5, False)]
+    assert [section.note for section in validation.sections(rows)] == [
+        "1 of 1 inside their band",
+        "0 of 1 inside their band",
+    ]
+
+
+def test_the_page_gives_band_verdict_reason_and_source():
+    page = validation.page(validation.study())
+    assert "| weight of 1 kg | N | 9.81 ± 0.01 | 9.81 | 9.8 to 9.82 | inside, fitted | [1](#sources-scale) |" in page
+    assert "| period | s | 2 | 2.5 | 1.9 to 2.1 | **outside** | [1](#sources-clock) |" in page
+    assert "* period: the pendulum is too long" in page
+    assert "### Sources: clock\n\n1. another, 1673" in page
