@@ -35,8 +35,9 @@ class Content:
 
 
 def seat_ride(blocks: int = 2, **changes: Any) -> Content:
-    """The excitation of `seat_ride` as its run records it, without the simulation."""
-    scene = resolve(load_scene("seat_ride", [set_value(f"duration={blocks * 0.01}")]))
+    """The excitation of `seat_ride` on a spring as its run records it, without the simulation."""
+    values = (f"duration={blocks * 0.01}", "effects.seat={normal_elastic: {}, normal_dissipative: {}}")
+    scene = resolve(load_scene("seat_ride", [set_value(value) for value in values]))
     source = make_sources(scene)[VIBRATION]
     stamps = [number * BLOCK for number in range(blocks)]
     sent = [(VIBRATION, stamp, encode(source.block(stamp // BLOCK), stamp)) for stamp in stamps]

@@ -42,12 +42,12 @@ def test_waveforms_in_a_list_become_rows_too():
 
 def test_an_absent_effect_is_not_listed():
     scene = {
-        "effects": {"seat": {"normal_elastic": {}, "friction": None, "contact_field": {"rows": 40, "length": 0.6}}}
+        "effects": {"seat": {"normal_elastic": {}, "friction": None, "half_space_field": {"rows": 40, "length": 0.6}}}
     }
 
     rows = facts.effect_rows(recording(scene=scene))["seat"]
 
-    assert rows == [("elastic force", "on"), ("pressure field", "rows 40, length 0.6 m")]
+    assert rows == [("elastic force", "on"), ("pressure field of a half-space", "rows 40, length 0.6 m")]
 
 
 def test_notes_of_the_excitation_stand_apart_from_its_values():

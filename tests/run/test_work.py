@@ -24,6 +24,7 @@ from contact_sim_pkg.scene.load import shipped_names
 
 GENERAL = "effects.backrest.general_dissipative"
 DAMPER = (f"{GENERAL}.restitution=null", f"{GENERAL}.reference_speed=null", f"{GENERAL}.coefficient=1e12")
+ON_A_HALF_SPACE = ("effects.seat={normal_elastic: {}, half_space_field: {rows: 512, cols: 512}}",)
 
 
 @pytest.mark.parametrize(
@@ -38,7 +39,7 @@ DAMPER = (f"{GENERAL}.restitution=null", f"{GENERAL}.reference_speed=null", f"{G
             ("effects.roller.damage.table_rows=1000", "effects.roller.subsurface.cells_z=512"),
             "damage.table_rows",
         ),
-        ("seat_ride", ("duration=3600", "effects.seat.contact_field={rows: 512, cols: 512}"), "seat.contact_field"),
+        ("seat_ride", ("duration=3600", *ON_A_HALF_SPACE), "seat.half_space_field"),
     ],
 )
 def test_more_than_ten_minutes_are_refused_by_name_unless_they_are_allowed(scene, values, cause):
@@ -63,7 +64,7 @@ def test_the_time_that_a_run_lasts_anyway_is_no_reason_to_refuse_it():
 
 
 def test_the_estimate_counts_the_steps_of_a_stiff_contact():
-    scene = resolved("seat_ride", "duration=0.1", "effects.seat.normal_elastic.coefficient=1e12")
+    scene = resolved("seat_ride", "duration=0.1", "effects.seat={normal_elastic: {coefficient: 1e12}}")
     expected = {part.what: part.number for part in estimated_work(scene)}
     simulation, source = make_simulation(scene), make_sources(scene)["platform/vibration"]
     simulation.prepare()

@@ -22,7 +22,7 @@ def test_a_higher_limit_lets_it_pass(maker):
 def test_parts_that_fit_alone_are_summed(maker):
     half = {"rows": 1500, "cols": 1500}
     assert maker.faults("car", {FIELD: half}) == []
-    (fault,) = maker.faults("car", {FIELD: half, "effects.seat.contact_field": half})
+    (fault,) = maker.faults("car", {FIELD: half, "effects.seat.half_space_field": half})
     assert "all parts together" in fault
 
 

@@ -12,7 +12,7 @@ from contact_sim_pkg.scene.overrides import set_duration, set_pace, set_rate, se
         ("duration=2.5", lambda scene: scene.duration == 2.5),
         ("seat.occupant.masses.0=40.0", lambda scene: scene.seat.occupant.masses[0] == 40.0),
         ("seat.occupant.frame_mass=5e0", lambda scene: scene.seat.occupant.frame_mass == 5.0),
-        ("effects.seat.contact_field={}", lambda scene: scene.effects.seat.contact_field is not None),
+        ("effects.seat.half_space_field={}", lambda scene: scene.effects.seat.half_space_field is not None),
         (
             "effects.seat.friction={coefficient_static: 0.5}",
             lambda scene: scene.effects.seat.friction.coefficient_static == 0.5,
@@ -27,10 +27,12 @@ def test_one_value_is_changed(maker, assignment, read):
 
 
 def test_null_takes_a_key_out(maker):
-    given = {"effects": {"seat": {"normal_elastic": {}, "contact_field": {}, "friction": {"coefficient_static": 0.5}}}}
+    given = {
+        "effects": {"seat": {"normal_elastic": {}, "half_space_field": {}, "friction": {"coefficient_static": 0.5}}}
+    }
     scene = maker.load("seat", given, [set_value("effects.seat.friction=null"), set_value("duration=2")])
     assert scene.effects.seat.friction is None
-    assert scene.effects.seat.contact_field is not None
+    assert scene.effects.seat.half_space_field is not None
     assert scene.duration == 2.0
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from contact_sim_pkg.rigs.vehicle.seat.schema import SeatField
+from contact_sim_pkg.rigs.vehicle.seat.schema import HalfSpaceField
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireField
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.load import load_scene, shipped_names
@@ -49,7 +49,7 @@ def test_time_integration_takes_a_hundredth_of_the_asked_error(maker, accuracy, 
 
 
 def test_fidelity_levels_get_finer_and_more_expensive():
-    for grids in (TireField.levels, SeatField.levels):
+    for grids in (TireField.levels, HalfSpaceField.levels):
         cells = [grid.rows * grid.cols for grid in grids]
         tolerances = [grid.tolerance for grid in grids]
         assert len(grids) == len(LEVELS)

@@ -48,8 +48,11 @@ def test_means_over_coarser_cells_keep_the_integral_and_a_constant():
     assert accuracy_cost_field._onto(fine, (15, 21))[3, 4] == pytest.approx(fine[6:8, 8:10].mean())
 
 
-def test_every_effect_of_a_scene_has_a_row_with_its_topics():
-    rows = ablation.study("seat_ride")
+def test_every_effect_of_a_scene_has_a_row_with_its_topics(tmp_path):
+    scene = load_resolved("seat_ride", "effects.seat={normal_elastic: {}, normal_dissipative: {}}", "duration=1")
+    path = tmp_path / "ride.yaml"
+    path.write_text(scene.to_yaml(), encoding="utf-8")
+    rows = ablation.study(str(path))
     losses = {"normal_dissipative", "general_dissipative"}
     assert {row["effect"] for row in rows} == {
         "normal_elastic",
@@ -57,13 +60,18 @@ def test_every_effect_of_a_scene_has_a_row_with_its_topics():
         "foam",
         "foam_hysteresis",
         "friction",
+        "cushion",
         "contact_field",
+        "half_space_field",
         "pressure_mat",
         "softening",
     }
     by_name = {row["effect"]: row for row in rows}
     assert "seat/patch" in by_name["pressure_mat"]["topics"], "a mat shows the contact and does not act on it"
-    assert all("seat/force" in row["topics"] for name, row in by_name.items() if name != "pressure_mat")
+    maps = ("pressure_mat", "contact_field")
+    assert all("seat/force" in row["topics"] for name, row in by_name.items() if name not in maps)
+    assert by_name["normal_elastic"]["verdict"] == "carries the load"
+    assert by_name["cushion"]["why"] == "in its place normal_elastic carries the load"
     assert by_name["friction"]["on"] is False
     assert by_name["friction"]["load_rms_change"] == 0.0, "friction does not act on the vertical force"
     assert by_name["normal_dissipative"]["load_rms_change"] != 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -44,9 +44,16 @@ class Contact:
     loosest_integration: Callable[[Mapping[str, Any]], float] = lambda _effects: LOOSEST_INTEGRATION
 
     @cached_property
-    def carrier(self) -> str:
-        """The effect without which the contact carries no load."""
-        return next(effect.name for effect in self.effects if effect.carries)
+    def carriers(self) -> tuple[str, ...]:
+        """The effects without one of which the contact carries no load, the usual one first."""
+        return tuple(effect.name for effect in self.effects if effect.carries)
+
+    def missing(self, effect: Effect, named: Container[str]) -> list[str]:
+        """Effects that an effect needs and that are not among the ``named`` ones; any that carries
+        the load stands for the usual one.
+        """
+        enough = {name: self.carriers if name == self.carriers[0] else (name,) for name in effect.needs}
+        return [name for name, others in enough.items() if not any(each in named for each in others)]
 
     def published(self, scene: Mapping[str, Any]) -> list[str]:
         """Whole names of the topics that the plain data of a resolved scene calls for."""

@@ -39,9 +39,11 @@ class Effect:
         section: ``module:class`` of its keys.
         help: what it is, in a phrase.
         source: paper or book that its formulas come from; empty for a choice of the model.
-        needs: effects without which it cannot act.
+        needs: effects without which it cannot act; for the usual one that carries the load stands any
+            other that does.
         excludes: effects that it cannot act beside.
-        carries: whether it carries the load of the contact: every scene with the contact names it.
+        carries: whether it carries the load of the contact: every scene with the contact names it, or
+            another that does.
         publishes: topic of the contact that is there because of it; empty: none.
         feeds: topics of the contact whose values it changes.
         inputs: sections of the scene that act through it alone.

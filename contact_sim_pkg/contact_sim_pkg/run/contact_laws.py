@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws import parameters
+from contact_sim_pkg.laws.elastic_law import elastic_force
 from contact_sim_pkg.laws.general_dissipative import SMOOTHING
 from contact_sim_pkg.laws.parameters import (
     ElasticLaw,
@@ -10,13 +18,19 @@ from contact_sim_pkg.laws.parameters import (
     NormalDissipation,
     NormalDissipative,
     NormalElastic,
+    TabulatedElastic,
 )
 from contact_sim_pkg.laws.restitution import damping_of_restitution
 from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, coefficient_of_restitution
+from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
+from contact_sim_pkg.pressure.cushion.foam_layer import FoamGrid, FoamLayer
+from contact_sim_pkg.pressure.cushion.force_table import ForceTable, make_table
+from contact_sim_pkg.pressure.cushion.kept_tables import kept_table
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.schema.laws import (
+    CushionSection,
     Foam,
     FoamHysteresisSection,
     FrictionSection,
@@ -25,7 +39,11 @@ from contact_sim_pkg.scene.schema.laws import (
     PowerLaw,
 )
 
-__all__ = ["elastic_law", "friction", "hysteresis", "normal_loss"]
+__all__ = ["Cushion", "build_cushion", "elastic_law", "foam_of", "friction", "hysteresis", "normal_loss"]
+
+Field = NDArray[numpy.float64]
+HARDNESS_STRAIN = 0.4
+MOST_SPACING, LEAST_NODES = 5e-4, 160  # [m] between the approaches of a table, nodes over the thickness
 
 
 def elastic_law(scene: ResolvedScene, contact: str) -> ElasticLaw:
@@ -86,4 +104,68 @@ def hysteresis(scene: ResolvedScene, contact: str, offset: int) -> parameters.Fo
     scene calls for none.
     """
     law = scene.effect(contact, FoamHysteresisSection)
-    return None if law is None else parameters.FoamHysteresis(offset, law.share, law.energy)
+    return None if law is None else parameters.FoamHysteresis(offset, law.share, given(law.energy))
+
+
+class Cushion(NamedTuple):
+    """A cushion under one body."""
+
+    table: ForceTable
+    law: TabulatedElastic
+    cells: tuple[float, float, float, float]  # [m] sizes of a cell along x and y, centre of cell (0, 0)
+
+    def pressure(self, approach: float, force: float) -> Field:
+        """Map [Pa] [rows, cols] at ``approach`` [m] that adds up to ``force`` [N]."""
+        return self.table.map_at(approach, force)
+
+
+def foam_of(keys: CushionSection) -> parameters.FoamElastic:
+    """Foam of a cushion, its area 1 m^2; a hardness scales its stresses."""
+    foam = parameters.FoamElastic(
+        1.0, keys.thickness, keys.modulus, keys.plateau, keys.densification, keys.densification_exponent
+    )
+    if keys.hardness is None:
+        return foam
+    ratio = keys.hardness / elastic_force(foam, HARDNESS_STRAIN * keys.thickness)
+    return foam._replace(
+        modulus=ratio * foam.modulus, plateau=ratio * foam.plateau, densification=ratio * foam.densification
+    )
+
+
+def build_cushion(
+    contact: str, keys: CushionSection, load: float, x: Vector, y: Vector, body: tuple[Any, ...],
+    gap: Callable[[Vector, Vector], Field],
+) -> Cushion:  # fmt: skip
+    """Table of the cushion of a contact, kept from an earlier run or computed.
+
+    load: [N] at rest; x, y: [rows], [cols] [m] centres of the cells; body: everything that the
+    ``gap`` [rows, cols] [m] over them follows from. Raises SceneError where the cushion does not
+    carry the load within its range.
+    """
+    foam = foam_of(keys)
+    grid = FoamGrid(len(x), len(y), keys.cell, keys.cell)
+    spacing = min(MOST_SPACING, keys.thickness / LEAST_NODES)
+    inextensible = keys.cover == "inextensible"
+    place = float(x[0]), float(y[0])
+    description = repr((foam, grid, place, keys.shear_share, inextensible, spacing, REACH, body))
+    table = kept_table(
+        description,
+        lambda: make_table(FoamLayer(grid, foam, gap(x, y), keys.shear_share, inextensible=inextensible), spacing),
+    )
+    _refuse_load(contact, keys, table, load)
+    return Cushion(table, table.law(), (keys.cell, keys.cell, *place))
+
+
+def _refuse_load(contact: str, keys: CushionSection, table: ForceTable, load: float) -> None:
+    """A load at rest beyond the range of the foam's law, or of the cells."""
+    most = table.most_force
+    if load > most:
+        reason = (
+            table.end
+            or f"the strain under its lowest point reaches {VALID_STRAIN:g}, to which the law of the foam holds"
+        )
+        sentence = (
+            f"carries {most:.4g} N at most, the load at rest is {load:.4g} N: {reason}; take a thicker or harder "
+            f"cushion (thickness {keys.thickness:g} m) or a lighter body"
+        )
+        raise SceneError([Fault("scene", 0, 0, f"effects.{contact}.cushion", sentence)])

@@ -59,8 +59,8 @@ def _time(seconds: float) -> str:
 def _fields(scene: ResolvedScene) -> Iterator[Work]:
     """Cells of the pressure fields, solved as often as they are published at least."""
     for contact in rigs()[scene.rig].contacts:
-        field = scene.effect(contact.name, PressureFieldSection)
-        if field is not None:
-            solved = scene.duration * scene.outputs.field_rate
-            number = given(field.rows) * given(field.cols) * solved
-            yield Work(f"cells of {contact.name}.contact_field", number, FIELD_COST)
+        for record, field in scene.effects_at(contact.name):
+            if isinstance(field, PressureFieldSection):
+                solved = scene.duration * scene.outputs.field_rate
+                number = given(field.rows) * given(field.cols) * solved
+                yield Work(f"cells of {contact.name}.{record.name}", number, FIELD_COST)

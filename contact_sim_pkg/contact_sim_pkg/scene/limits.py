@@ -54,8 +54,8 @@ def limit_breaches(scene: Scene) -> Iterator[Breach]:
 
 def memory_needs(scene: Scene) -> Iterator[Need]:
     """Estimated memory of each part of a scene."""
-    for contact, rows, cols in _grids(scene):
-        yield Need(f"effects.{contact}.contact_field", f"{rows} × {cols} cells need", rows * cols * BYTES_PER_CELL)
+    for where, rows, cols in _grids(scene):
+        yield Need(where, f"{rows} × {cols} cells need", rows * cols * BYTES_PER_CELL)
     points = _random_road_points(scene)
     if 0 < points <= MOST_ROAD_POINTS:
         yield Need("road", f"a random road of {points} points needs", points * BYTES_PER_ROAD_POINT)
@@ -117,18 +117,20 @@ def _too_much(needs: list[Need], total: int, limit: float) -> Breach:
 
 
 def _grids(scene: Scene) -> Iterator[tuple[str, int, int]]:
+    """Key of each pressure field, rows and cols."""
     for contact in rigs()[scene.rig].contacts:
         field = scene.effect(contact.name, PressureFieldSection)
         if field is not None:
-            yield contact.name, *field.cells(scene.accuracy)
+            name = next(name for name, effect in scene.effects_at(contact) if effect is field)
+            yield f"effects.{contact.name}.{name}", *field.cells(scene.accuracy)
 
 
 def _sides(scene: Scene) -> Iterator[Breach]:
-    for contact, rows, cols in _grids(scene):
+    for where, rows, cols in _grids(scene):
         for key, count in (("rows", rows), ("cols", cols)):
             if count > MOST_CELLS_A_SIDE:
                 sentence = f"{count} cells are more than the {MOST_CELLS_A_SIDE} that one side of a field can have"
-                yield Breach(f"effects.{contact}.contact_field.{key}", sentence)
+                yield Breach(f"{where}.{key}", sentence)
 
 
 def _samples(scene: Scene) -> Iterator[Breach]:

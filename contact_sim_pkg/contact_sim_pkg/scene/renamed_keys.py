@@ -12,7 +12,13 @@ from typing import Any
 from contact_sim_pkg.scene.errors import Fault
 from contact_sim_pkg.scene.yaml.nodes import MappingNode, Mark
 
-RENAMED: dict[str, str] = {"effects.tire.carcass": "effects.tire.rigid_ring"}
+RENAMED: dict[str, str] = {
+    "effects.tire.carcass": "effects.tire.rigid_ring",
+    **{
+        f"effects.seat.contact_field.{key}": f"effects.seat.half_space_field.{key}"
+        for key in ("length", "width", "rows", "cols", "tolerance", "corrector_passes")
+    },
+}
 """Old key -> new key. `docs/interfaces.md` lists them; an entry stays as long as bags with the old
 key are read.
 """

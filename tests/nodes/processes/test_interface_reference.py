@@ -75,7 +75,7 @@ def test_the_topics_of_a_scene_appear_as_in_the_table(name):
 
 
 def test_the_counts_of_messages_in_a_bag_follow_from_the_rates(tmp_path):
-    values = ("duration=0.05", "outputs.display_rate=200", "outputs.field_rate=500", "effects.seat.pressure_mat={}")
+    values = ("duration=0.05", "outputs.display_rate=200", "outputs.field_rate=500", "effects.seat.contact_field={}")
     run_offline(resolved("seat_ride", *values), tmp_path / "bag")
     bag, counted = open_bag(tmp_path / "bag"), 0
     for name, topic in TOPICS.items():

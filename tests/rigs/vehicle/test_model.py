@@ -21,7 +21,9 @@ def model(*values, name="tire_bump"):
 def test_a_loss_by_damping_or_by_default_reaches_the_contact():
     assert model().rig.tire_contact.dissipative == NormalDissipative(0.06)
     assert model(f"{TIRE}.normal_dissipative={{damping: 0.5}}").rig.tire_contact.dissipative == NormalDissipative(0.5)
-    assert model(name="seat_ride").rig.seat_contact.dissipative == NormalDissipative(1.0)
+    assert model(
+        "effects.seat={normal_elastic: {}, normal_dissipative: {}}", name="seat_ride"
+    ).rig.seat_contact.dissipative == (NormalDissipative(1.0))
 
 
 def test_a_loss_by_restitution_gives_that_restitution():

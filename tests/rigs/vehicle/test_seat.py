@@ -90,7 +90,7 @@ def test_the_force_of_a_contact_at_the_stiffest_of_the_schema_is_as_accurate_as_
         "seat_ride",
         "duration=0.1",
         f"accuracy={asked}",
-        "effects.seat.normal_elastic.coefficient=1e12",
+        "effects.seat={normal_elastic: {coefficient: 1e12}, normal_dissipative: {}}",
     )
     simulation, source = make_simulation(scene), make_sources(scene)["platform/vibration"]
     simulation.prepare()

@@ -6,16 +6,17 @@ import pytest
 from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run, slow_run
 from contact_sim_pkg.scene.resolve import load_resolved
 
+ON_A_SPRING = "effects.seat={normal_elastic: {}, normal_dissipative: {}}"
 CASES = {
     "tire_bump": (1.2,),
     "tire_bump on a rigid ring": (1.2, "effects.tire.rigid_ring={}"),
-    "seat_ride": (0.5,),
+    "seat_ride": (0.5, ON_A_SPRING),
     "seat_ride on a viscoelastic cushion": (
         0.5,
         "effects.seat={normal_elastic: {}, general_dissipative: {coefficient: 8000, approach_exponent: 0.5}}",
     ),
-    "car_full_bench": (0.5,),
-    "car_full_bench on a rigid ring": (0.3, "effects.tire.rigid_ring={}"),
+    "car_full_bench": (0.5, ON_A_SPRING),
+    "car_full_bench on a rigid ring": (0.3, ON_A_SPRING, "effects.tire.rigid_ring={}"),
     "tire_rough_road": (0.3,),
 }
 

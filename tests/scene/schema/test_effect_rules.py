@@ -9,7 +9,7 @@ from contact_sim_pkg.records.registry import contacts, effects
 
 EFFECTS = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
-    "pressure_mat", "softening", "shell_modes", "contact_search", "rigid_ring",
+    "pressure_mat", "cushion", "half_space_field", "softening", "shell_modes", "contact_search", "rigid_ring",
     "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
@@ -22,25 +22,34 @@ OF_THE_ROLLER = (
 )  # fmt: skip
 BODY_ONLY = ("rigid_contact", "compliant_contact", *OF_THE_ROLLER)
 """Of the rigid body on the ground, and of the roller on its shaft."""
-SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction", "pressure_mat", "softening"}
+SEAT_ONLY = {
+    "general_dissipative",
+    "foam",
+    "foam_hysteresis",
+    "friction",
+    "pressure_mat",
+    "cushion",
+    "half_space_field",
+    "softening",
+}
 """Of the vehicle's contacts."""
 IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
 """What acts cell by cell, and so needs the pressure field."""
 OF_THE_BACK = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "shell_modes",
-    "contact_search",
+    "contact_search", "cushion",
 )  # fmt: skip
 ELSEWHERE = set(EFFECTS) - set(OF_THE_BACK)
 OF_THE_IMPACT = (
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
 )  # fmt: skip
-OF_FOAM = ("foam", "foam_hysteresis", "pressure_mat", "softening")
+OF_FOAM = ("foam", "foam_hysteresis", "pressure_mat", "cushion", "half_space_field", "softening")
 SHELL = ("shell_modes", "contact_search")
 OF_VEHICLES = tuple(name for name in EFFECTS if name not in (*SHELL, *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY))
 SUBSETS = {
     "tire": [set(chosen) for count in range(len(OF_VEHICLES) + 1) for chosen in combinations(OF_VEHICLES, count)]
     + [{"normal_elastic", name} for name in (*SHELL, *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY)],
-    "backrest": [set(chosen) for count in range(9) for chosen in combinations(OF_THE_BACK, count)]
+    "backrest": [set(chosen) for count in range(10) for chosen in combinations(OF_THE_BACK, count)]
     + [{"normal_elastic", name} for name in sorted(ELSEWHERE)],
     "impact": [
         set(chosen)
@@ -50,8 +59,8 @@ SUBSETS = {
     + [{"normal_elastic", "friction"}, {"normal_elastic", "contact_field"}],
     "roller": [set(chosen) for count in range(9) for chosen in combinations(("normal_elastic", *OF_THE_ROLLER), count)]
     + [{"normal_elastic", "friction"}, {"normal_elastic", "rigid_contact"}],
-    "seat": [set(chosen) for count in range(10) for chosen in combinations(EFFECTS[:9], count)]
-    + [{"normal_elastic", "contact_field", name} for name in sorted(TIRE_ONLY)],
+    "seat": [set(chosen) for count in range(11) for chosen in combinations(EFFECTS[:10], count)]
+    + [{"normal_elastic", name} for name in sorted(TIRE_ONLY)],
 }
 
 
@@ -65,8 +74,15 @@ def allowed(contact, named):
     }[contact]  # fmt: skip
     if named & {"surface_waves", "history"} and "normal_dissipative" not in named:
         return False
-    if "normal_elastic" not in named or named & refused:
+    if len(named & {"normal_elastic", "cushion"}) != 1 or named & refused:
         return False
+    if "cushion" in named and named & {"foam", "shell_modes", "half_space_field", "pressure_mat"}:
+        return False
+    if contact == "seat":
+        if "contact_field" in named and "cushion" not in named:
+            return False
+        if "half_space_field" in named and named & {"foam", "foam_hysteresis", "pressure_mat"}:
+            return False
     if named & {"gyroscope", "rolling_friction"} and "tilt_yaw" not in named:
         return False
     if "damage" in named and not named >= {"track_waves", "subsurface"}:
@@ -74,8 +90,6 @@ def allowed(contact, named):
     if "contact_search" in named and "shell_modes" not in named:
         return False
     if named >= {"normal_dissipative", "general_dissipative"}:
-        return False
-    if "contact_field" in named and named & {"foam", "foam_hysteresis", "pressure_mat"}:
         return False
     return "contact_field" in named or not named & IN_THE_FIELD
 
@@ -91,7 +105,7 @@ def test_every_set_of_effects_is_allowed_or_refused_as_tabled(maker, contact):
         assert (faults == []) == allowed(contact, named), named
 
 
-@pytest.mark.parametrize("name", ["normal_dissipative", "general_dissipative", "friction", "contact_field"])
+@pytest.mark.parametrize("name", ["normal_dissipative", "general_dissipative", "friction", "half_space_field"])
 def test_an_effect_without_what_it_needs_names_both(maker, name):
     faults = maker.faults("seat", {"effects.seat": {name: {}}})
     assert any(fault.startswith(f"effects.seat.{name}: {name} needs normal_elastic") for fault in faults)
@@ -115,15 +129,15 @@ def test_a_contact_of_the_rig_without_elastic_force_is_refused(maker, rig, conta
 
 
 def test_effects_that_exclude_each_other_are_both_named(maker):
-    (fault,) = maker.faults("seat", {"effects.seat.foam": {}, "effects.seat.contact_field": {}})
-    assert "foam and contact_field exclude each other" in fault
+    (fault,) = maker.faults("seat", {"effects.seat.foam": {}, "effects.seat.half_space_field": {}})
+    assert "foam and half_space_field exclude each other" in fault
 
 
 @pytest.mark.parametrize("contact", contacts().values(), ids=contacts())
 def test_a_record_names_effects_and_topics_that_its_contact_has(contact):
     names = [effect.name for effect in contact.effects]
     assert len(set(names)) == len(names)
-    assert [effect.name for effect in contact.effects if effect.carries] == [contact.carrier]
+    assert tuple(effect.name for effect in contact.effects if effect.carries) == contact.carriers != ()
     for effect in contact.effects:
         assert {*effect.needs, *effect.excludes} <= {*names} - {effect.name}
         assert f"{contact.name}/{effect.publishes or contact.topics[0].name}" in TOPICS

@@ -42,7 +42,6 @@ TOLERANCE = 1e-9  # of the largest pressure: what is left where nothing touches
 INNER_TOLERANCE = 1e-4  # of a Newton step's residual
 MOST_STEPS = 200
 MOST_INNER_STEPS = 500
-VALID_STRAIN = 0.75  # of the foam's law
 
 
 class CushionError(ValueError):

@@ -17,13 +17,14 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.guards import require_positive
 from contact_sim_pkg.laws.parameters import TabulatedElastic
 from contact_sim_pkg.laws.tabulated_elastic import tabulated_law
-from contact_sim_pkg.pressure.cushion.foam_layer import Compression, FoamLayer
+from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
+from contact_sim_pkg.pressure.cushion.foam_layer import Compression, CushionError, FoamLayer
 
-__all__ = ["REACH", "SPACING", "ForceTable", "make_table"]
+__all__ = ["SPACING", "ForceTable", "make_table"]
 
 Field = NDArray[numpy.float64]
 SPACING = 5e-4  # [m]; the force between two nodes is then right to 4e-4
-REACH = 0.85  # of the thickness, the last approach
+FEWEST_NODES = 3
 
 
 class ForceTable(NamedTuple):
@@ -34,6 +35,12 @@ class ForceTable(NamedTuple):
     force: Field  # [nodes] [N]
     largest_strain: Field  # [nodes]
     pressure: NDArray[numpy.float32]  # [nodes, rows, cols] [Pa]
+    end: str = ""  # why the table ends before its reach; empty where it does not
+
+    @property
+    def most_force(self) -> float:
+        """Largest force [N] of the table at a strain within the range of the foam's law."""
+        return float(self.force[self.largest_strain <= VALID_STRAIN].max())
 
     def law(self) -> TabulatedElastic:
         """The elastic law through the forces."""
@@ -60,19 +67,28 @@ def make_table(
     reach: float = REACH,
     on_progress: Callable[[float], None] | None = None,
 ) -> ForceTable:
-    """Table of a layer up to ``reach`` of its thickness [1], each solution from the one before.
+    """Table of a layer up to ``reach`` of its thickness [1], each solution from the one before; it
+    ends earlier where the contact comes too near to the edge of the cells.
 
-    spacing: [m]; on_progress: is handed the part done, 0 to 1. Raises CushionError as
-    ``FoamLayer.solve``.
+    spacing: [m]; on_progress: is handed the part done, 0 to 1. Raises CushionError where that is so
+    before the third node.
     """
     require_positive("spacing", spacing, "m")
     nodes = 1 + round(reach * layer.foam.thickness / spacing)
     force, strain = numpy.zeros(nodes), numpy.zeros(nodes)
     pressure = numpy.zeros((nodes, layer.grid.rows, layer.grid.cols), dtype=numpy.float32)
     found: Compression | None = None
+    end = ""
     for i in range(1, nodes):
-        found = layer.solve(i * spacing, found)
+        try:
+            found = layer.solve(i * spacing, found)
+        except CushionError as error:
+            if i < FEWEST_NODES:
+                raise
+            end = str(error)
+            nodes = i
+            break
         force[i], strain[i], pressure[i] = found.force, found.largest_strain, found.pressure
         if on_progress is not None:
             on_progress(i / (nodes - 1))
-    return ForceTable(spacing, layer.grid.cell_area, force, strain, pressure)
+    return ForceTable(spacing, layer.grid.cell_area, force[:nodes], strain[:nodes], pressure[:nodes], end)

@@ -67,7 +67,8 @@ def _read(path: Path) -> ForceTable | None:
         os.utime(path)  # the date of last use, by which the oldest are removed
     with numpy.load(io.BytesIO(payload), allow_pickle=False) as arrays:
         spacing, cell_area = (float(value) for value in arrays["scalars"])
-        return ForceTable(spacing, cell_area, arrays["force"], arrays["largest_strain"], arrays["pressure"])
+        force, strain, pressure = (arrays[name] for name in ("force", "largest_strain", "pressure"))
+        return ForceTable(spacing, cell_area, force, strain, pressure, str(arrays["end"]))
 
 
 def _write(path: Path, table: ForceTable) -> None:
@@ -75,8 +76,9 @@ def _write(path: Path, table: ForceTable) -> None:
     buffer = io.BytesIO()
     scalars = numpy.array([table.spacing, table.cell_area])
     numpy.savez(
-        buffer, scalars=scalars, force=table.force, largest_strain=table.largest_strain, pressure=table.pressure
-    )
+        buffer, scalars=scalars, force=table.force, largest_strain=table.largest_strain, pressure=table.pressure,
+        end=numpy.array(table.end),
+    )  # fmt: skip
     payload = buffer.getvalue()
     draft = path.with_name(f".{path.name}.{os.getpid()}.new")
     try:

@@ -33,6 +33,11 @@ BACKREST_EFFECTS = (
         carries=True, feeds=("force", "wrench"), called_for=_LAW,
     ),
     Effect(
+        name="cushion", section=f"{_SCHEMA}:BackCushion", help="foam of finite thickness and its pressure map",
+        source="Johnson, Contact Mechanics, 5.8", carries=True, excludes=("normal_elastic", "foam", "shell_modes"),
+        feeds=("force", "wrench", "patch", "points"), called_for=_LAW,
+    ),
+    Effect(
         name="normal_dissipative", section=f"{_SCHEMA}:BackLoss", help="loss", source="Driver and Seat",
         needs=("normal_elastic",), feeds=("force", "wrench", "patch"), called_for=needed_where_it_opens("backrest"),
     ),

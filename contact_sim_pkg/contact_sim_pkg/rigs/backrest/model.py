@@ -15,11 +15,12 @@ from contact_sim_pkg.laws.parameters import Contact, Friction
 from contact_sim_pkg.pressure.mat import paraboloid_gap
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.backrest import schema
+from contact_sim_pkg.rigs.backrest.cushion import build_back_cushion
 from contact_sim_pkg.rigs.backrest.entries import find_point
 from contact_sim_pkg.rigs.backrest.motion import memory_offset, state_count
 from contact_sim_pkg.rigs.backrest.parameters import Backrest, ContactSearch
 from contact_sim_pkg.rigs.backrest.shell import ShallowShell, ShellModes, crown_gap, shell_modes
-from contact_sim_pkg.run.contact_laws import elastic_law, friction, hysteresis, normal_loss
+from contact_sim_pkg.run.contact_laws import Cushion, elastic_law, friction, hysteresis, normal_loss
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
@@ -58,6 +59,7 @@ class BackrestModel:
     coordinates: tuple[str, ...]  # names of the forward coordinates of ``bench/motion``
     motion: NDArray[numpy.float64]  # [coordinates, modes] how they follow from the modes, forward positive
     mat: Mat
+    cushion: Cushion | None  # whose table is the law and has the map
     point_x: Vector  # [points] [m]
     point_y: Vector  # [points] [m]
 
@@ -93,10 +95,11 @@ def build_backrest(scene: ResolvedScene) -> BackrestModel:
         mat, form = mat._replace(by_points=False, bent=form.shapes), _with_one_point(form)
     preload, sliding = given(backrest.preload), backrest.sliding
     shaken = backrest.mass if shell is None else preload / GRAVITY  # a shell is pressed by the weight of what is shaken
+    cushion = build_back_cushion(scene, preload)
     modal = [form.mass, form.stiffness, form.damping, preload * form.at_preload, shaken * form.at_shaking]
     rig = Backrest(
         numpy.stack(modal), numpy.stack([form.shapes, form.slopes]), numpy.stack([form.gaps, form.shares]),
-        _contact(scene, shaken, len(form.mass), len(form.gaps)), sliding.amplitude, 2.0 * math.pi * sliding.frequency,
+        _contact(scene, cushion, shaken, len(form.mass), len(form.gaps)), sliding.amplitude, 2.0 * math.pi * sliding.frequency,
         search,
     )  # fmt: skip
     start = resting_state(rig)
@@ -112,6 +115,7 @@ def build_backrest(scene: ResolvedScene) -> BackrestModel:
         coordinates=form.names,
         motion=form.motion,
         mat=mat,
+        cushion=cushion,
         point_x=form.point_x,
         point_y=form.point_y,
     )
@@ -130,9 +134,10 @@ def _refuse_deep(back: schema.Back, preload: float, approach: float) -> None:
         raise SceneError([Fault("scene", 0, 0, "backrest.preload", sentence)])
 
 
-def _contact(scene: ResolvedScene, mass: float, modes: int, points: int) -> Contact:
+def _contact(scene: ResolvedScene, cushion: Cushion | None, mass: float, modes: int, points: int) -> Contact:
     """Laws of the contact; ``mass`` [kg] is what a free impact moves."""
-    law, memory = elastic_law(scene, "backrest"), hysteresis(scene, "backrest", memory_offset(modes, points))
+    law = elastic_law(scene, "backrest") if cushion is None else cushion.law
+    memory = hysteresis(scene, "backrest", memory_offset(modes, points))
     return Contact(law, normal_loss(scene, "backrest", law, mass), friction(scene, "backrest"), memory)
 
 

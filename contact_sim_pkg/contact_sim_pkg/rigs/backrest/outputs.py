@@ -90,6 +90,8 @@ def _fields(model: BackrestModel, record: BackrestRecord, stamps: BlockStamps) -
     """Pressure map and contact points at the field rate."""
     mat = model.mat
     grid = (mat.cell_x, mat.cell_y, float(mat.x[0]), float(mat.y[0]))
+    if model.cushion is not None:
+        grid = model.cushion.cells
     for sample, pressure in record.maps:
         patch = contact_patch(record.block, grid, float(record.forces[sample, columns.APPROACH]), pressure)
         yield Output("backrest/patch", stamps.at(sample), patch)

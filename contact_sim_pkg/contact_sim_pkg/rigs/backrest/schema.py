@@ -8,7 +8,13 @@ from pydantic import Field
 
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.scene.schema.fields import Section, number
-from contact_sim_pkg.scene.schema.laws import FrictionSection, GeneralDissipation, HuntCrossley, PowerLaw
+from contact_sim_pkg.scene.schema.laws import (
+    CushionSection,
+    FrictionSection,
+    GeneralDissipation,
+    HuntCrossley,
+    PowerLaw,
+)
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.schema.scene import Scene
@@ -56,9 +62,9 @@ class BackrestSection(Section):
         "constant force on the seat back; by default mass · 9.81 m/s², 20 N for a shell",
         default=None,
     )
-    back: Back = Field(default_factory=Back, description="shape of the back")
+    back: Back = Field(default_factory=Back, description="shape of the back; of a cushion the percentile is")
     sliding: Sliding = Field(default_factory=Sliding, description="rigid sliding along the seat back")
-    mat: MatSection = Field(default_factory=MatSection, description="cells of the pressure map")
+    mat: MatSection = Field(default_factory=MatSection, description="cells of the pressure map; a cushion has its own")
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
         one_mass = scene.effect("backrest", ShellModesSection) is None
@@ -72,6 +78,25 @@ class BackElastic(PowerLaw):
 
     coefficient: float = number(
         1.0, 1e12, "N/m^exponent", "A; by default 447 N at 14.91 mm: 45.6 kg have 5 Hz", default=2.457e5
+    )
+
+
+class BackCushion(CushionSection):
+    """Foam of the seat back under a back with its lumbar hollow, in place of normal_elastic: force
+    and map from one table.
+    """
+
+    thickness: float = number(0.02, 0.2, "m", "thickness of the unloaded foam", default=0.05)
+    modulus: float = number(
+        100.0, 1e9, "Pa", "Young's modulus of the foam at first contact, above plateau; 20 to 100 kPa", default=3.0e4
+    )
+    plateau: float = number(
+        10.0, 1e8, "Pa", "stress of the plateau; with the other defaults 4.0 kPa at 40 % strain", default=2.2e3
+    )
+    densification: float = number(0.0, 1e8, "Pa", "stress scale of the densification", default=60.0)
+    lumbar_support: float = number(0.0, 0.04, "m", "depth of the bulge under the lumbar spine; 0: none", default=0.0)
+    lumbar_height: float = number(
+        0.05, 0.4, "m", "height of its middle over the lower edge of the seat back", default=0.20
     )
 
 

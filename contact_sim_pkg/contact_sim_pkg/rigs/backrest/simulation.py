@@ -96,14 +96,16 @@ class BackrestSimulation:
         return [interval * timing.segments // timing.sample_every for interval in range(timing.intervals)]
 
     def _pressure(self, record: BackrestRecord, sample: int) -> Array:
-        """Pressure on the cells of the mat [rows, cols] [Pa]: that of its points, or the force of
-        the one contact spread.
+        """Pressure on the cells of the mat [rows, cols] [Pa]: that of its points, of a
+        cushion, or the force of the one contact spread.
         """
         mat, model = self.model.mat, self.model
         if mat.by_points:
             normal = record.points[sample, :, entries.POINT_NORMAL]
             return numpy.ascontiguousarray(normal.reshape(mat.gap.shape)) / (mat.cell_x * mat.cell_y)
         force, approach = (float(record.forces[sample, k]) for k in (entries.NORMAL, entries.APPROACH))
+        if model.cushion is not None:
+            return model.cushion.pressure(approach, force)
         gap = mat.gap
         if mat.bent is not None:  # the approach is that of the nearest point: over it the gap is none
             gap = gap - (mat.bent @ record.states[sample, : len(model.rig.mass)]).reshape(gap.shape) + approach

@@ -33,6 +33,11 @@ TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law
 TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
 
 
+def effect_of(contact: str) -> str:
+    """Key of the effect that calls for the field of a contact."""
+    return f"effects.{contact}.{'half_space_field' if contact == 'seat' else 'contact_field'}"
+
+
 class FieldError(RuntimeError):
     """The field could not be solved: contact at the grid's edge, or no convergence."""
 
@@ -110,7 +115,7 @@ class PressureField:
             raise kind(
                 f"{self.contact}: {SENTENCES[result.status]} (load {result.load:.6g} N, residual {result.residual:.2g}, grid "
                 f"{self.settings.rows} x {self.settings.cols} over {self.settings.rows * self.settings.cell_x:.4g} m x "
-                f"{self.settings.cols * self.settings.cell_y:.4g} m; see effects.{self.contact}.contact_field)"
+                f"{self.settings.cols * self.settings.cell_y:.4g} m; see {effect_of(self.contact)})"
             )
         self.load = float(result.load)
         self.iterations += int(result.iterations)
@@ -173,11 +178,10 @@ def tangent_law(
         except FieldError as error:
             reason = error
     # Neither grid holds the contact: the scene is wrong.
-    where = f"effects.{contact}.contact_field"
     sentence = (
         f"the contact does not fit on its grid at the standing load of {load:.6g} N: {reason}; enlarge length and width"
     )
-    raise SceneError([Fault("scene", 0, 0, where, sentence)])
+    raise SceneError([Fault("scene", 0, 0, effect_of(contact), sentence)])
 
 
 def correction_of(elastic: ElasticLaw, field: PressureField, gap: Field, approach: float, geometric: float) -> float:

@@ -27,12 +27,13 @@ from contact_sim_pkg.rigs.vehicle.lattice import field_settings, occupant_mass, 
 from contact_sim_pkg.rigs.vehicle.parameters import MasslessNode, Seat, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import rest_deflections
-from contact_sim_pkg.rigs.vehicle.seat.mat import PanMat, build_pan_mat
+from contact_sim_pkg.rigs.vehicle.seat.cushion import build_pan_cushion
+from contact_sim_pkg.rigs.vehicle.seat.mat import SeatMap, build_seat_map
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OccupantModel
 from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap, shape_of
 from contact_sim_pkg.rigs.vehicle.tire import schema as tire_schema
 from contact_sim_pkg.rigs.vehicle.tire.model import Asperities, RollingFriction, TireGeometry, Tread, build_tire
-from contact_sim_pkg.run.contact_laws import elastic_law, friction, hysteresis, normal_loss
+from contact_sim_pkg.run.contact_laws import Cushion, elastic_law, friction, hysteresis, normal_loss
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing
@@ -61,7 +62,7 @@ class Model:
     asperities: Asperities | None
     seat_field: FieldGrids | None
     seat_shape: SeatShape | None
-    seat_mat: PanMat | None
+    seat_map: SeatMap | None
     corrector_passes: int
     coupling: CouplingRule | None  # None without a pressure field
     shaken: bool  # whether the scene has a vibration
@@ -85,7 +86,11 @@ def build(scene: ResolvedScene) -> Model:
     # The states of the seat follow those of the quarter car: 4, or 6 with a rigid ring.
     behind = 0 if tire is None else 4 if tire.rigid_ring is None else 6
     seat = None if given_seat is None else _seat(scene, given_seat, offset=behind)
-    seat_contact = None if seat is None else _seat_contact(scene, seat, seat_field, shape)
+    cushion = None if given_seat is None else build_pan_cushion(scene, occupant_mass(given_seat.occupant) * GRAVITY)
+    seat_contact = None if seat is None else _seat_contact(scene, seat, cushion, seat_field, shape)
+    seat_map = None
+    if given_seat is not None and seat_contact is not None:
+        seat_map = build_seat_map(scene, given_seat.body, seat_contact.elastic, cushion)
     rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
     if tire is not None:
         rig = rig._replace(tire=tire.tire, rigid_ring=tire.rigid_ring, tire_contact=tire.contact)
@@ -105,7 +110,7 @@ def build(scene: ResolvedScene) -> Model:
         asperities=None if tire is None else tire.asperities,
         seat_field=seat_field,
         seat_shape=shape,
-        seat_mat=None if given_seat is None else build_pan_mat(scene, given_seat.body),
+        seat_map=seat_map,
         corrector_passes=max(
             (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
             default=0,
@@ -173,7 +178,7 @@ def _behind_occupant(scene: ResolvedScene, seat: Seat) -> int:
 
 def _seat_field(scene: ResolvedScene, seat: seat_schema.SeatSection) -> tuple[FieldGrids | None, SeatShape | None]:
     modulus = seat.cushion_modulus / (1.0 - seat.cushion_poisson**2)
-    settings = field_settings(scene.effect("seat", seat_schema.SeatField), modulus)
+    settings = field_settings(scene.effect("seat", seat_schema.HalfSpaceField), modulus)
     return (None, None) if settings is None else (make_grids(settings, "seat"), shape_of(seat.body))
 
 
@@ -194,10 +199,14 @@ def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray
     return x, y
 
 
-def _seat_contact(scene: ResolvedScene, seat: Seat, field: FieldGrids | None, shape: SeatShape | None) -> Contact:
+def _seat_contact(
+    scene: ResolvedScene, seat: Seat, cushion: Cushion | None, field: FieldGrids | None, shape: SeatShape | None
+) -> Contact:
     mass = occupant_mass(scene.section(seat_schema.SeatSection).occupant)
     law: ElasticLaw
-    if field is not None and shape is not None:
+    if cushion is not None:
+        law = cushion.law
+    elif field is not None and shape is not None:
         law, _length = tangent_law(field, lambda grid: seat_gap_on(shape, grid), mass * GRAVITY, "seat")
     else:
         law = elastic_law(scene, "seat")

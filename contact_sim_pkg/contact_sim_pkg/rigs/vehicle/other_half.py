@@ -9,15 +9,14 @@ from contact_sim_pkg.pressure.field.solver import CONVERGED, FieldResult
 from contact_sim_pkg.rigs.vehicle import contact_field
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 
 STIFFNESS = 1e6  # [N/m]; the kernels do not depend on it
 
 
 def compile_all_but_fields(scene: ResolvedScene) -> None:
     """Prepare a run of the scene on springs in place of its pressure fields, where it has any."""
-    if not any(
-        effect.name == "contact_field" for contact in ("tire", "seat") for effect, _ in scene.effects_at(contact)
-    ):
+    if all(scene.effect(contact, PressureFieldSection) is None for contact in ("tire", "seat")):
         return
     contact_field.SOLVER = _Spring
     Simulation(scene).prepare()

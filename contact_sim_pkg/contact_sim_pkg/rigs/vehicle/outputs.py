@@ -48,9 +48,7 @@ class BlockRecord:
     shears: list[tuple[int, FieldRecord, Sheared]] = field(
         default_factory=list
     )  # sample, field of the tire, shear under it
-    seat_maps: list[tuple[int, Array]] = field(
-        default_factory=list
-    )  # sample, pressure [Pa] of the seat's point contact
+    seat_maps: list[tuple[int, Array]] = field(default_factory=list)  # sample, pressure [Pa] of the seat's map
     counters: Array = field(default_factory=lambda: numpy.zeros(3))
     field_iterations: int = 0
     field_residual: float = 0.0
@@ -154,12 +152,12 @@ def _patches(
 
 
 def _maps(model: Model, stamps: BlockStamps, record: BlockRecord) -> Iterator[Output]:
-    """Pressure maps of the seat's point contact."""
+    """Pressure maps of the seat."""
     for sample, pressure in record.seat_maps:
-        assert model.seat_mat is not None
+        assert model.seat_map is not None
         approach = float(record.forces[sample, columns.SEAT_APPROACH])
         yield Output(
-            "seat/patch", stamps.at(sample), contact_patch(stamps.block, model.seat_mat[:4], approach, pressure)
+            "seat/patch", stamps.at(sample), contact_patch(stamps.block, model.seat_map.cells, approach, pressure)
         )
 
 

@@ -9,7 +9,6 @@ import time
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.pressure.mat import spread_force
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.rigs.vehicle import entries as columns
 from contact_sim_pkg.rigs.vehicle.coupling import Coupling
@@ -146,14 +145,11 @@ class Simulation:
             record.seat_fields.append((sample, self._coupling.seat.with_loss(seat, approach, rate)))
 
     def _map_seat(self, record: BlockRecord) -> None:
-        """Spread the force of the seat's point contact over the cells of its mat, so many times a
-        block.
-        """
-        mat, contact, samples = self.model.seat_mat, self.model.rig.seat_contact, self.model.timing.samples
-        if mat is None or contact is None:
+        """Pressure maps of the seat's force, so many times a block."""
+        seat_map, samples = self.model.seat_map, self.model.timing.samples
+        if seat_map is None:
             return
-        for number in range(mat.fields):
-            sample = number * samples // mat.fields
+        for number in range(seat_map.fields):
+            sample = number * samples // seat_map.fields
             force, approach = (float(record.forces[sample, k]) for k in (columns.SEAT_NORMAL, columns.SEAT_APPROACH))
-            pressure = spread_force(force, approach, contact.elastic, mat.gap, mat.cell_x * mat.cell_y)
-            record.seat_maps.append((sample, pressure))
+            record.seat_maps.append((sample, seat_map.pressure(approach, force)))

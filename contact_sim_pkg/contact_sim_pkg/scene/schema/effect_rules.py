@@ -26,24 +26,22 @@ def effect_breaches(scene: Scene) -> Iterator[Breach]:
                 yield Breach(where, f"the rig {scene.rig} has no contact {name}; it has {names}", ("rig",))
             continue
         named = [name for name, _effect in scene.effects_at(contact)]
-        if contact.carrier not in named:
-            yield Breach(
-                f"{where}.{contact.carrier}",
-                f"is missing: the contact {name} carries no load without it; write {{}}",
-                ("rig",),
-            )
+        usual, *others = contact.carriers
+        if not set(contact.carriers) & set(named):
+            instead = "".join(f" or {each}" for each in others)
+            sentence = f"is missing: the contact {name} carries no load without it{instead}; write {{}}"
+            yield Breach(f"{where}.{usual}", sentence, ("rig",))
         yield from _between(where, contact, named)
 
 
 def _between(where: str, contact: Contact, named: list[str]) -> Iterator[Breach]:
     records = [effect for effect in contact.effects if effect.name in named]
     for effect in records:
-        for needed in effect.needs:
-            if needed not in named:
-                yield Breach(
-                    f"{where}.{effect.name}",
-                    f"{effect.name} needs {needed}, which the scene does not name; add it or remove {effect.name}",
-                )
+        for needed in contact.missing(effect, named):
+            yield Breach(
+                f"{where}.{effect.name}",
+                f"{effect.name} needs {needed}, which the scene does not name; add it or remove {effect.name}",
+            )
     for one, other in combinations(records, 2):
         if other.name in one.excludes or one.name in other.excludes:
             yield Breach(

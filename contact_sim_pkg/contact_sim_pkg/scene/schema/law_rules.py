@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contact_sim_pkg.records.registry import contacts
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
-from contact_sim_pkg.scene.schema.laws import Foam, FrictionSection, GeneralDissipation, HuntCrossley
+from contact_sim_pkg.scene.schema.laws import CushionSection, Foam, FrictionSection, GeneralDissipation, HuntCrossley
 from contact_sim_pkg.scene.schema.scene import Scene
 
 
@@ -21,9 +21,9 @@ def law_breaches(scene: Scene) -> Iterator[Breach]:
         general, friction = scene.effect(contact, GeneralDissipation), scene.effect(contact, FrictionSection)
         if general is not None:
             yield from _general(where, general, friction)
-        foam = scene.effect(contact, Foam)
-        if foam is not None:
-            yield from _foam(where, foam, general)
+        for name, foam in (("foam", scene.effect(contact, Foam)), ("cushion", scene.effect(contact, CushionSection))):
+            if foam is not None:
+                yield from _foam(where, name, foam, general)
         if friction is not None and friction.coefficient_kinetic > friction.coefficient_static:
             kinetic, static = show(friction.coefficient_kinetic), show(friction.coefficient_static)
             sentence = f"{kinetic} is above coefficient_static ({static})"
@@ -63,13 +63,13 @@ def _general(where: str, general: GeneralDissipation, friction: FrictionSection 
         yield Breach(f"{place}.end", sentence, (f"{where}.friction",))
 
 
-def _foam(where: str, foam: Foam, general: GeneralDissipation | None) -> Iterator[Breach]:
+def _foam(where: str, name: str, foam: Foam | CushionSection, general: GeneralDissipation | None) -> Iterator[Breach]:
     """Foam begins stiffer than its plateau; the general law's restitution is known for power laws
     only.
     """
     if not foam.modulus > foam.plateau:
         sentence = f"{show(foam.modulus)} Pa is not above plateau ({show(foam.plateau)} Pa)"
-        yield Breach(f"{where}.foam.modulus", sentence, (f"{where}.foam.plateau",))
+        yield Breach(f"{where}.{name}.modulus", sentence, (f"{where}.{name}.plateau",))
     if general is not None and general.restitution is not None:
         sentence = "holds for a power law, not for foam; give a coefficient, or take normal_dissipative"
-        yield Breach(f"{where}.general_dissipative.restitution", sentence, (f"{where}.foam",))
+        yield Breach(f"{where}.general_dissipative.restitution", sentence, (f"{where}.{name}",))

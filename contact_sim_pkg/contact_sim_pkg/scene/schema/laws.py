@@ -12,6 +12,11 @@ if TYPE_CHECKING:
 SMOOTHED_SPEED = 0.5
 """[m/s] that the smoothing of a rate exponent below 1 is relative to, where a scene names none."""
 
+USUAL_PERCENTILE = 50
+
+USUAL_REVERSAL = 1.0
+"""[J] of a foam's hysteresis, where a scene names none."""
+
 
 class PowerLaw(Section):
     """Elastic force: coefficient · approach^exponent."""
@@ -59,13 +64,53 @@ class Foam(Section):
     )
 
 
+class CushionSection(Section):
+    """Foam layer of finite thickness on a rigid base under a body by percentile: force law and map
+    from one table.
+    """
+
+    percentile: Literal[5, 50, 95] | None = choice(
+        "body that presses into it: a woman of the 5th percentile, a man of the 50th or 95th; that of the occupant, or 50",
+        default=None,
+    )
+    thickness: float = number(0.02, 0.2, "m", "thickness of the unloaded foam", default=0.08)
+    modulus: float = number(
+        100.0, 1e9, "Pa", "Young's modulus of the foam at first contact, above plateau; 20 to 100 kPa", default=4.5e4
+    )
+    plateau: float = number(
+        10.0, 1e8, "Pa", "stress of the plateau; with the other defaults 6.1 kPa at 40 % strain", default=3.4e3
+    )
+    densification: float = number(0.0, 1e8, "Pa", "stress scale of the densification", default=80.0)
+    densification_exponent: float = number(0.1, 20.0, "", "r: stress grows as l^(-r-1), l = 1 - strain", default=3.0)
+    hardness: float | None = number(
+        100.0, 1e6, "Pa", "stress at 40 % strain (ISO 3386-1): scales the three stresses together; none: as they are",
+        default=None,
+    )  # fmt: skip
+    shear_share: float = number(
+        0.0, 1.0, "", "part of the shear stiffness of the bonded layer that buckled foam keeps", default=0.3
+    )
+    cover: Literal["sliding", "inextensible"] = choice(
+        "top of the foam: it moves sideways freely, or a taut cover holds it", default="sliding"
+    )
+    cell: float = number(0.005, 0.02, "m", "side of the square cells of the map", default=0.01)
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        return {"percentile": USUAL_PERCENTILE}
+
+
 class FoamHysteresisSection(Section):
     """Dissipation without rate: the force is the elastic one times 1 + share · z, z between -1 and
     1 follows the loading.
     """
 
     share: float = number(0.0, 0.9, "", "s; a long loading dissipates 2 s/(1 + s): 21 % by default", default=0.12)
-    energy: float = number(1e-6, 1e6, "J", "u₀, stored energy of a reversal (choice)", above=True, default=1.0)
+    energy: float | None = number(
+        1e-6, 1e6, "J", "u₀, stored energy of a reversal (choice); 1 J by default, on a cushion by the load at rest",
+        above=True, default=None,
+    )  # fmt: skip
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        return {"energy": USUAL_REVERSAL}
 
 
 class GeneralDissipation(Section):

@@ -16,6 +16,7 @@ from contact_sim_pkg.records.registry import contacts, effects
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.schema.accuracy import LEVELS, Level
 from contact_sim_pkg.scene.schema.catalog import Entry, Location, catalog, show
+from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 
 BEGIN = "<!-- tables made from the schema: begin -->"
 END = "<!-- tables made from the schema: end -->"
@@ -110,7 +111,12 @@ def _accuracy() -> str:
         "| requested error | fidelity level | contact | rows × cols | field tolerance | corrector passes |\n"
         "|---|---|---|---|---|---|"
     )
-    fields = {contact: load(record.section) for contact, record in effects()["contact_field"].items()}
+    fields = {
+        contact: section
+        for records in effects().values()
+        for contact, record in records.items()
+        if issubclass(section := load(record.section), PressureFieldSection)
+    }
     rows = [
         f"| {_requested(level)} | {level.name} | {contact} | {grid.rows} × {grid.cols} | {grid.tolerance:g} "
         f"| {grid.corrector_passes} |"

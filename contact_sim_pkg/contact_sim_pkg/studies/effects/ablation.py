@@ -118,10 +118,16 @@ def _row(
     row: dict[str, Any] = {"contact": contact.name, "effect": effect.name, "on": on, "topics": topics}
     # No pair of runs: the contact needs the effect, or the effect needs another, or a run fails.
     unmeasured = {**row, **NOTHING, "called_for": "no rule", "verdict": "not available"}
-    if effect.carries:
+    acting = [name for name, keys in named.items() if keys is not None]
+    if effect.carries and on:
         why = "without it the contact carries no load"
         return {**unmeasured, "called_for": "needed", "verdict": "carries the load", "why": why}
-    missing = " and ".join(name for name in effect.needs if named.get(name) is None)
+    if effect.carries:
+        return {
+            **unmeasured,
+            "why": f"in its place {' and '.join(set(contact.carriers) & set(acting))} carries the load",
+        }
+    missing = " and ".join(contact.missing(effect, acting))
     if missing:
         return {**unmeasured, "why": f"needs {missing}, which the scene does not name"}
     try:

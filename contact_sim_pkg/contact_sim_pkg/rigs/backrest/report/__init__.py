@@ -7,6 +7,7 @@ __all__ = ["BACKREST_REPORT"]
 BACKREST_REPORT = ContactReport(
     contact="backrest",
     sections=f"{__name__}.section:backrest_sections",
+    warnings=f"{__name__}.numbers:backrest_warnings",
     drive_period=f"{__name__}.numbers:drive_period",
     comparison=f"{__name__}.figures_comparison:comparison_pictures",
 )

@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from contact_sim_pkg.report.cushions import cushion_warnings
 from contact_sim_pkg.report.point_series import PointSeries
-from contact_sim_pkg.report.series import EpisodeSeries, FloatArray
+from contact_sim_pkg.report.series import EpisodeSeries, FloatArray, Recording
 from contact_sim_pkg.report.signal.loops import period_of, vibration_period
 
 BACKREST = "backrest"
@@ -65,3 +66,8 @@ def _interval(time: FloatArray) -> float:
 def heaviest_slap(slaps: EpisodeSeries) -> int | None:
     """Number of the slap with the largest force; None without slaps."""
     return int(slaps.peak_force.argmax()) if slaps.peak_force.size else None
+
+
+def backrest_warnings(recording: Recording) -> list[str]:
+    """Ranges of the foam that the run has left."""
+    return cushion_warnings("backrest", recording)

@@ -53,16 +53,21 @@ SEAT_EFFECTS = (
         feeds=("force", "wrench"), called_for=_LAW,
     ),
     Effect(
+        name="cushion", section=f"{_SCHEMA}:SeatCushion", help="foam cushion of finite thickness",
+        source="Johnson, Contact Mechanics, 5.8", carries=True, excludes=("normal_elastic",),
+        feeds=("force", "wrench", "patch"), called_for=_LAW,
+    ),
+    Effect(
         name="normal_dissipative", section=f"{_SCHEMA}:SeatLoss", help="loss", source="Brogliato, Nonsmooth Mechanics, 2",
         needs=("normal_elastic",), feeds=("force", "wrench", "patch"), called_for=needed_where_it_opens("seat"),
     ),
     Effect(
         name="foam", section=f"{_LAWS}:Foam", help="foam with plateau and densification", source="Driver and Seat",
-        needs=("normal_elastic",), excludes=("contact_field",), feeds=("force", "wrench"), called_for=_LAW,
+        needs=("normal_elastic",), excludes=("cushion",), feeds=("force", "wrench"), called_for=_LAW,
     ),
     Effect(
-        name="foam_hysteresis", section=f"{_LAWS}:FoamHysteresisSection", help="rate-independent loss of foam",
-        needs=("normal_elastic",), excludes=("contact_field",), feeds=("force", "wrench"), called_for=_LAW,
+        name="foam_hysteresis", section=f"{_SCHEMA}:SeatHysteresis", help="rate-independent loss of foam",
+        needs=("normal_elastic",), feeds=("force", "wrench"), called_for=_LAW,
     ),
     Effect(
         name="general_dissipative", section=f"{_LAWS}:GeneralDissipation", help="loss by the general law",
@@ -74,13 +79,19 @@ SEAT_EFFECTS = (
         feeds=("force", "wrench", "points"), called_for=_friction,
     ),
     Effect(
-        name="contact_field", section=f"{_SCHEMA}:SeatField", help="pressure field", source="Johnson, Contact Mechanics, 5.4",
-        needs=("normal_elastic",), publishes="patch", feeds=("patch", "force", "wrench"),
+        name="contact_field", section=f"{_SCHEMA}:CushionMap", help="pressure map of the cushion",
+        source="Johnson, Contact Mechanics, 5.8", needs=("cushion",), publishes="patch", feeds=("patch",),
         called_for=choice_of_model("needed where the pressure under the occupant is requested"),
     ),
     Effect(
+        name="half_space_field", section=f"{_SCHEMA}:HalfSpaceField", help="pressure field of a half-space",
+        source="Johnson, Contact Mechanics, 5.4", needs=("normal_elastic",),
+        excludes=("cushion", "foam", "foam_hysteresis", "contact_field"), publishes="patch", feeds=("patch", "force", "wrench"),
+        called_for=choice_of_model("the cushion of the paper; foam on a seat shell is a cushion of finite thickness"),
+    ),
+    Effect(
         name="pressure_mat", section=f"{_SCHEMA}:PressureMat", help="pressure map of a point contact",
-        needs=("normal_elastic",), excludes=("contact_field",), publishes="patch", feeds=("patch",),
+        needs=("normal_elastic",), excludes=("cushion", "contact_field", "half_space_field"), publishes="patch", feeds=("patch",),
         called_for=choice_of_model("needed where a map of the pressure is requested"),
     ),
     Effect(

@@ -8,7 +8,14 @@ from pydantic import Field
 
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OCCUPANTS, SEATED_MASS, Link, OccupantModel, scaled, stiffened
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
-from contact_sim_pkg.scene.schema.laws import HuntCrossley, PowerLaw
+from contact_sim_pkg.scene.schema.laws import (
+    USUAL_PERCENTILE,
+    USUAL_REVERSAL,
+    CushionSection,
+    FoamHysteresisSection,
+    HuntCrossley,
+    PowerLaw,
+)
 from contact_sim_pkg.scene.schema.pressure_field import GridSection, PressureFieldSection
 
 OWN = "own"
@@ -20,6 +27,8 @@ if TYPE_CHECKING:
     ModelName: TypeAlias = str
 else:
     ModelName = Literal[NAMES]
+
+REFERENCE_MASS = 50.8  # [kg] under which a reversal takes 1 J
 
 Mass: TypeAlias = Annotated[float, Field(ge=0.05, le=1000.0)]
 Stiffness: TypeAlias = Annotated[float, Field(ge=100.0, le=1e8)]
@@ -155,20 +164,20 @@ class SeatSection(Section):
     """Occupant on a cushion that stands on the floor."""
 
     occupant: OccupantSection = Field(default_factory=OccupantSection, description="masses on the cushion")
-    body: Body = Field(default_factory=Body, description="shape of the body on the cushion; acts in contact_field")
+    body: Body = Field(default_factory=Body, description="shape of the body; acts in half_space_field and pressure_mat")
     backrest: Literal["none"] = choice("occupant without backrest", default="none")
     cushion_modulus: float = number(
         1e3,
         1e9,
         "Pa",
-        "Young's modulus of the half-space for the foam (20 to 100 kPa); acts in contact_field",
+        "Young's modulus of the half-space for the foam (20 to 100 kPa); acts in half_space_field",
         default=4.0e4,
     )
-    cushion_poisson: float = number(0.0, 0.5, "", "Poisson's ratio of the foam; acts in contact_field", default=0.3)
+    cushion_poisson: float = number(0.0, 0.5, "", "Poisson's ratio of the foam; acts in half_space_field", default=0.3)
 
 
 class PowerElastic(PowerLaw):
-    """Elastic force of the cushion: coefficient · approach^exponent. `contact_field` takes its
+    """Elastic force of the cushion: coefficient · approach^exponent. `half_space_field` takes its
     place where both act.
     """
 
@@ -191,9 +200,45 @@ class SeatLoss(HuntCrossley):
     damping: float | None = number(0.0, 100.0, "s/m", "λ; 1.0 by default: 500 N s/m at 498 N", default=None)
 
 
-class SeatField(PressureFieldSection):
-    """Pressure field of the cushion on a half-space; it is the contact, its integral carries the
-    occupant.
+class SeatCushion(CushionSection):
+    """Foam cushion of finite thickness under buttocks and thighs, in place of normal_elastic: its
+    force is the integral of its pressure.
+    """
+
+    tilt: float = number(
+        -0.2,
+        0.2,
+        "rad",
+        "slope of the pan against the thighs, front up positive: more load before the buttocks",
+        default=0.0,
+    )
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        return {"percentile": scene.section(SeatSection).occupant.percentile or USUAL_PERCENTILE}
+
+
+class SeatHysteresis(FoamHysteresisSection):
+    """Dissipation of the foam without rate. On a cushion the energy of a reversal grows with the
+    load at rest: 1 J under 50.8 kg, so that the dynamic stiffness grows with the load and not with
+    its square.
+    """
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        if scene.effect("seat", SeatCushion) is None:
+            return super().open_values(scene)
+        mass = sum(scene.section(SeatSection).occupant.model_of().masses)
+        return {"energy": USUAL_REVERSAL * mass / REFERENCE_MASS}
+
+
+class CushionMap(Section):
+    """Pressure map of the cushion at the field rate: that of the force law, so the motion is the
+    same with and without it.
+    """
+
+
+class HalfSpaceField(PressureFieldSection):
+    """Pressure field of the cushion as a half-space; it is the contact, its integral carries the
+    occupant. A layer of foam is stiffer: use cushion.
     """
 
     levels = (GridSection(40, 40, 1e-3, 0), GridSection(64, 64, 1e-4, 1), GridSection(96, 96, 1e-7, 3))

@@ -20,6 +20,7 @@ from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 
 __all__ = ["coupling_rows"]
 
@@ -33,8 +34,8 @@ def coupling_rows(scene_name: str, scene: ResolvedScene, notify: Callable[[str],
     """Rows of each contact with a field, at the grids of the scene; none where it has no
     field.
     """
-    contacts = [name for name, effects in scene.data["effects"].items() if effects and effects.get("contact_field")]
-    if not contacts:
+    fields = _fields(scene)
+    if not fields:
         return []
     notify(f"coupling: reference, tolerance {FINEST:.0e}")
     exact, every = _reference(scene_name, scene)
@@ -42,8 +43,7 @@ def coupling_rows(scene_name: str, scene: ResolvedScene, notify: Callable[[str],
     for tolerance in TOLERANCES:
         notify(f"coupling: tolerance {tolerance:.0e}")
         forces, cost = simulate(load_resolved(scene_name, f"integrator.coupling_tolerance={tolerance}"), DURATION)
-        for contact in contacts:
-            field = scene.data["effects"][contact]["contact_field"]
+        for contact, (_name, field) in fields.items():
             reference = exact[contact][::every]
             missed = forces[contact] - reference
             errors = {
@@ -52,7 +52,7 @@ def coupling_rows(scene_name: str, scene: ResolvedScene, notify: Callable[[str],
             }
             rows += [
                 {
-                    "quantity": f"{contact} force{kind}", "part": PART, "level": "", "grid": f"{field['rows']}x{field['cols']}",
+                    "quantity": f"{contact} force{kind}", "part": PART, "level": "", "grid": f"{field.rows}x{field.cols}",
                     "tolerance": tolerance, "error": error, "reference": f"own code, tolerance {FINEST:.0e}",
                     "ms_per_simulated_s": cost,
                 }
@@ -64,16 +64,23 @@ def coupling_rows(scene_name: str, scene: ResolvedScene, notify: Callable[[str],
 def _reference(scene_name: str, scene: ResolvedScene) -> tuple[dict[str, Vector], int]:
     """Forces of the finest run, and how many of its samples make one of the scene's."""
     finest = f"integrator.coupling_tolerance={FINEST}"
-    passes = [
-        f"effects.{name}.contact_field.corrector_passes=8"
-        for name, effects in scene.data["effects"].items() if effects and effects.get("contact_field")
-    ]  # fmt: skip
+    passes = [f"effects.{contact}.{name}.corrector_passes=8" for contact, (name, _field) in _fields(scene).items()]
     rate = float(scene.data["outputs"]["force_rate"])
     try:
         finer = load_resolved(scene_name, finest, *passes, f"outputs.force_rate={FINER_RATE * rate:.12g}")
     except SceneError:  # no whole number of nanoseconds
         return simulate(load_resolved(scene_name, finest, *passes), DURATION)[0], 1
     return simulate(finer, DURATION)[0], FINER_RATE
+
+
+def _fields(scene: ResolvedScene) -> dict[str, tuple[str, PressureFieldSection]]:
+    """Contact -> name and keys of its pressure field."""
+    return {
+        contact: (record.name, keys)
+        for contact in scene.data["effects"]
+        for record, keys in scene.effects_at(contact)
+        if isinstance(keys, PressureFieldSection)
+    }
 
 
 def simulate(scene: ResolvedScene, duration: float) -> tuple[dict[str, Vector], float]:

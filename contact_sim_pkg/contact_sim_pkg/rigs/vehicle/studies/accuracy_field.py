@@ -19,11 +19,12 @@ from contact_sim_pkg.reference.halfspace import dense_influence, pressure_at_app
 from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass, plain_tire, standing_load
 from contact_sim_pkg.rigs.vehicle.model import build, seat_gap_on
-from contact_sim_pkg.rigs.vehicle.seat.schema import SeatField, SeatSection
+from contact_sim_pkg.rigs.vehicle.seat.schema import HalfSpaceField, SeatSection
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireField, TireSection
 from contact_sim_pkg.run.sources import make_road, make_travel
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import LEVELS
+from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 
 __all__ = ["bench_solves", "field_rows", "first_solve"]
 
@@ -66,7 +67,7 @@ def field_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict
     rows: list[dict[str, Any]] = []
     contacts: tuple[str, ...] = ("tire", "seat")
     for contact in contacts:
-        if (scene.data["effects"].get(contact) or {}).get("contact_field"):
+        if scene.effect(contact, PressureFieldSection) is not None:
             rows += _rungs(scene, contact, notify)
             rows += _independent(scene, contact, notify)
     return rows
@@ -74,7 +75,7 @@ def field_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict
 
 def first_solve(scene: ResolvedScene) -> float | None:
     """Time [s] of the scene's first field, tables and kernels included; None without a field."""
-    if not any((effects or {}).get("contact_field") for effects in scene.data["effects"].values()):
+    if all(scene.effect(contact, PressureFieldSection) is None for contact in scene.data["effects"]):
         return None
     began = time.perf_counter()
     build(scene)  # fits the tangent: two solves
@@ -98,7 +99,7 @@ def bench_solves(scene: ResolvedScene, cells: Cells, tolerance: float) -> tuple[
 
 
 def _rungs(scene: ResolvedScene, contact: str, notify: Callable[[str], None]) -> list[dict[str, Any]]:
-    grids = {"tire": TireField, "seat": SeatField}[contact].levels
+    grids = {"tire": TireField, "seat": HalfSpaceField}[contact].levels
     finest = (2 * grids[-1].rows, 2 * grids[-1].cols)
     notify(f"{contact} field: reference grid {finest[0]}x{finest[1]}")
     reference = _solve(_problem(scene, contact, finest, grids[-1].tolerance), FEW)

@@ -9,4 +9,5 @@ SEAT_REPORT = ContactReport(
     closing_sections=f"{__name__}.section:ride_sections",
     numbers=f"{__name__}.ride:summary_numbers",
     tiles=f"{__name__}.ride:ride_tiles",
+    warnings=f"{__name__}.ride:seat_warnings",
 )

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from contact_sim_pkg.report.cushions import cushion_warnings
 from contact_sim_pkg.report.series import FloatArray, MotionSeries, Recording
 from contact_sim_pkg.report.signal.metrics import ride_metrics, seat_factor
 from contact_sim_pkg.report.tiles import Tile, number
@@ -76,3 +77,8 @@ def ride_tiles(summary: dict[str, Any]) -> list[Tile]:
         detail = f"floor {number(vibration['floor_weighted_rms_m_s2'])} m/s², Wk"
         found.append(Tile("SEAT", number(vibration["seat_factor_percent"]), "%", detail))
     return found
+
+
+def seat_warnings(recording: Recording) -> list[str]:
+    """Ranges of the cushion that the run has left."""
+    return cushion_warnings("seat", recording)

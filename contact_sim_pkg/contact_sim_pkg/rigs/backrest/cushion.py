@@ -1,0 +1,29 @@
+"""The foam of a scene's seat back under a back."""
+
+from __future__ import annotations
+
+import numpy
+
+from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, LumbarSupport, back_gap
+from contact_sim_pkg.rigs.backrest.schema import BackCushion
+from contact_sim_pkg.run.contact_laws import Cushion, build_cushion
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
+
+BELOW, ABOVE, HALF_WIDTH = 0.06, 0.66, 0.26  # [m] of the cells, from the middle of the lower edge of the seat back
+
+
+def build_back_cushion(scene: ResolvedScene, preload: float) -> Cushion | None:
+    """The foam of a resolved scene's seat back under a ``preload`` [N]; None where it does not call
+    for a cushion. Errors as ``build_cushion``.
+    """
+    keys = scene.effect("backrest", BackCushion)
+    if keys is None:
+        return None
+    rows, cols = round((BELOW + ABOVE) / keys.cell), 2 * round(HALF_WIDTH / keys.cell)
+    x = (numpy.arange(rows, dtype=numpy.float64) + 0.5) * keys.cell - BELOW
+    y = (numpy.arange(cols, dtype=numpy.float64) - 0.5 * (cols - 1)) * keys.cell
+    sitter, support = PERCENTILES[given(keys.percentile)], LumbarSupport(keys.lumbar_support, keys.lumbar_height)
+    return build_cushion(
+        "backrest", keys, preload, x, y, (sitter, support), lambda x, y: back_gap(sitter, support, x, y)
+    )

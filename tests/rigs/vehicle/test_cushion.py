@@ -1,0 +1,161 @@
+"""A seat on foam of finite thickness: one law with and without its map, scipy's motion, and what is refused."""
+
+import numpy
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import PchipInterpolator
+from tests.run.scenes import resolved
+
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import ContactForce, ContactPatch, EnergyLedger
+from contact_sim_pkg.rigs.vehicle.model import build
+from contact_sim_pkg.run.rigs import make_simulation
+from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.scene.errors import SceneError
+
+KINDS = {
+    "seat/force": ContactForce,
+    "seat/patch": ContactPatch,
+    "backrest/force": ContactForce,
+    "backrest/patch": ContactPatch,
+}
+WITH_MAP = "effects.seat.contact_field={}"
+
+
+def messages(name, *values, kinds=KINDS):
+    """Messages of a run by topic."""
+    scene = resolved(name, *values)
+    simulation, sources = make_simulation(scene), make_sources(scene)
+    simulation.prepare()
+    found = {topic: [] for topic in kinds}
+    for block in range(simulation.blocks):
+        inputs = {topic: source.block(block) for topic, source in sources.items()}
+        for topic, _stamp, data in simulation.advance(block, inputs).messages:
+            if topic in kinds:
+                found[topic].append(decode(kinds[topic], data))
+    return found
+
+
+def joined(forces, name):
+    return numpy.concatenate([getattr(message, name) for message in forces])
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("seat_ride", ()),
+        ("car_full_bench", ()),
+        ("seat_ride", ("vibration={kind: sine, frequency: 4, amplitude: 12}",)),
+    ],
+)
+def test_the_motion_is_the_same_with_and_without_the_map(name, values):
+    length = "duration=0.3" if name == "car_full_bench" else "duration=1"
+    with_map = messages(name, length, *values, WITH_MAP)
+    without = messages(name, length, *values, *((f"{WITH_MAP[:-3]}=null",) if name == "car_full_bench" else ()))
+    assert not without["seat/patch"]
+    assert len(with_map["seat/patch"]) in (30, 100)
+    for column in ("normal", "approach"):
+        assert numpy.array_equal(joined(with_map["seat/force"], column), joined(without["seat/force"], column))
+
+
+@pytest.mark.parametrize("amplitude", [3, 14])
+def test_every_map_adds_up_to_the_force(amplitude):
+    shaken = f"vibration={{kind: sine, frequency: 4, amplitude: {amplitude}}}"
+    found = messages("seat_ride_full", "duration=1", shaken)
+    for contact in ("seat", "backrest"):
+        forces, patches = found[f"{contact}/force"], found[f"{contact}/patch"]
+        assert len(patches) == 100
+        for force, patch in zip(forces, patches, strict=True):
+            total = patch.pressure.astype(float).sum() * patch.cell_x * patch.cell_y
+            assert total == pytest.approx(force.normal[0], rel=1e-6, abs=1e-9)
+
+
+def test_the_occupant_stands_as_deep_as_its_weight_presses_the_layer():
+    """50.8 kg at 39.4 mm (``tests/pressure/cushion``), on 1100 cm^2 at 4.5 kPa mean."""
+    found = messages("seat_ride", "duration=0.02", WITH_MAP, "vibration={kind: sine, frequency: 4, amplitude: 0}")
+    assert joined(found["seat/force"], "approach") == pytest.approx(0.0394, rel=5e-3)
+    assert joined(found["seat/force"], "normal") == pytest.approx(50.8 * 9.81, rel=1e-6)
+    patch = found["seat/patch"][0]
+    assert patch.peak == pytest.approx(10.6e3, rel=0.01)
+    assert patch.centre_x == pytest.approx(0.060, abs=0.002)
+
+
+def test_a_rigid_occupant_follows_scipy_through_lift_off():
+    values = (
+        "seat.occupant={model: own, frame_mass: 50.8, masses: [], stiffness: [], damping: []}",
+        "integrator.relative_tolerance=1e-9",
+        "vibration={kind: sine, frequency: 4, amplitude: 14, sample_rate: 100000}", "duration=0.5",
+    )  # fmt: skip
+    scene = resolved("seat_ride", *values)
+    law = build(scene).rig.seat_contact.elastic
+    nodes = law.spacing * numpy.arange(len(law.pieces))
+    table = PchipInterpolator(nodes, law.pieces[:, 1])
+    force = joined(messages("seat_ride", *values)["seat/force"], "normal")
+    share, energy, damping, mass = 0.12, 1.0, 0.5, 50.8
+
+    def forces(x, v, z):
+        inside = min(x, nodes[-1])
+        elastic = float(table(inside)) + (x - inside) * float(table(inside, 1)) if x > 0.0 else 0.0
+        return elastic, elastic * max(0.0, 1.0 + share * z + damping * v)
+
+    def rates(t, state):
+        x, v, z = state
+        elastic, total = forces(x, v, z)
+        power = elastic * v
+        floor = 14.0 * numpy.sin(8.0 * numpy.pi * t)
+        return v, 9.81 + floor - total / mass, (power - abs(power) * z) / energy
+
+    start = build(scene).rig
+    standing = numpy.interp(mass * start.gravity, law.pieces[:, 1], nodes)
+    for _ in range(20):
+        standing -= (float(table(standing)) - mass * start.gravity) / float(table(standing, 1))
+    times = numpy.arange(len(force)) * (0.5 / len(force))
+    run = solve_ivp(rates, (0.0, 0.5), [standing, 0.0, 0.0], "RK45", times, rtol=1e-8, atol=1e-11, max_step=2e-4)
+    expected = numpy.array([forces(*state)[1] for state in run.y.T])
+    assert (force == 0.0).any(), "the occupant does not leave the seat"
+    assert numpy.abs(force - expected).max() <= 2e-4 * expected.max()
+
+
+def test_the_energies_balance():
+    found = messages(
+        "seat_ride", "duration=1", "integrator.relative_tolerance=1e-8", "vibration={kind: sine, frequency: 4, amplitude: 12}",
+        kinds={"bench/energy": EnergyLedger},
+    )["bench/energy"]  # fmt: skip
+    held = [e.kinetic + e.potential + e.stored + e.dissipated - e.supplied for e in found]
+    assert max(e.dissipated for e in found) > 1.0
+    assert numpy.ptp(held) <= 1e-6 * max(e.supplied for e in found)
+
+
+def test_a_cushion_that_does_not_carry_the_occupant_is_refused_with_what_it_carries():
+    scene = resolved("seat_ride", "effects.seat.cushion.thickness=0.02")
+    with pytest.raises(
+        SceneError, match=r"effects\.seat\.cushion: carries .* N at most, the load at rest is 498.* harder"
+    ):
+        build(scene)
+
+
+def test_the_body_on_the_cushion_is_that_of_the_occupant():
+    for values, percentile in (
+        ((), 50),
+        (("seat.occupant.percentile=95",), 95),
+        (("seat.occupant.percentile=95", "effects.seat.cushion.percentile=5"), 5),
+    ):
+        assert resolved("seat_ride", *values).data["effects"]["seat"]["cushion"]["percentile"] == percentile
+
+
+def test_the_energy_of_a_reversal_grows_with_the_load_on_a_cushion():
+    heavy = resolved("seat_ride", "seat.occupant.mass=101.6").data["effects"]["seat"]["foam_hysteresis"]["energy"]
+    assert heavy == pytest.approx(2.0)
+    on_foam = "effects.seat={normal_elastic: {}, foam: {}, foam_hysteresis: {}}"
+    alone = resolved("seat_ride", "seat.occupant.mass=101.6", on_foam)
+    assert alone.data["effects"]["seat"]["foam_hysteresis"]["energy"] == 1.0
+
+
+def test_a_hardness_is_the_stress_at_forty_per_cent():
+    from contact_sim_pkg.laws.elastic_law import elastic_force
+    from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion
+    from contact_sim_pkg.run.contact_laws import foam_of
+
+    foam = foam_of(SeatCushion(hardness=9.0e3))
+    assert elastic_force(foam, 0.4 * foam.thickness) == pytest.approx(9.0e3, rel=1e-12)
+    assert foam.modulus / foam.plateau == pytest.approx(45.0 / 3.4)
