@@ -22,6 +22,8 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import kernel
 from contact_sim_pkg.laws.parameters import FoamHysteresis
 
+REST = 1e-9  # [m/s]
+
 
 @kernel
 def hysteresis_factor(hysteresis: FoamHysteresis | None, state: Vector, place: int = 0) -> float:
@@ -66,10 +68,11 @@ def hysteresis_energy(hysteresis: FoamHysteresis | None, state: Vector, place: i
 @kernel
 def reversal_event(hysteresis: FoamHysteresis | None, approach: float, approach_rate: float) -> float:
     """Event function of the reversals, where z' has a corner; constant without hysteresis and out
-    of contact.
+    of contact. It changes its sign at a rate of -1e-9 m/s, where the corner is as good as at 0: a
+    body at rest, whose rate is rounding, does not reverse.
 
     approach: [m]; approach_rate: [m/s], closing positive.
     """
     if hysteresis is None:
         return 1.0
-    return approach_rate if approach > 0.0 else 1.0
+    return approach_rate + REST if approach > 0.0 else 1.0

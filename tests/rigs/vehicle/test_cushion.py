@@ -7,7 +7,8 @@ from scipy.interpolate import PchipInterpolator
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.messages import decode
-from contact_sim_pkg.records.messages import ContactForce, ContactPatch, EnergyLedger
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
+from contact_sim_pkg.report.signal.spectrum import transmissibility
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
@@ -159,3 +160,20 @@ def test_a_hardness_is_the_stress_at_forty_per_cent():
     foam = foam_of(SeatCushion(hardness=9.0e3))
     assert elastic_force(foam, 0.4 * foam.thickness) == pytest.approx(9.0e3, rel=1e-12)
     assert foam.modulus / foam.plateau == pytest.approx(45.0 / 3.4)
+
+
+@pytest.mark.parametrize(("rms", "lowest", "highest"), [(0.5, 1.9, 2.3), (1.0, 1.75, 2.15)])
+def test_the_transmissibility_peaks_near_two_at_four_hertz(rms, lowest, highest):
+    """Car seats with people: 1.5 to 2.5 at 3.3 to 4.5 Hz, isolating above 6 Hz."""
+    values = (f"vibration={{kind: noise, low: 0.5, high: 20, rms: {rms}}}", "duration=60", "block_length=0.1")
+    found = messages("seat_ride", *values, kinds={"bench/motion": BodyMotion})["bench/motion"]
+    floor, seat = (
+        numpy.concatenate([block.acceleration[block.bodies.index(name)] for block in found])
+        for name in ("floor_z", "seat_frame_z")
+    )
+    way = transmissibility(floor, seat, 1.0 / found[0].sample_period)
+    trusted = (way.frequency > 1.0) & (way.frequency < 15.0) & (way.coherence > 0.9)
+    peak = numpy.flatnonzero(trusted)[way.magnitude[trusted].argmax()]
+    assert lowest < way.magnitude[peak] < highest
+    assert 3.3 <= way.frequency[peak] <= 4.5
+    assert (way.magnitude[(way.frequency > 6.5) & (way.frequency < 15.0)] < 1.0).all()

@@ -72,6 +72,7 @@ RIGS = (
         report=(_SEAT_REPORT,),
         unused_axes=lambda effects: "x" if effects["seat"].get("friction") is None else "",
         accuracy=_ACCURACY,
+        hard_cases=(f"{__name__}.studies.hard_cases_cushion",),
         work_precision=(
             "contact_sim_pkg.studies.laws.work_precision_restitution",
             "contact_sim_pkg.papers.cnoidal.work_precision_periodic",
