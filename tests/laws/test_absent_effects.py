@@ -8,7 +8,7 @@ from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
 from contact_sim_pkg.rigs.vehicle import entries
-from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
+from contact_sim_pkg.rigs.vehicle.motion import event_count
 from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
 from contact_sim_pkg.studies.effects.effect_cost import HandWritten, bounce, rigs
 
@@ -28,7 +28,7 @@ def _shaken_seat(friction, fore_aft=0.0, count=1500):
     state[1] = state[0] - 33.4 * 9.81 / 35776.0
     scale = numpy.array([1e-2, 1e-2, 0.5, 0.5, *([1e-2, 0.5, 1e-2] if friction else []), 1e6, 1e6]) * 1e-6
     scale[-2:] = numpy.inf
-    work, mode = make_workspace(states, EVENT_FUNCTIONS), numpy.zeros(1, dtype=numpy.int64)
+    work, mode = make_workspace(states, event_count(rig)), numpy.zeros(1, dtype=numpy.int64)
     samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
     entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None)
     assert entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, None, 1, 0, *samples) == 0

@@ -48,6 +48,8 @@ class Rig:
             sooner.
         forecast: module whose `facts_before_run` and `sentence_before_run` report what is known
             before the run; empty: nothing.
+        rules: ``module:function`` of rules between keys of its contacts, each a scene -> its
+            breaches.
         kernels: about how many kernels its richest scene compiles at its first start; 0: unknown.
     """
 
@@ -69,6 +71,7 @@ class Rig:
     validation: tuple[str, ...] = ()
     scenes: Mapping[str, int] = field(default_factory=dict)
     forecast: str = ""
+    rules: tuple[str, ...] = ()
     kernels: int = 0
 
 

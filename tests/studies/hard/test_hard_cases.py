@@ -14,7 +14,7 @@ from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
 from contact_sim_pkg.reference import impact
 from contact_sim_pkg.rigs.vehicle import entries
-from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
+from contact_sim_pkg.rigs.vehicle.motion import event_count
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle, rigid_occupant
 from contact_sim_pkg.studies.hard import hard_cases
 from contact_sim_pkg.studies.laws import hard_cases_impact
@@ -97,7 +97,7 @@ def test_friction_never_chatters_nor_passes_its_limit_while_the_seat_shakes_and_
     a_x, a_z = shake_x * numpy.sin(19.0 * times), shake_z * numpy.sin(25.0 * times)
     zeros, state = numpy.zeros(count + 1), numpy.zeros(7)
     state[0] = -((50.0 * 9.81 / 2.73e5) ** (2.0 / 3.0))
-    work, mode = make_workspace(7, EVENT_FUNCTIONS), numpy.zeros(1, dtype=numpy.int64)
+    work, mode = make_workspace(7, event_count(rig)), numpy.zeros(1, dtype=numpy.int64)
     samples = (numpy.zeros((count, 7)), numpy.zeros((count, 7)), numpy.zeros((count, entries.FORCES)))
     scale = numpy.array([1e-2, 0.5, 1e-2, 0.5, 1e-2, numpy.inf, numpy.inf]) * 1e-6
     entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None)

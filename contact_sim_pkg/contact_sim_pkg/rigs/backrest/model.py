@@ -87,14 +87,15 @@ def build_backrest(scene: ResolvedScene) -> BackrestModel:
     SceneError for too deep a rest.
     """
     backrest, shell = scene.section(schema.BackrestSection), scene.effect("backrest", schema.ShellModesSection)
-    mat = _mat(backrest, shell)
+    mat = mat_of(backrest, shell)
     form = _one_mass(backrest) if shell is None else _shell(backrest, shell, mat)
     search = None
     if shell is not None and scene.effect("backrest", schema.ContactSearchSection) is not None:
         search = _search(backrest, shell, mat)
         mat, form = mat._replace(by_points=False, bent=form.shapes), _with_one_point(form)
     preload, sliding = given(backrest.preload), backrest.sliding
-    shaken = backrest.mass if shell is None else preload / GRAVITY  # a shell is pressed by the weight of what is shaken
+    # a shell is pressed by the weight of what is shaken
+    shaken = given(backrest.mass) if shell is None else preload / GRAVITY
     cushion = build_back_cushion(scene, preload)
     modal = [form.mass, form.stiffness, form.damping, preload * form.at_preload, shaken * form.at_shaking]
     rig = Backrest(
@@ -141,7 +142,8 @@ def _contact(scene: ResolvedScene, cushion: Cushion | None, mass: float, modes: 
     return Contact(law, normal_loss(scene, "backrest", law, mass), friction(scene, "backrest"), memory)
 
 
-def _mat(backrest: schema.BackrestSection, shell: schema.ShellModesSection | None) -> Mat:
+def mat_of(backrest: schema.BackrestSection, shell: schema.ShellModesSection | None = None) -> Mat:
+    """Cells of the pressure map; those of the contact points of a shell."""
     back, cells = backrest.back, backrest.mat
     rows, cols = (cells.rows, cells.cols) if shell is None else (shell.points_up, shell.points_across)
     cell_x, cell_y = back.height / rows, back.width / cols
@@ -154,7 +156,7 @@ def _mat(backrest: schema.BackrestSection, shell: schema.ShellModesSection | Non
 
 def _one_mass(backrest: schema.BackrestSection) -> _ModalBack:
     one, none = numpy.ones(1), numpy.zeros(1)
-    mass = numpy.array([backrest.mass])
+    mass = numpy.array([given(backrest.mass)])
     return _ModalBack(
         mass=mass,
         stiffness=none,

@@ -19,6 +19,8 @@ from contact_sim_pkg.scene.schema.laws import (
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.schema.scene import Scene
 
+MASS = 45.6  # [kg]
+ANGLE = 0.384  # [rad], 22 degrees
 SHELL_PRELOAD = 20.0  # [N]; the weight of the mass would bend the default shell by 0.24 m
 
 
@@ -54,12 +56,18 @@ class MatSection(Section):
 class BackrestSection(Section):
     """Occupant against a seat back that is shaken along its normal (x, forward)."""
 
-    mass: float = number(0.1, 1000.0, "kg", "moving mass of the occupant; replaced by a shell", default=45.6)
+    mass: float | None = number(
+        0.1, 1000.0, "kg", f"moving mass of the occupant, {MASS:g} by default; replaced by a shell; not in rig occupant",
+        default=None,
+    )  # fmt: skip
+    angle: float | None = number(
+        0.0, 0.6, "rad", f"of the seat back from the vertical; rig occupant alone, {ANGLE:g} by default", default=None
+    )
     preload: float | None = number(
         0.0,
         1e6,
         "N",
-        "constant force on the seat back; by default mass · 9.81 m/s², 20 N for a shell",
+        "constant force on the seat back; by default mass · 9.81 m/s², 20 N for a shell; in rig occupant 0, the push of the feet",
         default=None,
     )
     back: Back = Field(default_factory=Back, description="shape of the back; of a cushion the percentile is")
@@ -67,8 +75,10 @@ class BackrestSection(Section):
     mat: MatSection = Field(default_factory=MatSection, description="cells of the pressure map; a cushion has its own")
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
-        one_mass = scene.effect("backrest", ShellModesSection) is None
-        return {"preload": self.mass * GRAVITY if one_mass else SHELL_PRELOAD}
+        if scene.rig == "occupant":
+            return {"angle": ANGLE, "preload": 0.0}
+        one_mass, mass = scene.effect("backrest", ShellModesSection) is None, self.mass or MASS
+        return {"mass": mass, "preload": mass * GRAVITY if one_mass else SHELL_PRELOAD}
 
 
 class BackElastic(PowerLaw):

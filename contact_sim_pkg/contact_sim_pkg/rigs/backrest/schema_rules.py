@@ -24,6 +24,8 @@ def backrest_breaches(scene: Scene) -> Iterator[Breach]:
     if backrest.sliding.amplitude > 0.0 and scene.effect("backrest", BackFriction) is None:
         sentence = f"{show(backrest.sliding.amplitude)} m act through friction, which the scene does not name; add it"
         yield Breach("backrest.sliding.amplitude", sentence, ("effects.backrest",))
+    if backrest.angle is not None and scene.rig == "backrest":
+        yield Breach("backrest.angle", "acts where a pan carries the occupant too, in the rig occupant", ("rig",))
     if scene.rig == "backrest" and getattr(scene.vibration, "axis", "x") != "x":
         yield Breach("vibration.axis", "a seat back is shaken forward; set axis: x", ("rig",))
     # Limits of the shell: number of modes, thickness, curvature.

@@ -8,6 +8,7 @@ from contact_sim_pkg.records.work import STEP_COST, Work
 from contact_sim_pkg.rigs.backrest.schema import BackrestSection, ShellModesSection
 from contact_sim_pkg.run.integrator_work import integrator_steps, links_of_laws, segments
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
 
 __all__ = ["back_steps", "work_of_backrest"]
 
@@ -26,4 +27,4 @@ def back_steps(scene: ResolvedScene) -> Iterator[Work]:
     if shell is not None:
         cost += POINT_COST * shell.modes * shell.points_up * shell.points_across
     load = float(backrest.preload or 0.0)
-    yield from integrator_steps(scene, "backrest", links_of_laws(scene, "backrest", backrest.mass, load), cost)
+    yield from integrator_steps(scene, "backrest", links_of_laws(scene, "backrest", given(backrest.mass), load), cost)

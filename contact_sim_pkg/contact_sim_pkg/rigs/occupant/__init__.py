@@ -21,5 +21,6 @@ RIGS = (
             "contact_sim_pkg.rigs.backrest.report:BACKREST_REPORT",
         ),
         accuracy=(f"{__name__}.accuracy",),
+        rules=(f"{__name__}.schema_rules:leaning_breaches",),
     ),
 )

@@ -1,52 +1,74 @@
-"""Outputs of the occupant: those of seat and backrest; motion, energy and cost are combined."""
+"""Outputs of the seat back under an occupant who sits too; those of the seat are the vehicle rig's."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy
+from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.block_encoder import Output
-from contact_sim_pkg.records.definitions import definition_of
-from contact_sim_pkg.records.messages import BodyMotion, EnergyLedger, SolverCost
+from contact_sim_pkg.laws.parameters import ElasticLaw
+from contact_sim_pkg.pressure.mat import spread_force
+from contact_sim_pkg.records.messages import ContactForce, ContactPoints
+from contact_sim_pkg.rigs.backrest.model import Mat
+from contact_sim_pkg.rigs.vehicle import entries as columns
+from contact_sim_pkg.rigs.vehicle.model import Model
+from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord
+from contact_sim_pkg.run.contact_laws import Cushion
+from contact_sim_pkg.run.contact_patch import contact_patch
+from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs
 
 
-def combined(parts: list[list[Output]]) -> list[Output]:
-    """The outputs of all parts; motions side by side, energies and costs added up."""
-    outputs = [each for part in parts for each in part]
-    own = [each for each in outputs if each.topic not in COMBINED]
-    for topic, combine in COMBINED.items():
-        same = [each for each in outputs if each.topic == topic]
-        own.append(same[0]._replace(record=combine([each.record for each in same])))
-    return own
+class BackMap(NamedTuple):
+    """Pressure map of the seat back: x up, y left."""
+
+    cells: tuple[float, float, float, float]  # [m] sizes of a cell along x and y, centre of cell (0, 0)
+    pressure: Callable[[float, float], NDArray[numpy.float64]]  # approach [m], force [N] -> [rows, cols] [Pa]
 
 
-def _motion(parts: list[BodyMotion]) -> BodyMotion:
-    """The coordinates of all parts."""
-    names = ("position", "velocity", "acceleration")
-    rows = {name: numpy.vstack([getattr(part, name) for part in parts]) for name in names}
-    return parts[0]._replace(bodies=tuple(body for part in parts for body in part.bodies), **rows)
+def back_map(mat: Mat, law: ElasticLaw, cushion: Cushion | None) -> BackMap:
+    """Map of a cushion, or of a point contact of this ``law`` on the cells of a ``mat``."""
+    if cushion is not None:
+        return BackMap(cushion.cells, cushion.pressure)
+    area = mat.cell_x * mat.cell_y
+
+    def pressure(approach: float, force: float) -> NDArray[numpy.float64]:
+        return spread_force(force, approach, law, mat.gap, area)
+
+    return BackMap((mat.cell_x, mat.cell_y, float(mat.x[0]), float(mat.y[0])), pressure)
 
 
-def _energy(parts: list[EnergyLedger]) -> EnergyLedger:
-    """The sum of each energy [J]."""
-    names = [name for name in EnergyLedger._fields if name != "block"]
-    return parts[0]._replace(**{name: sum(getattr(part, name) for part in parts) for name in names})
+def back_outputs(model: Model, shown: BackMap, record: BlockRecord) -> Iterator[Output]:
+    """Force of the seat back on the trunk, along its normal, and its map and one point at the field
+    rate.
+    """
+    stamps = BlockStamps(record.block, model.timing)
+    normal, approach = record.forces[:, columns.BACK_NORMAL], record.forces[:, columns.BACK_APPROACH]
+    none = numpy.zeros_like(normal)
+    force = ContactForce(
+        block=record.block, sample_period=stamps.period, normal=normal, tangential=none, approach=approach,
+        effective_height=none,
+    )  # fmt: skip
+    yield from contact_outputs("backrest", stamps, force)
+    for interval in range(model.timing.intervals):
+        sample = interval * model.timing.segments // model.timing.sample_every
+        pressure = shown.pressure(float(approach[sample]), float(normal[sample]))
+        yield Output(
+            "backrest/patch",
+            stamps.at(sample),
+            contact_patch(record.block, shown.cells, float(approach[sample]), pressure),
+        )
+        yield Output("backrest/points", stamps.at(sample), _point(record, sample))
 
 
-def _cost(parts: list[SolverCost]) -> SolverCost:
-    """Wall times and counts add up; of residuals, jumps and errors the largest counts."""
-    values: dict[str, Any] = {}
-    for field in definition_of("SolverCost").record_fields:
-        add_up = field.name == "wall_time" or not field.type.startswith("float")
-        values[field.name] = (sum if add_up else max)(getattr(part, field.name) for part in parts)
-    simulated = parts[0].real_time_factor * parts[0].wall_time
-    factor = simulated / values["wall_time"]
-    return SolverCost(**{**values, "block": parts[0].block, "real_time_factor": factor})
-
-
-COMBINED: dict[str, Callable[[list[Any]], Any]] = {
-    "bench/motion": _motion, "bench/energy": _energy, "bench/cost": _cost,
-}  # fmt: skip
-"""Topic that every part has -> what makes one record of those of all parts."""
+def _point(record: BlockRecord, sample: int) -> ContactPoints:
+    """The whole contact as one point in the middle of the back."""
+    one = numpy.zeros(1)
+    normal = record.forces[sample : sample + 1, columns.BACK_NORMAL]
+    touches = ContactPoints.TOUCHES if normal[0] > 0.0 else ContactPoints.APART
+    return ContactPoints(
+        block=record.block, x=one, y=one, approach=record.forces[sample : sample + 1, columns.BACK_APPROACH], normal=normal,
+        tangential=one, displacement=one, state=numpy.array([touches], dtype=numpy.uint8),
+    )  # fmt: skip

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from contact_sim_pkg.records.work import Work
-from contact_sim_pkg.rigs.backrest.work import back_steps
+from contact_sim_pkg.rigs.occupant.model import back_load
+from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
 from contact_sim_pkg.rigs.vehicle.work import seat_steps
-from contact_sim_pkg.run.integrator_work import segments
+from contact_sim_pkg.run.integrator_work import integrator_steps, links_of_laws, segments
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
@@ -15,4 +16,5 @@ def work_of_occupant(scene: ResolvedScene) -> Iterator[Work]:
     """Segments and steps of an occupant on a seat and against its back."""
     yield segments(scene)
     yield from seat_steps(scene)
-    yield from back_steps(scene)
+    occupant = scene.section(SeatSection).occupant.model_of()
+    yield from integrator_steps(scene, "backrest", links_of_laws(scene, "backrest", occupant.mass, back_load(scene)))

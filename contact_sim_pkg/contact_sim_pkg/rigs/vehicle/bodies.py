@@ -14,7 +14,7 @@ from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
 from contact_sim_pkg.rigs.vehicle.model import Model, standing_state
-from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
+from contact_sim_pkg.rigs.vehicle.motion import event_count
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
 from contact_sim_pkg.run.errors import RunError
 
@@ -70,7 +70,7 @@ class Bodies:
         """Reset all but the buffers."""
         self.state: Vector = numpy.zeros(self.model.states)
         self.mode: Modes = numpy.zeros(1, dtype=numpy.int64)
-        self.work = make_workspace(self.model.states, EVENT_FUNCTIONS)
+        self.work = make_workspace(self.model.states, event_count(self.model.rig))
 
     def stand(self, smooth: float) -> None:
         """Set the rig in equilibrium on a road of height ``smooth`` [m], by its contact laws."""

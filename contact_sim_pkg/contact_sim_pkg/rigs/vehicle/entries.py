@@ -12,16 +12,18 @@ from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, int
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.laws.contact_force import contact_energy, contact_force
-from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection, friction_force
+from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection
 from contact_sim_pkg.rigs.vehicle import motion as vehicle
 from contact_sim_pkg.rigs.vehicle import quarter_car
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
+from contact_sim_pkg.rigs.vehicle.seat.leaning import back_approach, contact_of, pan_friction, slid
 from contact_sim_pkg.rigs.vehicle.seat.motion import seat_energies, seat_mass, slide_index
 
 TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
 SEAT_NORMAL, SEAT_TANGENTIAL, SEAT_APPROACH, SEAT_HEIGHT, SEAT_RATE = 4, 5, 6, 7, 8
 TIRE_PUSH = 9
-FORCES = 10
+BACK_NORMAL, BACK_APPROACH = 10, 11
+FORCES = 12
 
 
 @borrowing_kernel
@@ -41,20 +43,11 @@ def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z, 
 
 
 @borrowing_kernel
-def _tangential(friction, seat, mode, normal, state):
-    """Friction force on the occupant in [N]."""
-    if friction is None:
-        return 0.0
-    x = slide_index(seat)
-    return -friction_force(friction, mode[0], normal, state[x + 2], state[x + 1])
-
-
-@borrowing_kernel
 def _observe(rig, drive, mode, state, out):
     """Forces, approaches and heights of both contacts at the start of the segment."""
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = quarter_car.drive_at(drive, drive.start)
     tire_x, tire_v = quarter_car.tire_approach(rig.tire, rig.rigid_ring, height, height_rate, state)
-    seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, rig.seat_contact, cushion, cushion_rate, state)
+    seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, rig.seat_contact, rig.back, cushion, cushion_rate, state)
     seat_normal = contact_force(rig.seat_contact, seat_x, seat_v, state)
     out[TIRE_NORMAL] = contact_force(rig.tire_contact, tire_x, tire_v, state)
     out[TIRE_APPROACH] = tire_x
@@ -62,10 +55,15 @@ def _observe(rig, drive, mode, state, out):
     out[TIRE_RATE] = tire_v
     out[TIRE_PUSH] = quarter_car.push_at(drive, drive.start) if tire_x > 0.0 else 0.0
     out[SEAT_NORMAL] = seat_normal
-    out[SEAT_TANGENTIAL] = _tangential(vehicle._friction_of(rig.seat_contact), rig.seat, mode, seat_normal, state)
+    out[SEAT_TANGENTIAL] = -pan_friction(
+        vehicle._friction_of(rig.seat_contact), rig.back, rig.seat, mode, seat_normal, state
+    )
     out[SEAT_APPROACH] = seat_x
     out[SEAT_HEIGHT] = cushion
     out[SEAT_RATE] = seat_v
+    back_x, back_v = back_approach(rig.back, rig.seat, state)
+    out[BACK_NORMAL] = contact_force(contact_of(rig.back), back_x, back_v, state)
+    out[BACK_APPROACH] = back_x
 
 
 @entry
@@ -136,14 +134,22 @@ def _rigid_ring_energies(rigid_ring, gravity, state):
 
 
 @borrowing_kernel
-def _slide_energies(friction, seat, mode, normal, state):
+def _spring_energy(friction, back, seat, mode, normal, state):
     if friction is None:
-        return 0.0, 0.0
-    x = slide_index(seat)
-    deflection = state[x + 2]
+        return 0.0
+    deflection = state[slide_index(seat) + 2]
     if mode[0] == SLIP_FORWARD or mode[0] == SLIP_BACKWARD:
-        deflection = following_deflection(friction, mode[0], normal, state[x + 1])
-    return 0.5 * seat_mass(seat) * state[x + 1] ** 2, 0.5 * friction.stiffness * deflection**2
+        deflection = following_deflection(friction, mode[0], normal, slid(back, seat, state))
+    return 0.5 * friction.stiffness * deflection**2
+
+
+@borrowing_kernel
+def _slide_energies(friction, back, seat, mode, normal, state):
+    """Kinetic energy of x and what the spring of friction holds in [J]."""
+    if friction is None and back is None:
+        return 0.0, 0.0
+    velocity = state[slide_index(seat) + 1]
+    return 0.5 * seat_mass(seat) * velocity**2, _spring_energy(friction, back, seat, mode, normal, state)
 
 
 @entry
@@ -162,13 +168,18 @@ def energies(
     # The occupant on its cushion, whose friction has a spring and whose foam has a memory.
     seat_kinetic, seat_potential, seat_stored = seat_energies(rig.seat, rig.gravity, state)
     tire_x, _tire_v = quarter_car.tire_approach(rig.tire, rig.rigid_ring, height, 0.0, state)
-    seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, rig.seat_contact, cushion, 0.0, state)
+    seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, rig.seat_contact, rig.back, cushion, 0.0, state)
     normal = contact_force(rig.seat_contact, seat_x, _seat_v, state)
-    slide_kinetic, spring = _slide_energies(vehicle._friction_of(rig.seat_contact), rig.seat, mode, normal, state)
+    slide_kinetic, spring = _slide_energies(
+        vehicle._friction_of(rig.seat_contact), rig.back, rig.seat, mode, normal, state
+    )
     in_tire, _none = contact_energy(rig.tire_contact, tire_x, state)
     in_cushion, hysteresis = contact_energy(rig.seat_contact, seat_x, state)
+    back_x, _back_v = back_approach(rig.back, rig.seat, state)
+    in_back, back_hysteresis = contact_energy(contact_of(rig.back), back_x, state)
+    hysteresis += back_hysteresis
     stored += seat_stored + spring + hysteresis
-    stored += in_tire + in_cushion
+    stored += in_tire + in_cushion + in_back
     # The last two states are the works supplied and dissipated; what is still stored is no loss
     # yet.
     last = state.shape[0]

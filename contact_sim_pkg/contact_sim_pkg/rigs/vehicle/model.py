@@ -26,8 +26,8 @@ from contact_sim_pkg.rigs.vehicle.coupling_model import (
 from contact_sim_pkg.rigs.vehicle.lattice import field_settings, occupant_mass, standing_load
 from contact_sim_pkg.rigs.vehicle.parameters import MasslessNode, Seat, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
-from contact_sim_pkg.rigs.vehicle.seat.biodynamics import rest_deflections
 from contact_sim_pkg.rigs.vehicle.seat.cushion import build_pan_cushion
+from contact_sim_pkg.rigs.vehicle.seat.lean import Lean, build_back, interface_at_rest, pose_of, rest_of
 from contact_sim_pkg.rigs.vehicle.seat.mat import SeatMap, build_seat_map
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OccupantModel
 from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap, shape_of
@@ -55,6 +55,7 @@ class Model:
     scale: Vector  # [states] error allowed per step
     bodies: tuple[str, ...]
     occupant: OccupantModel | None
+    lean: Lean | None  # None where the pan alone carries the occupant
     tire_geometry: TireGeometry | None
     tire_field: FieldGrids | None
     tread: Tread | None
@@ -73,25 +74,29 @@ class Model:
         return int(self.scale.shape[0])
 
 
-def build(scene: ResolvedScene) -> Model:
-    """Parameters of a resolved scene. Raises FieldError where a pressure field cannot carry the
-    standing load.
+def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
+    """Parameters of a resolved scene whose occupant leans on a seat back where there is one. Raises
+    FieldError where a pressure field cannot carry the standing load.
     """
     with_tire, with_seat = scene.rig in ("tire", "car"), scene.rig in ("seat", "car", "occupant")
     given_seat = scene.section(seat_schema.SeatSection) if with_seat else None
+    occupant = None if given_seat is None else given_seat.occupant.model_of()
     # Contacts: each with its pressure field, where the scene calls for one.
     seat_field, shape = (None, None) if given_seat is None else _seat_field(scene, given_seat)
     tire = build_tire(scene, None if given_seat is None else given_seat.occupant) if with_tire else None
     tire_field = None if tire is None else tire.field
     # The states of the seat follow those of the quarter car: 4, or 6 with a rigid ring.
     behind = 0 if tire is None else 4 if tire.rigid_ring is None else 6
-    seat = None if given_seat is None else _seat(scene, given_seat, offset=behind)
-    cushion = None if given_seat is None else build_pan_cushion(scene, occupant_mass(given_seat.occupant) * GRAVITY)
-    seat_contact = None if seat is None else _seat_contact(scene, seat, cushion, seat_field, shape)
+    seat = None if occupant is None else _seat(scene, occupant, lean, offset=behind)
+    cushion = None if occupant is None else build_pan_cushion(scene, rest_of(occupant, pose_of(lean), GRAVITY).pan)
+    seat_contact = None if seat is None else _seat_contact(scene, seat, lean, cushion, seat_field, shape)
     seat_map = None
     if given_seat is not None and seat_contact is not None:
         seat_map = build_seat_map(scene, given_seat.body, seat_contact.elastic, cushion)
     rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
+    if occupant is not None and seat is not None and seat_contact is not None and lean is not None:
+        last = _behind_foam(scene, seat, lean) + (0 if seat.softening is None else 1)
+        rig = rig._replace(back=build_back(lean, occupant, seat_contact, GRAVITY, last))
     if tire is not None:
         rig = rig._replace(tire=tire.tire, rigid_ring=tire.rigid_ring, tire_contact=tire.contact)
     # A footprint on a road bounds the length of the coupling steps, and so the segments.
@@ -102,7 +107,8 @@ def build(scene: ResolvedScene) -> Model:
         timing=timing,
         scale=_scale(rig, given(scene.integrator.relative_tolerance)),
         bodies=_bodies(rig),
-        occupant=None if given_seat is None else given_seat.occupant.model_of(),
+        occupant=occupant,
+        lean=lean,
         tire_geometry=None if tire is None else tire.geometry,
         tire_field=tire_field,
         tread=None if tire is None else tire.tread,
@@ -146,8 +152,7 @@ def _coupling(
     return CouplingRule(tolerance, allowances, longest_travel(footprint, tolerance), shortest, segments)
 
 
-def _seat(scene: ResolvedScene, given_seat: seat_schema.SeatSection, offset: int) -> Seat:
-    occupant = given_seat.occupant.model_of()
+def _seat(scene: ResolvedScene, occupant: OccupantModel, lean: Lean | None, offset: int) -> Seat:
     ends = numpy.array([link[:2] for link in occupant.links], dtype=numpy.int64).reshape(-1, 2)
     springs = numpy.array([link[2:] for link in occupant.links], dtype=numpy.float64).reshape(-1, 2)
     node = None
@@ -157,9 +162,8 @@ def _seat(scene: ResolvedScene, given_seat: seat_schema.SeatSection, offset: int
     effect = scene.effect("seat", seat_schema.SofteningSection)
     if effect is None:
         return seat
-    # Behind the states of slide and foam.
-    behind = _behind_occupant(scene, seat) + (0 if hysteresis(scene, "seat", 0) is None else 1)
-    heights = rest_deflections(occupant, GRAVITY)
+    behind = _behind_foam(scene, seat, lean)
+    heights = rest_of(occupant, pose_of(lean), GRAVITY).heights
     softening = Softening(
         behind,
         effect.exponent,
@@ -171,9 +175,15 @@ def _seat(scene: ResolvedScene, given_seat: seat_schema.SeatSection, offset: int
     return seat._replace(softening=softening)
 
 
-def _behind_occupant(scene: ResolvedScene, seat: Seat) -> int:
-    """Index of the first state behind those of the masses and of their slide."""
-    return seat.offset + 2 * len(seat.masses) + (0 if friction(scene, "seat") is None else 3)
+def _behind_occupant(scene: ResolvedScene, seat: Seat, lean: Lean | None) -> int:
+    """Index of the first state behind those of the masses and of x."""
+    slides = lean is not None or friction(scene, "seat") is not None
+    return seat.offset + 2 * len(seat.masses) + (3 if slides else 0)
+
+
+def _behind_foam(scene: ResolvedScene, seat: Seat, lean: Lean | None) -> int:
+    """Index of the first state behind that of the cushion's foam."""
+    return _behind_occupant(scene, seat, lean) + (0 if hysteresis(scene, "seat", 0) is None else 1)
 
 
 def _seat_field(scene: ResolvedScene, seat: seat_schema.SeatSection) -> tuple[FieldGrids | None, SeatShape | None]:
@@ -200,7 +210,12 @@ def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray
 
 
 def _seat_contact(
-    scene: ResolvedScene, seat: Seat, cushion: Cushion | None, field: FieldGrids | None, shape: SeatShape | None
+    scene: ResolvedScene,
+    seat: Seat,
+    lean: Lean | None,
+    cushion: Cushion | None,
+    field: FieldGrids | None,
+    shape: SeatShape | None,
 ) -> Contact:
     mass = occupant_mass(scene.section(seat_schema.SeatSection).occupant)
     law: ElasticLaw
@@ -210,7 +225,7 @@ def _seat_contact(
         law, _length = tangent_law(field, lambda grid: seat_gap_on(shape, grid), mass * GRAVITY, "seat")
     else:
         law = elastic_law(scene, "seat")
-    memory = hysteresis(scene, "seat", _behind_occupant(scene, seat))
+    memory = hysteresis(scene, "seat", _behind_occupant(scene, seat, lean))
     return Contact(law, normal_loss(scene, "seat", law, mass), friction(scene, "seat"), memory)
 
 
@@ -251,12 +266,16 @@ def _scale(rig: Vehicle, tolerance: float) -> Vector:
         count = len(rig.seat.masses)
         node = seat_velocity if rig.seat.node is None else numpy.inf  # settled at every instant
         scale += [seat_position] + [position] * (count - 1) + [node] + [velocity] * (count - 1)
-        if rig.seat_contact is not None and rig.seat_contact.friction is not None:
-            scale += [position, velocity, _spring_scale(rig.seat_contact.friction, occupant * rig.gravity) * tolerance]
-        if rig.seat_contact is not None and rig.seat_contact.hysteresis is not None:
-            scale.append(tolerance)  # its internal variable runs from -1 to 1
-        if rig.seat.softening is not None:
-            scale.append(tolerance)  # of 1 m^2/s^4
+        rubbing = None if rig.seat_contact is None else rig.seat_contact.friction
+        if rubbing is not None or rig.back is not None:
+            spring = POSITION_SCALE if rubbing is None else _spring_scale(rubbing, occupant * rig.gravity)
+            scale += [position, velocity, spring * tolerance]
+        # The variables of foam run from -1 to 1, the mean square of softening links by m^2/s^4.
+        further = (
+            rig.seat_contact is not None and rig.seat_contact.hysteresis is not None, rig.seat.softening is not None,
+            rig.back is not None and rig.back.contact.hysteresis is not None,
+        )  # fmt: skip
+        scale += [tolerance] * sum(further)
     return numpy.array([*scale, numpy.inf, numpy.inf])
 
 
@@ -275,7 +294,9 @@ def _bodies(rig: Vehicle) -> tuple[str, ...]:
         names.append("belt_z")
     if rig.seat is not None:
         names += ["seat_frame_z", *(f"occupant{i}_z" for i in range(1, len(rig.seat.masses)))]
-        if rig.seat_contact is not None and rig.seat_contact.friction is not None:
+        if rig.back is not None:
+            names += ["seat_back_x", "occupant_x"]
+        elif rig.seat_contact is not None and rig.seat_contact.friction is not None:
             names.append("occupant_x")
     return tuple(names)
 
@@ -301,7 +322,8 @@ def standing_state(model: Model, height: float) -> Vector:
     # The occupant on the cushion, its masses on their springs.
     if rig.seat is not None and rig.seat_contact is not None:
         first, count = rig.seat.offset, len(rig.seat.masses)
-        state[first : first + count] = floor - approach_of_force(rig.seat_contact.elastic, occupant * rig.gravity)
         assert model.occupant is not None
-        state[first : first + count] += rest_deflections(model.occupant, rig.gravity)
+        pose = pose_of(model.lean)
+        rest = rest_of(model.occupant, pose, rig.gravity)
+        state[first : first + count] = floor + interface_at_rest(rest, pose, rig.seat_contact) + rest.heights
     return state

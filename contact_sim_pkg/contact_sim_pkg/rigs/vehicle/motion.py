@@ -10,13 +10,14 @@ for friction.
 * body   ``m_b z_b'' = F_susp - m_b g - F_seat + m_b a_z(t)`` (a_z: what the drive line gives to the
   free body)
 * masses of the occupant, the first on the cushion: ``rigs/vehicle/seat/motion.py``
-* slide  ``M x'' = -M a_x(t) - F_t`` relative to the seat, M the whole occupant
+* slide  ``M x'' = -M a_x(t) - F_t`` relative to the seat, M the whole occupant; against a seat back
+  ``rigs/vehicle/seat/leaning.py``
 
 Approaches: tire ``h(t) - z_w`` (belt: ``h(t) - z_r``), h the effective road height; seat ``z_floor
 + h_c(t) - z_0``, h_c that of the cushion.
 Without a tire the floor is the (accelerated) frame of reference: z_floor = 0 and every mass feels
 ``-m a_z(t)``. State: [z_w, z_b, v_w, v_b] [z_r, v_r] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [z] [q]
-[supplied, dissipated]; z is the hysteresis variable of a foam cushion
+[z_b] [supplied, dissipated]; z and z_b are the hysteresis variables of foam in cushion and seat back
 (``laws/foam_hysteresis.py``), q the mean square of softening links, the last two are the works in
 [J] that the energy ledger needs. Works of friction and foam are counted whole; what their springs
 hold is taken off in ``advance.energies``.
@@ -37,7 +38,6 @@ from contact_sim_pkg.laws.friction import (
     SEPARATED,
     STICK,
     following_deflection,
-    friction_force,
     slip_event,
     stick_event,
 )
@@ -51,24 +51,32 @@ from contact_sim_pkg.rigs.vehicle.quarter_car import (
     tire_rates,
     tread_velocity,
 )
+from contact_sim_pkg.rigs.vehicle.seat.leaning import (
+    back_approach,
+    contact_of,
+    forward_rates,
+    pan_cosine,
+    pan_friction,
+    pan_motion,
+    push_up,
+    slid,
+    sliding_in,
+)
 from contact_sim_pkg.rigs.vehicle.seat.motion import (
     node_rate,
-    seat_mass,
     seat_rates,
     settle_node,
     slide_index,
     softening_rate,
 )
 
-TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, SEAT_REVERSAL, EVENT_FUNCTIONS = (
-    0,
-    1,
-    2,
-    3,
-    4,
-    5,
-    6,
-)
+TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, SEAT_REVERSAL = 0, 1, 2, 3, 4, 5
+BACK_APPROACH, BACK_TENSION, BACK_REVERSAL = 6, 7, 8  # with a seat back
+
+
+def event_count(rig: Vehicle) -> int:
+    """Number of event functions."""
+    return 6 if rig.back is None else 9
 
 
 @borrowing_kernel
@@ -101,33 +109,17 @@ def _floor_acceleration(tire, derivative):
 
 
 @borrowing_kernel
-def seat_approach(tire, seat, contact, cushion, cushion_rate, state):
+def seat_approach(tire, seat, contact, back, cushion, cushion_rate, state):
     """Approach in [m] and its rate in [m/s]; separated where there is no seat. Settles a massless
     seat interface.
     """
     if seat is None:
         return -1.0, 0.0
     floor, floor_rate = _floor(tire, state)
-    approach = floor + cushion - state[seat.offset]
-    settle_node(seat.node, seat, contact, approach, floor_rate + cushion_rate, state)
-    return approach, floor_rate + cushion_rate - state[seat.offset + seat.masses.shape[0]]
-
-
-@borrowing_kernel
-def _slide_rates(friction, seat, mode, normal, acceleration_x, state, out):
-    """Rates of the slide; returns the power that friction takes up and the power that the floor's x
-    motion brings in.
-    """
-    if friction is None:
-        return 0.0, 0.0
-    x = slide_index(seat)
-    velocity = state[x + 1]
-    force = friction_force(friction, mode[0], normal, state[x + 2], velocity)
-    mass = seat_mass(seat)
-    out[x] = velocity
-    out[x + 1] = -acceleration_x - force / mass
-    out[x + 2] = velocity if mode[0] == STICK else 0.0
-    return force * velocity, -mass * acceleration_x * velocity
+    velocity = floor_rate + cushion_rate
+    approach = floor + cushion - pan_motion(back, seat, state)[0]
+    settle_node(seat.node, seat, contact, approach, velocity + sliding_in(back, seat, state), pan_cosine(back), state)
+    return approach, velocity - pan_motion(back, seat, state)[1]
 
 
 @borrowing_kernel
@@ -144,18 +136,27 @@ def _rate(rig, drive, mode, time, state, out):
     tire_force = contact_force(rig.tire_contact, tire_x, tire_v, state)
     push = push_at(drive, time) if tire_x > 0.0 else 0.0
     on_wheel, lost_in_sidewalls = rigid_ring_rates(rig.rigid_ring, rig.gravity, tire_force + push, state, out)
-    seat_x, seat_v = seat_approach(rig.tire, rig.seat, rig.seat_contact, cushion, cushion_rate, state)
+    seat_x, seat_v = seat_approach(rig.tire, rig.seat, rig.seat_contact, rig.back, cushion, cushion_rate, state)
     seat_force = contact_force(rig.seat_contact, seat_x, seat_v, state)
+    rub = pan_friction(_friction_of(rig.seat_contact), rig.back, rig.seat, mode, seat_force, state)
+    back_x, back_v = back_approach(rig.back, rig.seat, state)
+    back_force = contact_force(contact_of(rig.back), back_x, back_v, state)
+    # Rates of the bodies; that of a massless interface last, for it follows from all others.
     lost = lost_in_sidewalls
     lost += tire_rates(rig.tire, rig.gravity, on_wheel, seat_force, a_z, state, out)
-    lost_in_links, brought = seat_rates(rig.tire, rig.seat, rig.gravity, seat_force, a_z, state, out)
-    rubbed, brought_x = _slide_rates(_friction_of(rig.seat_contact), rig.seat, mode, seat_force, a_x, state, out)
+    push_up(rig.back, rig.seat, seat_force, rub, back_force, out)
+    lost_in_links, brought = seat_rates(rig.tire, rig.seat, rig.gravity, a_z, state, out)
+    rubbed, brought_x = forward_rates(
+        _friction_of(rig.seat_contact), rig.back, rig.seat, mode, (seat_force, rub, back_force), a_x, state, out
+    )
     lost += lost_in_links + rubbed
     lost += contact_lost_power(rig.tire_contact, tire_x, tire_v, tire_force, state, out)
     lost += contact_lost_power(rig.seat_contact, seat_x, seat_v, seat_force, state, out)
+    lost += contact_lost_power(contact_of(rig.back), back_x, back_v, back_force, state, out)
     node_rate(
-        _node_of(rig.seat), rig.seat, rig.seat_contact, seat_x, seat_v, _floor_acceleration(rig.tire, out), state, out
-    )
+        _node_of(rig.seat), rig.seat, rig.seat_contact, seat_x, seat_v,
+        _floor_acceleration(rig.tire, out) + sliding_in(rig.back, rig.seat, out), pan_cosine(rig.back), state, out,
+    )  # fmt: skip
     brought += softening_rate(_softening_of(rig.seat), rig.seat, a_z if rig.tire is None else 0.0, state, out)
     last = state.shape[0]
     out[last - 2] = brought + brought_x + tire_force * height_rate + seat_force * cushion_rate
@@ -164,37 +165,50 @@ def _rate(rig, drive, mode, time, state, out):
 
 
 @borrowing_kernel
-def _friction_event(friction, contact, tire, seat, mode, approach, approach_rate, state, derivative):
+def _friction_event(friction, contact, back, tire, seat, mode, approach, approach_rate, state, derivative):
     if friction is None:
         return 1.0
     if mode[0] == SEPARATED:
         return 1.0
-    x = slide_index(seat)
+    velocity = slid(back, seat, state)
     normal = contact_force(contact, approach, approach_rate, state)
     if mode[0] == STICK:
-        return stick_event(friction, normal, state[x + 2], state[x + 1])
-    approach_acceleration = _floor_acceleration(tire, derivative) - derivative[seat.offset + seat.masses.shape[0]]
+        return stick_event(friction, normal, state[slide_index(seat) + 2], velocity)
+    approach_acceleration = _floor_acceleration(tire, derivative) - pan_motion(back, seat, derivative)[1]
     normal_rate = contact_force_rate(contact, approach, approach_rate, approach_acceleration, state, derivative)
-    return slip_event(friction, mode[0], state[x + 1], derivative[x + 1], normal, normal_rate)
+    return slip_event(friction, mode[0], velocity, slid(back, seat, derivative), normal, normal_rate)
+
+
+@borrowing_kernel
+def _back_events(back, seat, state, out):
+    """Event functions of the seat back, behind the others; none without one."""
+    if back is None:
+        return
+    approach, approach_rate = back_approach(back, seat, state)
+    out[BACK_APPROACH] = approach
+    out[BACK_TENSION] = contact_tension_event(back.contact, approach, approach_rate, state)
+    out[BACK_REVERSAL] = contact_reversal_event(back.contact, approach, approach_rate)
 
 
 @borrowing_kernel
 def _event_functions(rig, drive, mode, time, state, derivative, out):
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
     tire_x, tire_v = tire_approach(rig.tire, rig.rigid_ring, height, height_rate, state)
-    seat_x, seat_v = seat_approach(rig.tire, rig.seat, rig.seat_contact, cushion, cushion_rate, state)
+    seat_x, seat_v = seat_approach(rig.tire, rig.seat, rig.seat_contact, rig.back, cushion, cushion_rate, state)
     out[TIRE_APPROACH] = tire_x
     out[TIRE_TENSION] = contact_tension_event(rig.tire_contact, tire_x, tire_v, state)
     out[SEAT_APPROACH] = seat_x
     out[SEAT_TENSION] = contact_tension_event(rig.seat_contact, seat_x, seat_v, state)
     out[SEAT_REVERSAL] = contact_reversal_event(rig.seat_contact, seat_x, seat_v)
     out[SEAT_FRICTION] = _friction_event(
-        _friction_of(rig.seat_contact), rig.seat_contact, rig.tire, rig.seat, mode, seat_x, seat_v, state, derivative
-    )
+        _friction_of(rig.seat_contact), rig.seat_contact, rig.back, rig.tire, rig.seat, mode, seat_x, seat_v, state,
+        derivative,
+    )  # fmt: skip
+    _back_events(rig.back, rig.seat, state, out)
 
 
 @borrowing_kernel
-def _friction_transition(friction, contact, seat, mode, approach, approach_rate, state, event, direction):
+def _friction_transition(friction, contact, back, seat, mode, approach, approach_rate, state, event, direction):
     """Switch the friction of the seat where an event of this contact has changed its sign to
     ``direction``.
 
@@ -207,7 +221,7 @@ def _friction_transition(friction, contact, seat, mode, approach, approach_rate,
     # The bristle keeps its deflection from stick to slip; from slip to stick it starts at the one
     # that follows the slip.
     x = slide_index(seat)
-    velocity = state[x + 1]
+    velocity = slid(back, seat, state)
     if event == SEAT_FRICTION:
         normal = contact_force(contact, approach, approach_rate, state)
         if mode[0] == STICK:
@@ -228,10 +242,11 @@ def _friction_transition(friction, contact, seat, mode, approach, approach_rate,
 @borrowing_kernel
 def _mode_transition(rig, drive, mode, time, state, event, direction):
     _height, _height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
-    seat_x, seat_v = seat_approach(rig.tire, rig.seat, rig.seat_contact, cushion, cushion_rate, state)
+    seat_x, seat_v = seat_approach(rig.tire, rig.seat, rig.seat_contact, rig.back, cushion, cushion_rate, state)
     _friction_transition(
-        _friction_of(rig.seat_contact), rig.seat_contact, rig.seat, mode, seat_x, seat_v, state, event, direction
-    )
+        _friction_of(rig.seat_contact), rig.seat_contact, rig.back, rig.seat, mode, seat_x, seat_v, state, event,
+        direction,
+    )  # fmt: skip
     return 1.0 if event == SEAT_FRICTION else direction
 
 

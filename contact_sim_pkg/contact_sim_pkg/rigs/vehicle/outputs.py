@@ -207,12 +207,16 @@ def _motion_rows(model: Model, record: BlockRecord) -> dict[str, Array]:
     position = numpy.array([state[:, p] for p, _ in indices])
     velocity = numpy.array([state[:, v] for _, v in indices])
     acceleration = numpy.array([rate[:, v] for _, v in indices])
+    still, forward, upward = numpy.zeros(len(state)), record.floor[:, 0], record.floor[:, 1]
+    vertical = slice(None)
     if "occupant_x" in model.bodies:
-        acceleration[-1] += record.floor[:, 0]
+        acceleration[-1] += forward
+        vertical = slice(None, -1)
     if rig.tire is None:
-        vertical = slice(None, -1 if "occupant_x" in model.bodies else None)
-        acceleration[vertical] += record.floor[:, 1]
-        still = numpy.zeros((1, len(state)))
+        acceleration[vertical] += upward
         position, velocity = numpy.vstack([still, position]), numpy.vstack([still, velocity])
-        acceleration = numpy.vstack([record.floor[:, 1][None, :], acceleration])
+        acceleration = numpy.vstack([upward, acceleration])
+    if rig.back is not None:
+        position, velocity = numpy.insert(position, -1, still, axis=0), numpy.insert(velocity, -1, still, axis=0)
+        acceleration = numpy.insert(acceleration, -1, forward, axis=0)
     return {"position": position, "velocity": velocity, "acceleration": acceleration}

@@ -61,8 +61,8 @@ class Seat(NamedTuple):
     """Occupant on a cushion: masses, the first of them in contact, on springs and dampers between
     any two.
 
-    State, from ``offset``: heights of the masses..., velocities...; with friction also occupant_x,
-    occupant_vx and the deflection of the friction spring.
+    State, from ``offset``: heights of the masses..., velocities...; with friction or a seat back
+    also occupant_x, occupant_vx and the deflection of the friction spring.
     """
 
     offset: int  # index of the first height in the state vector
@@ -78,6 +78,21 @@ def rigid_occupant(mass: float, offset: int = 0) -> Seat:
     return Seat(offset, numpy.array([mass]), numpy.zeros((0, 2), dtype=numpy.int64), numpy.zeros((2, 0)))
 
 
+class Back(NamedTuple):
+    """Seat back that the trunk of the occupant leans on, and the tilt of the pan before it
+    (``rigs/vehicle/seat/leaning.py``).
+    """
+
+    trunk: int  # number of the mass that leans
+    pan_sine: float  # of the tilt of the pan, front edge up
+    pan_cosine: float
+    back_sine: float  # of the angle of the seat back from the vertical
+    back_cosine: float
+    place: float  # [m] approach where x and the height of the trunk are 0
+    preload: float  # [N] that feet or hands push the occupant back with
+    contact: Contact
+
+
 class Vehicle(NamedTuple):
     """Rig of seat and tire: each part and its contact may be absent (``None``), not both.
 
@@ -90,3 +105,4 @@ class Vehicle(NamedTuple):
     tire_contact: Contact | None
     seat: Seat | None
     seat_contact: Contact | None
+    back: Back | None = None  # only without a tire

@@ -8,6 +8,7 @@ import time
 
 import numpy
 
+from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.rigs.vehicle import entries as columns
@@ -27,10 +28,10 @@ class Simulation:
     from 0.
     """
 
-    def __init__(self, scene: ResolvedScene) -> None:
-        """Build the parameters of a resolved scene."""
+    def __init__(self, scene: ResolvedScene, model: Model | None = None) -> None:
+        """Build the parameters of a resolved scene, unless its ``model`` is given."""
         self.scene = scene
-        self.model: Model = build(scene)
+        self.model: Model = model or build(scene)
         self.blocks = self.model.timing.blocks
         inputs = [ROAD] if self.model.tire_geometry is not None else []
         if scene.vibration is not None:
@@ -109,9 +110,13 @@ class Simulation:
             record.field_iterations += iterations
             record.field_residual = max(record.field_residual, residual)
         self._map_seat(record)
-        outputs = block_outputs(self.model, record, time.perf_counter() - began)
+        outputs = self._outputs(record, began)
         load, peak = largest(outputs, "force", "normal"), largest(outputs, "patch", "peak")
         return BlockResult(outputs, load, peak, time.perf_counter() - began)
+
+    def _outputs(self, record: BlockRecord, began: float) -> list[Output]:
+        """Outputs of a block whose computation began at ``began`` [s] of the performance counter."""
+        return block_outputs(self.model, record, time.perf_counter() - began)
 
     def _interval(self, block: int, interval: int, whole: BlockDrive, record: BlockRecord) -> None:
         """One interval between published fields."""

@@ -26,15 +26,16 @@ SAMPLES_OF_A_SHOCK = 10
 
 
 def breaches(scene: Scene) -> Iterator[Breach]:
-    """All breaches of rules between keys, those of the contacts included; rules between effects are
+    """All breaches of rules between keys, those of rig and contacts included; rules between effects are
     in `effect_rules`.
     """
-    of_contacts = (load(rule)(scene) for contact in rigs()[scene.rig].contacts for rule in contact.rules)
+    rig = rigs()[scene.rig]
+    of_rig = [*rig.rules, *(rule for contact in rig.contacts for rule in contact.rules)]
     return chain(
         _sections(scene),
         clock_breaches(scene),
         _travel(scene),
-        *of_contacts,
+        *(load(rule)(scene) for rule in of_rig),
         _road(scene),
         _vibration(scene),
         law_breaches(scene),

@@ -17,7 +17,7 @@ from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_pkg.reference.belt_slider import StickSlip, period_of_rigid_law, slip_starts, state_at
 from contact_sim_pkg.rigs.vehicle import entries
-from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
+from contact_sim_pkg.rigs.vehicle.motion import event_count
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle, rigid_occupant
 
 MASS, SPRING, BELT_SPEED, LOAD = 1.0, 100.0, 0.1, 9.81
@@ -150,7 +150,7 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     zeros = numpy.zeros(count + 1)
     state = numpy.zeros(7)
     state[0] = -((mass * gravity / 2.73e5) ** (2.0 / 3.0))
-    work = make_workspace(7, EVENT_FUNCTIONS)
+    work = make_workspace(7, event_count(rig))
     mode = numpy.zeros(1, dtype=numpy.int64)
     samples = (numpy.zeros((count, 7)), numpy.zeros((count, 7)), numpy.zeros((count, entries.FORCES)))
     scale = numpy.array([1e-2, 0.5, 1e-2, 0.5, 1e-2, numpy.inf, numpy.inf]) * 1e-9

@@ -10,6 +10,7 @@ With mass, damping and stiffness matrices M, C, K of all nodes and the dynamic s
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple, TypeAlias
 
 import numpy
@@ -80,13 +81,17 @@ def natural_frequencies(model: OccupantModel) -> Array:
     return numpy.asarray(numpy.sort(numpy.sqrt(squares.real)) / (2.0 * numpy.pi))
 
 
-def rest_deflections(model: OccupantModel, gravity: float) -> Array:
-    """Heights [nodes] [m] of the nodes over the seat interface that ``gravity`` [m/s^2] gives them
-    at rest: none above 0.
+def rest_deflections(model: OccupantModel, gravity: float, lifted: Mapping[int, float] | None = None) -> Array:
+    """Heights [nodes] [m] of the nodes over the seat interface at rest under ``gravity`` [m/s^2].
+
+    ``lifted``: node -> force [N] upwards that holds it beside its links.
     """
     mass, _damping, stiffness = matrices(model)
+    force = -gravity * numpy.diag(mass)
+    for node, lift in (lifted or {}).items():
+        force[node] += lift
     heights = numpy.zeros(len(model.masses))
-    heights[1:] = numpy.linalg.solve(stiffness[1:, 1:], -gravity * numpy.diag(mass)[1:])
+    heights[1:] = numpy.linalg.solve(stiffness[1:, 1:], force[1:])
     return heights
 
 

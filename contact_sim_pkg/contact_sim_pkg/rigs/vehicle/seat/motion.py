@@ -86,9 +86,10 @@ def _accelerated(node, field, force, mass):
 
 
 @borrowing_kernel
-def seat_rates(tire, seat, gravity, force, acceleration_z, state, out):
-    """Rates of the masses under the cushion's ``force``; returns the power that their links take
-    and that the floor's motion brings in.
+def seat_rates(tire, seat, gravity, acceleration_z, state, out):
+    """Rates of the masses under the forces in [N] of cushion and seat back, which stand in the
+    places of their accelerations; returns the power that the links take and that the floor's motion
+    brings in.
     """
     if seat is None:
         return 0.0, 0.0
@@ -99,11 +100,6 @@ def seat_rates(tire, seat, gravity, force, acceleration_z, state, out):
     count = seat.masses.shape[0]
     z = seat.offset
     v = seat.offset + count
-    # The rates hold the forces until all links are counted.
-    for i in range(count):
-        out[z + i] = state[v + i]
-        out[v + i] = 0.0
-    out[v] = force
     lost = 0.0
     softness = _softness(seat.softening, state)
     for number in range(seat.ends.shape[0]):
@@ -113,8 +109,10 @@ def seat_rates(tire, seat, gravity, force, acceleration_z, state, out):
         lost += taken
     # `brought` is the momentum that the floor accelerates.
     brought = seat.masses[0] * state[v]
+    out[z] = state[v]
     out[v] = _accelerated(seat.node, field, out[v], seat.masses[0])
     for i in range(1, count):
+        out[z + i] = state[v + i]
         out[v + i] = field + out[v + i] / seat.masses[i]
         brought += seat.masses[i] * state[v + i]
     if tire is None:
@@ -135,9 +133,9 @@ def _pull_on_still_node(seat, softness, state):
 
 
 @borrowing_kernel
-def settle_node(node, seat, contact, approach, velocity, state):
+def settle_node(node, seat, contact, approach, velocity, cosine, state):
     """Write the velocity of a massless node 0 in contact at ``approach`` [m] with a cushion of
-    ``velocity`` [m/s].
+    ``velocity`` [m/s] that node 0 sees at rest; its normal has the vertical part ``cosine`` [1].
 
     Regula falsi (Illinois) between the velocity without contact force and the one under the force
     at that velocity; a law that is linear in the rate takes one step.
@@ -148,16 +146,16 @@ def settle_node(node, seat, contact, approach, velocity, state):
     softness = _softness(seat.softening, state)
     links, damping = _pull_on_still_node(seat, softness, state), softness[1] * node.damping
     one = links / damping
-    above = contact_force(contact, approach, velocity - one, state)
+    above = cosine * contact_force(contact, approach, velocity - cosine * one, state)
     other = one + above / damping
-    below = contact_force(contact, approach, velocity - other, state) - above
+    below = cosine * contact_force(contact, approach, velocity - cosine * other, state) - above
     size = abs(above)
     found = one
     for _step in range(ROOT_STEPS):
         if above == below or abs(above) <= ROUNDING * size:
             break
         found = one + (other - one) * above / (above - below)
-        left = contact_force(contact, approach, velocity - found, state) + links - damping * found
+        left = cosine * contact_force(contact, approach, velocity - cosine * found, state) + links - damping * found
         if abs(left) <= ROUNDING * size:
             break
         # The end on the same side moves; the other counts half where it has stayed.
@@ -169,18 +167,20 @@ def settle_node(node, seat, contact, approach, velocity, state):
 
 
 @borrowing_kernel
-def node_rate(node, seat, contact, approach, approach_rate, cushion_acceleration, state, out):
+def node_rate(node, seat, contact, approach, approach_rate, cushion_acceleration, cosine, state, out):
     """Write the acceleration of a massless node 0: the rate of its balance is 0.
 
-    ``approach`` [m] and its rate [m/s] as settled, ``cushion_acceleration`` [m/s^2]; the rates of
-    the masses are in ``out``. The slow change of softening links is left out.
+    ``approach`` [m] and its rate [m/s] as settled, ``cushion_acceleration`` [m/s^2] as for
+    ``settle_node``; the rates of the masses are in ``out``. The slow change of softening links is
+    left out.
     """
     if node is None:
         return
     count = seat.masses.shape[0]
     softness = _softness(seat.softening, state)
-    held = contact_force_rate(contact, approach, approach_rate, cushion_acceleration, state, out)
-    falls = held - contact_force_rate(contact, approach, approach_rate, cushion_acceleration - 1.0, state, out)
+    held = cosine * contact_force_rate(contact, approach, approach_rate, cushion_acceleration, state, out)
+    moving = contact_force_rate(contact, approach, approach_rate, cushion_acceleration - cosine, state, out)
+    falls = held - cosine * moving
     for number in range(seat.ends.shape[0]):
         lower, upper = seat.ends[number, 0], seat.ends[number, 1]
         if lower == 0 or upper == 0:

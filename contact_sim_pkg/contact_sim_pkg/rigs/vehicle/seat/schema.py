@@ -19,6 +19,7 @@ from contact_sim_pkg.scene.schema.laws import (
 from contact_sim_pkg.scene.schema.pressure_field import GridSection, PressureFieldSection
 
 OWN = "own"
+PAN_TILT = 0.21  # [rad], 12 degrees
 NAMES = (*OCCUPANTS, OWN)
 
 if TYPE_CHECKING:
@@ -165,6 +166,9 @@ class SeatSection(Section):
 
     occupant: OccupantSection = Field(default_factory=OccupantSection, description="masses on the cushion")
     body: Body = Field(default_factory=Body, description="shape of the body; acts in half_space_field and pressure_mat")
+    pan_tilt: float | None = number(
+        0.0, 0.6, "rad", f"tilt of the pan, front edge up; rig occupant alone, {PAN_TILT:g} by default", default=None
+    )
     backrest: Literal["none"] = choice("occupant without backrest", default="none")
     cushion_modulus: float = number(
         1e3,
@@ -174,6 +178,9 @@ class SeatSection(Section):
         default=4.0e4,
     )
     cushion_poisson: float = number(0.0, 0.5, "", "Poisson's ratio of the foam; acts in half_space_field", default=0.3)
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        return {"pan_tilt": PAN_TILT} if scene.rig == "occupant" else {}
 
 
 class PowerElastic(PowerLaw):

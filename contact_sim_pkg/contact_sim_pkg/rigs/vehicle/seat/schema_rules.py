@@ -17,6 +17,8 @@ VALUES = ("frame_mass", "masses", "links", "stiffness", "damping", "head")
 def occupant_breaches(scene: Scene) -> Iterator[Breach]:
     """Values of an occupant that do not belong together."""
     section = scene.section(SeatSection).occupant
+    if scene.section(SeatSection).pan_tilt is not None and scene.rig != "occupant":
+        yield Breach("seat.pan_tilt", "acts where a seat back holds the occupant on it, in the rig occupant", ("rig",))
     found = list(_choice_breaches(section)) or list(_link_breaches(section)) or list(_frame_breaches(section))
     yield from found
     softening = scene.effect("seat", SofteningSection)

@@ -12,6 +12,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.reference.vehicle import normal_force
 from contact_sim_pkg.rigs.vehicle import entries as columns
+from contact_sim_pkg.rigs.vehicle.model import Model, build
 from contact_sim_pkg.rigs.vehicle.studies.scene_drive import (
     SceneDrive,
     drive_of,
@@ -31,11 +32,13 @@ REPEATS = 9
 TWIN = "scipy DOP853, no shared code"
 
 
-def tolerance_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict[str, Any]]:
+def tolerance_rows(
+    scene: ResolvedScene, notify: Callable[[str], None], builder: Callable[[ResolvedScene], Model] = build
+) -> list[dict[str, Any]]:
     """Motion and normal forces of the scene's rig with point contacts, for each tolerance of the
-    integrator.
+    integrator; ``builder`` makes its model.
     """
-    drive = drive_of(scene, DURATION)
+    drive = drive_of(scene, DURATION, builder)
     notify(f"integrator: reference for {DURATION:g} s")
     requested = float(scene.data["integrator"]["relative_tolerance"])
     # One reference for all tolerances.
@@ -102,7 +105,7 @@ def _largest(found: list[Vector], exact: list[Vector]) -> float:
 
 def _normal(drive: SceneDrive, forces: Vector) -> list[Vector]:
     rig = drive.model.rig
-    chosen = ((rig.tire, columns.TIRE_NORMAL), (rig.seat, columns.SEAT_NORMAL))
+    chosen = ((rig.tire, columns.TIRE_NORMAL), (rig.seat, columns.SEAT_NORMAL), (rig.back, columns.BACK_NORMAL))
     return [forces[:, column] for part, column in chosen if part is not None]
 
 

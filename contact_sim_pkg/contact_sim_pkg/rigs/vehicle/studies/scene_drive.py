@@ -4,6 +4,7 @@ leave out bag and fields.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy
@@ -15,7 +16,7 @@ from contact_sim_pkg.laws.parameters import Contact, GeneralDissipative, NormalE
 from contact_sim_pkg.reference.vehicle import Belt, Law, Occupant, Quarter, states_at_segments
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
-from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
+from contact_sim_pkg.rigs.vehicle.motion import event_count
 from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_heights
 from contact_sim_pkg.rigs.vehicle.tire.schema import AsperityImpulsesSection
@@ -41,15 +42,15 @@ class SceneDrive(NamedTuple):
     start: Vector
 
 
-def drive_of(scene: ResolvedScene, duration: float) -> SceneDrive:
-    """Drive of the scene's rig with point contacts, less the effects `LEFT_OUT`, over `duration`
-    [s].
+def drive_of(scene: ResolvedScene, duration: float, builder: Callable[[ResolvedScene], Model] = build) -> SceneDrive:
+    """Drive of the scene's rig, made by `builder`, with point contacts, less the effects `LEFT_OUT`,
+    over `duration` [s].
 
     Whole blocks, one at least; the road as effective heights [m] of the footprint.
     """
     named = [each for contact in ("tire", "seat") for each in scene.effects_at(contact)]
     plain = scene.without(*(record for record, keys in named if isinstance(keys, LEFT_OUT)))
-    model, sources = build(plain), make_sources(plain)
+    model, sources = builder(plain), make_sources(plain)
     timing = model.timing
     blocks = max(1, min(timing.blocks, round(duration / timing.block_length)))
     steps = timing.intervals * timing.segments
@@ -89,8 +90,8 @@ def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
     count, states = len(drive.height) - 1, len(drive.start)
     samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
     state, mode = drive.start.copy(), numpy.zeros(1, dtype=numpy.int64)
-    work, cushion = make_workspace(states, EVENT_FUNCTIONS), numpy.zeros(count + 1)
     rig, a_x, a_z = drive.model.rig, drive.acceleration_x, drive.acceleration_z
+    work, cushion = make_workspace(states, event_count(rig)), numpy.zeros(count + 1)
     entries.start(rig, mode, state, work, drive.segment, drive.height[:2], cushion[:2], a_x[:2], a_z[:2], None)
     status = entries.advance(
         rig, mode, state, scale, work, 0.0, drive.segment, drive.height, cushion, a_x, a_z, None, 1, 0, *samples
@@ -121,9 +122,9 @@ def twin_laws(rig: Vehicle) -> tuple[Law | None, Law | None]:
 
 def twin_covers(rig: Vehicle) -> bool:
     """Whether the laws of all contacts are among those that the twin has: power laws without
-    hysteresis, under an occupant that does not soften.
+    hysteresis, under an occupant that neither softens nor leans on a seat back.
     """
-    if rig.seat is not None and rig.seat.softening is not None:
+    if rig.back is not None or (rig.seat is not None and rig.seat.softening is not None):
         return False
     present = ((rig.tire, rig.tire_contact), (rig.seat, rig.seat_contact))
     return all(_is_covered(contact) for part, contact in present if part is not None)
