@@ -58,7 +58,7 @@ RIGS = (
             f"{__name__}.studies.work_precision.{name}"
             for name in ("elliptic", "force", "smooth", "rough", "area", "exponent", "road")
         ),
-        hard_cases=(f"{__name__}.studies.hard_cases_tire", f"{__name__}.studies.hard_cases_scenes"),
+        hard_cases=tuple(f"{__name__}.studies.hard_cases_{name}" for name in ("tire", "scenes", "occupant")),
     ),
     Rig(
         name="seat",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
@@ -42,19 +43,43 @@ def seat_spectrum(signals: RideSignals) -> Picture:
 def seat_transmissibility(signals: RideSignals) -> Picture | None:
     """Magnitude, phase and coherence of the seat over the floor; None for a floor at rest."""
     result = transmissibility(signals.floor, signals.seat, signals.sample_rate)
+    trusted = trusted_part(result, signals.floor, signals.sample_rate)
+    if trusted is None:
+        return None
+    figure, axes = response_figure(result, trusted, "seat / floor")
+    axes[0].axhline(1.0, color=MUTED, linewidth=0.7)
+    axes[0].set_ylim(0.0, 1.5 * max(1.0, float(result.magnitude[trusted].max(initial=1.0))))
+    return picture(
+        "ride-transmissibility", figure, "Transmissibility from floor to seat: magnitude, phase, coherence",
+        _transmissibility_caption(result, trusted),
+    )  # fmt: skip
+
+
+def trusted_part(result: Transmissibility, source: NDArray[np.float64], sample_rate: float) -> NDArray[np.bool_] | None:
+    """Mask [frequencies] of a response where it is coherent and its ``source`` [m/s^2], sampled at
+    ``sample_rate`` [Hz], moves enough; None for a source at rest.
+    """
     shown = band(result.frequency) & np.isfinite(result.magnitude)
     if not shown.any():
         return None
-    driven = power_density(signals.floor, signals.sample_rate).density
-    trusted = shown & (result.coherence >= TRUSTED_COHERENCE) & (driven >= DRIVEN_SHARE * driven[shown].max())
+    driven = power_density(source, sample_rate).density
+    found: NDArray[np.bool_] = (
+        shown & (result.coherence >= TRUSTED_COHERENCE) & (driven >= DRIVEN_SHARE * driven[shown].max())
+    )
+    return found
+
+
+def response_figure(result: Transmissibility, trusted: NDArray[np.bool_], label: str) -> tuple[Figure, list[Axes]]:
+    """Magnitude (``label``), phase and coherence of a response over frequency, blue where
+    ``trusted`` [frequencies].
+    """
+    shown = band(result.frequency) & np.isfinite(result.magnitude)
     figure, axes = new_figure(4.6, 3, sharex=True, height_ratios=[2, 1, 1])
     frequency = result.frequency[shown]
     for place, values in ((axes[0], result.magnitude), (axes[1], np.degrees(result.phase))):
         place.semilogx(frequency, values[shown], color=MUTED, linewidth=0.6, alpha=0.6)
         place.semilogx(frequency, np.where(trusted, values, np.nan)[shown], color=ACCENT, marker=".", markersize=3.5)
-    axes[0].axhline(1.0, color=MUTED, linewidth=0.7)
-    axes[0].set_ylabel("seat / floor")
-    axes[0].set_ylim(0.0, 1.5 * max(1.0, float(result.magnitude[trusted].max(initial=1.0))))
+    axes[0].set_ylabel(label)
     axes[1].set_ylabel("phase, °")
     axes[1].set_yticks([-180, -90, 0, 90, 180])
     axes[2].semilogx(frequency, result.coherence[shown], color=INK, linewidth=0.9)
@@ -63,10 +88,7 @@ def seat_transmissibility(signals: RideSignals) -> Picture | None:
     axes[2].set_ylim(0.0, 1.05)
     axes[2].set_xlabel("frequency, Hz")
     _frequency_axis(axes[2], result.frequency)
-    return picture(
-        "ride-transmissibility", figure, "Transmissibility from floor to seat: magnitude, phase, coherence",
-        _transmissibility_caption(result, trusted),
-    )  # fmt: skip
+    return figure, list(axes)
 
 
 def band(frequency: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -42,12 +42,6 @@ def ride_signals(motion: MotionSeries | None) -> RideSignals | None:
     return RideSignals(motion.time, 1.0 / motion.sample_period, floor, seat)
 
 
-def summary_numbers(recording: Recording) -> dict[str, Any]:
-    """Section `seat_vibration`; none without a seat."""
-    signals = ride_signals(recording.motion)
-    return {} if signals is None else {"seat_vibration": vibration_numbers(signals)}
-
-
 def vibration_numbers(signals: RideSignals) -> dict[str, Any]:
     """Floor and seat accelerations, plain and Wk-weighted, and SEAT in per cent."""
     floor = ride_metrics(signals.floor, signals.sample_rate)

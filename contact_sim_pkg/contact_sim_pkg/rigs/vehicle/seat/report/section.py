@@ -10,7 +10,9 @@ from markupsafe import Markup
 from contact_sim_pkg.report.page import Section
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.report.tables import Table
+from contact_sim_pkg.rigs.vehicle.seat.report.figures_occupant import occupant_pictures
 from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import seat_spectrum, seat_transmissibility
+from contact_sim_pkg.rigs.vehicle.seat.report.occupant import occupant_signals
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals, vibration_numbers
 
 
@@ -21,7 +23,9 @@ def ride_sections(recording: Recording) -> list[Section]:
         return []
     pictures = [seat_spectrum(signals), seat_transmissibility(signals)]
     table = vibration_table(vibration_numbers(signals))
-    return [Section("ride", "Seat vibration", [each for each in pictures if each is not None], [table])]
+    sections = [Section("ride", "Seat vibration", [each for each in pictures if each is not None], [table])]
+    occupant = occupant_signals(recording)
+    return sections if occupant is None else [*sections, Section("occupant", "Occupant", occupant_pictures(occupant))]
 
 
 def vibration_table(numbers: dict[str, Any]) -> Table:

@@ -1,0 +1,97 @@
+"""Responses of the occupant of a recording: apparent mass, seat-to-head transmissibility, H-point."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_sim_pkg.report.series import FloatArray, Recording
+from contact_sim_pkg.report.signal.spectrum import Transmissibility, transmissibility
+from contact_sim_pkg.rigs.vehicle.seat.occupants import H_POINT, OccupantModel
+from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import trusted_part
+from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals, vibration_numbers
+
+SEAT = "seat"
+
+
+class OccupantSignals(NamedTuple):
+    """What the seat does to the occupant."""
+
+    name: str
+    """of the model"""
+    model: OccupantModel
+    sample_rate: float
+    """[Hz]"""
+    seat: FloatArray
+    """[m/s^2] of the seat surface, upwards"""
+    force: FloatArray
+    """[N] of the cushion"""
+    head: FloatArray | None
+    """[m/s^2]; None without a head"""
+    approach: FloatArray
+    """[m] into the cushion"""
+    alone: bool
+    """whether the cushion alone carries the occupant"""
+
+
+def occupant_signals(recording: Recording) -> OccupantSignals | None:
+    """Signals of the occupant; None without a seat or its occupant in the scene."""
+    from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection
+
+    ride, contact = ride_signals(recording.motion), recording.contacts.get(SEAT)
+    given = (recording.scene.get(SEAT) or {}).get("occupant")
+    if ride is None or contact is None or given is None or recording.motion is None:
+        return None
+    if len(contact.normal) != len(ride.seat):
+        return None
+    section = OccupantSection.model_validate(given)
+    model = section.model_of()
+    head = None if model.head is None else recording.motion.acceleration.get(f"occupant{model.head}_z")
+    return OccupantSignals(
+        section.model, model, ride.sample_rate, ride.seat, contact.normal, head, contact.approach,
+        "backrest" not in recording.contacts,
+    )  # fmt: skip
+
+
+def apparent_mass_of(signals: OccupantSignals) -> Transmissibility:
+    """Force on the seat over its acceleration; magnitude in [kg]."""
+    return transmissibility(signals.seat, signals.force, signals.sample_rate)
+
+
+def seat_to_head_of(signals: OccupantSignals) -> Transmissibility | None:
+    """Head over seat; None without a head."""
+    return None if signals.head is None else transmissibility(signals.seat, signals.head, signals.sample_rate)
+
+
+def peak_of(result: Transmissibility, trusted: NDArray[np.bool_]) -> tuple[float, float] | None:
+    """Largest trusted magnitude and its frequency [Hz]; None where nothing is trusted."""
+    if not trusted.any():
+        return None
+    place = int(np.flatnonzero(trusted)[result.magnitude[trusted].argmax()])
+    return float(result.magnitude[place]), float(result.frequency[place])
+
+
+def occupant_numbers(signals: OccupantSignals) -> dict[str, Any]:
+    """Section `occupant` of the summary: masses [kg], peaks, height of the H-point over the unloaded
+    cushion, mean over the run.
+    """
+    found: dict[str, Any] = {
+        "model": signals.name, "mass_kg": signals.model.mass,
+        "h_point_over_cushion_m": H_POINT - float(signals.approach.mean()),
+    }  # fmt: skip
+    responses = (("apparent_mass", "_kg", apparent_mass_of(signals)), ("seat_to_head", "", seat_to_head_of(signals)))
+    for name, unit, result in responses:
+        trusted = None if result is None else trusted_part(result, signals.seat, signals.sample_rate)
+        if result is None or trusted is None or (peak := peak_of(result, trusted)) is None:
+            continue
+        found[f"{name}_peak{unit}"], found[f"{name}_peak_hz"] = peak
+    return found
+
+
+def summary_numbers(recording: Recording) -> dict[str, Any]:
+    """Sections `seat_vibration` and `occupant`; none without a seat."""
+    signals, occupant = ride_signals(recording.motion), occupant_signals(recording)
+    found = {} if signals is None else {"seat_vibration": vibration_numbers(signals)}
+    return found if occupant is None else {**found, "occupant": occupant_numbers(occupant)}
