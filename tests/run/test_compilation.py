@@ -35,3 +35,16 @@ def test_nothing_is_reported_where_all_kernels_come_from_the_disk(monkeypatch):
         while next(looks) < 10:
             time.sleep(0.01)
     assert lines == []
+
+
+def test_what_is_computed_beside_compiling_is_reported_while_it_lasts(monkeypatch):
+    monkeypatch.setattr(compilation, "_kernels", lambda: 3)
+    lines: list[str] = []
+    with compilation.reported_compilation(resolved("seat_slap"), lines.append):
+        compilation.note_computation("computing a table, once: 40 %")
+        limit = time.monotonic() + 10.0
+        while not lines and time.monotonic() < limit:
+            time.sleep(0.01)
+        compilation.note_computation("")
+    assert lines
+    assert {line.rpartition(", ")[0] for line in lines} == {"computing a table, once: 40 %"}

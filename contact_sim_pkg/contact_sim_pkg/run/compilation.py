@@ -16,17 +16,23 @@ from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["compile_other_half", "reported_compilation"]
+__all__ = ["compile_other_half", "note_computation", "reported_compilation"]
 
 PERIOD = 1.0  # [s] between two looks
+_computation: list[str] = [""]  # beside compiling: what takes its time now
+
+
+def note_computation(sentence: str) -> None:
+    """What is computed before the run, for the reports of `reported_compilation`; empty: nothing."""
+    _computation[0] = sentence
 
 
 @contextmanager
 def reported_compilation(scene: ResolvedScene, report: Callable[[str], None]) -> Iterator[None]:
     """While the block of code lasts, a second process compiles what the rig lets it, and ``report``
     gets a sentence each second in which kernels were compiled, from a thread of its own: their
-    number in both, what the richest scene of the rig compiles, seconds so far. Silent where all
-    kernels come from the cache.
+    number in both, what the richest scene of the rig compiles, seconds so far; or what was noted as
+    computed. Silent where all comes from the cache.
     """
     over, began, before = threading.Event(), time.monotonic(), _kernels()
     expected = rigs()[scene.data["rig"]].kernels
@@ -39,6 +45,8 @@ def reported_compilation(scene: ResolvedScene, report: Callable[[str], None]) ->
                 reported = number
                 of = f" of about {expected}" if expected >= number else ""
                 report(f"compiling kernels, once: {number}{of}, {time.monotonic() - began:.0f} s")
+            elif _computation[0]:
+                report(f"{_computation[0]}, {time.monotonic() - began:.0f} s")
 
     thread = threading.Thread(target=repeat, name="reported compilation", daemon=True)
     thread.start()

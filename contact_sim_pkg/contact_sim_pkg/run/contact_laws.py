@@ -23,9 +23,10 @@ from contact_sim_pkg.laws.parameters import (
 from contact_sim_pkg.laws.restitution import damping_of_restitution
 from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, coefficient_of_restitution
 from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
-from contact_sim_pkg.pressure.cushion.foam_layer import FoamGrid, FoamLayer
+from contact_sim_pkg.pressure.cushion.foam_layer import CushionError, FoamGrid, FoamLayer
 from contact_sim_pkg.pressure.cushion.force_table import ForceTable, make_table
 from contact_sim_pkg.pressure.cushion.kept_tables import kept_table
+from contact_sim_pkg.run.compilation import note_computation
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
@@ -148,10 +149,21 @@ def build_cushion(
     inextensible = keys.cover == "inextensible"
     place = float(x[0]), float(y[0])
     description = repr((foam, grid, place, keys.shear_share, inextensible, spacing, REACH, body))
-    table = kept_table(
-        description,
-        lambda: make_table(FoamLayer(grid, foam, gap(x, y), keys.shear_share, inextensible=inextensible), spacing),
-    )
+
+    def compute() -> ForceTable:
+        layer = FoamLayer(grid, foam, gap(x, y), keys.shear_share, inextensible=inextensible)
+
+        def note(part: float) -> None:
+            note_computation(f"computing the force table of the {contact}'s cushion, once: {100.0 * part:.0f} %")
+
+        try:
+            return make_table(layer, spacing, on_progress=note)
+        except CushionError as error:
+            raise SceneError([Fault("scene", 0, 0, f"effects.{contact}.cushion", str(error))]) from None
+        finally:
+            note_computation("")
+
+    table = kept_table(description, compute)
     _refuse_load(contact, keys, table, load)
     return Cushion(table, table.law(), (keys.cell, keys.cell, *place))
 

@@ -35,15 +35,25 @@ def kept_table(description: str, make: Callable[[], ForceTable], directory: Path
     description: everything that the table follows from, exactly; directory: None for that of the
     kernels. Without a directory that can be written the table is computed at each start.
     """
-    place = cache_directory() if directory is None else directory
+    place = _directory() if directory is None else directory
     if place is None:
         return make()
-    path = place / f"cushion-{_name(description)}.npz"
+    path = place / f"{_name(description)}.npz"
     found = _read(path)
     if found is None:
         found = make()
         _write(path, found)
     return found
+
+
+def _directory() -> Path | None:
+    """Beside the kernels; None where they are not kept, or it cannot be made."""
+    place = cache_directory()
+    if place is None:
+        return None
+    with suppress(OSError):
+        (place / "cushions").mkdir(mode=0o700, exist_ok=True)
+    return place / "cushions"
 
 
 def _name(description: str) -> str:
@@ -84,7 +94,7 @@ def _write(path: Path, table: ForceTable) -> None:
     try:
         draft.write_bytes(hashlib.sha256(payload).digest() + payload)
         draft.replace(path)
-        kept = sorted(path.parent.glob("cushion-*.npz"), key=lambda each: each.stat().st_mtime, reverse=True)
+        kept = sorted(path.parent.glob("*.npz"), key=lambda each: each.stat().st_mtime, reverse=True)
         for each in kept[MOST_KEPT:]:
             each.unlink(missing_ok=True)
     except OSError as error:
