@@ -142,6 +142,8 @@ def test_the_body_on_the_cushion_is_that_of_the_occupant():
         (("seat.occupant.percentile=95", "effects.seat.cushion.percentile=5"), 5),
     ):
         assert resolved("seat_ride", *values).data["effects"]["seat"]["cushion"]["percentile"] == percentile
+    whole = resolved("seat_ride_full", "seat.occupant.percentile=5").data["effects"]
+    assert whole["seat"]["cushion"]["percentile"] == whole["backrest"]["cushion"]["percentile"] == 5
 
 
 def test_the_energy_of_a_reversal_grows_with_the_load_on_a_cushion():

@@ -9,6 +9,7 @@ from pydantic import Field
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.scene.schema.fields import Section, number
 from contact_sim_pkg.scene.schema.laws import (
+    USUAL_PERCENTILE,
     CushionSection,
     FrictionSection,
     GeneralDissipation,
@@ -108,6 +109,11 @@ class BackCushion(CushionSection):
     lumbar_height: float = number(
         0.05, 0.4, "m", "height of its middle over the lower edge of the seat back", default=0.20
     )
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        # The rig occupant has the person on its seat too.
+        occupant = getattr(getattr(scene, "seat", None), "occupant", None)
+        return {"percentile": getattr(occupant, "percentile", None) or USUAL_PERCENTILE}
 
 
 class BackLoss(HuntCrossley):
