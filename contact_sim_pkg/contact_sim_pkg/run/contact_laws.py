@@ -40,7 +40,17 @@ from contact_sim_pkg.scene.schema.laws import (
     PowerLaw,
 )
 
-__all__ = ["Cushion", "build_cushion", "elastic_law", "foam_of", "friction", "hysteresis", "normal_loss"]
+__all__ = [
+    "Cushion",
+    "PressingBody",
+    "build_cushion",
+    "elastic_law",
+    "foam_of",
+    "friction",
+    "hysteresis",
+    "layer_under",
+    "normal_loss",
+]
 
 Field = NDArray[numpy.float64]
 HARDNESS_STRAIN = 0.4
@@ -120,6 +130,15 @@ class Cushion(NamedTuple):
         return self.table.map_at(approach, force)
 
 
+class PressingBody(NamedTuple):
+    """A body over the cells of a cushion."""
+
+    x: Vector  # [rows] [m] centres of the cells
+    y: Vector  # [cols] [m]
+    sizes: tuple[Any, ...]  # everything that the gap follows from
+    gap: Callable[[Vector, Vector], Field]  # x, y -> [rows, cols] [m] over the cells
+
+
 def foam_of(keys: CushionSection) -> parameters.FoamElastic:
     """Foam of a cushion, its area 1 m^2; a hardness scales its stresses."""
     foam = parameters.FoamElastic(
@@ -133,25 +152,26 @@ def foam_of(keys: CushionSection) -> parameters.FoamElastic:
     )
 
 
-def build_cushion(
-    contact: str, keys: CushionSection, load: float, x: Vector, y: Vector, body: tuple[Any, ...],
-    gap: Callable[[Vector, Vector], Field],
-) -> Cushion:  # fmt: skip
+def layer_under(keys: CushionSection, body: PressingBody) -> FoamLayer:
+    """Foam layer of a cushion under a body."""
+    grid = FoamGrid(len(body.x), len(body.y), keys.cell, keys.cell)
+    return FoamLayer(
+        grid, foam_of(keys), body.gap(body.x, body.y), keys.shear_share, inextensible=keys.cover == "inextensible"
+    )
+
+
+def build_cushion(contact: str, keys: CushionSection, load: float, body: PressingBody) -> Cushion:
     """Table of the cushion of a contact, kept from an earlier run or computed.
 
-    load: [N] at rest; x, y: [rows], [cols] [m] centres of the cells; body: everything that the
-    ``gap`` [rows, cols] [m] over them follows from. Raises SceneError where the cushion does not
-    carry the load within its range.
+    load: [N] at rest. Raises SceneError where the cushion does not carry it within its range.
     """
-    foam = foam_of(keys)
-    grid = FoamGrid(len(x), len(y), keys.cell, keys.cell)
     spacing = min(MOST_SPACING, keys.thickness / LEAST_NODES)
-    inextensible = keys.cover == "inextensible"
-    place = float(x[0]), float(y[0])
-    description = repr((foam, grid, place, keys.shear_share, inextensible, spacing, REACH, body))
+    place = float(body.x[0]), float(body.y[0])
+    grid = len(body.x), len(body.y), keys.cell, place
+    description = repr((foam_of(keys), grid, keys.shear_share, keys.cover, spacing, REACH, body.sizes))
 
     def compute() -> ForceTable:
-        layer = FoamLayer(grid, foam, gap(x, y), keys.shear_share, inextensible=inextensible)
+        layer = layer_under(keys, body)
 
         def note(part: float) -> None:
             note_computation(f"computing the force table of the {contact}'s cushion, once: {100.0 * part:.0f} %")

@@ -10,6 +10,7 @@ from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
 from contact_sim_pkg.report.signal.spectrum import transmissibility
 from contact_sim_pkg.rigs.vehicle.model import build
+from contact_sim_pkg.rigs.vehicle.studies.accuracy_cushion import cushion_rows
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.errors import SceneError
@@ -179,3 +180,13 @@ def test_the_transmissibility_peaks_near_two_at_four_hertz(rms, lowest, highest)
     assert lowest < way.magnitude[peak] < highest
     assert 3.3 <= way.frequency[peak] <= 4.5
     assert (way.magnitude[(way.frequency > 6.5) & (way.frequency < 15.0)] < 1.0).all()
+
+
+def test_the_accuracy_study_finds_errors_that_fall_with_cells_and_spacing():
+    rows = cushion_rows(resolved("seat_ride"), lambda _sentence: None)
+    for quantity in ("sink", "stiffness", "peak pressure", "force", "pressure (L2)"):
+        errors = [row["error"] for row in rows if row["quantity"] == f"seat cushion {quantity}"]
+        assert len(errors) == (2 if quantity in ("sink", "stiffness", "peak pressure") else 4)
+        assert errors == sorted(errors, reverse=True)
+        assert errors[-1] < (0.01 if quantity != "force" else 1e-3)
+    assert cushion_rows(resolved("seat_ride", "effects.seat={normal_elastic: {}}"), lambda _sentence: None) == []

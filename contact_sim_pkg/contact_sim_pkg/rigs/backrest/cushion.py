@@ -6,7 +6,7 @@ import numpy
 
 from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, LumbarSupport, back_gap
 from contact_sim_pkg.rigs.backrest.schema import BackCushion
-from contact_sim_pkg.run.contact_laws import Cushion, build_cushion
+from contact_sim_pkg.run.contact_laws import Cushion, PressingBody, build_cushion
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 
@@ -24,6 +24,5 @@ def build_back_cushion(scene: ResolvedScene, preload: float) -> Cushion | None:
     x = (numpy.arange(rows, dtype=numpy.float64) + 0.5) * keys.cell - BELOW
     y = (numpy.arange(cols, dtype=numpy.float64) - 0.5 * (cols - 1)) * keys.cell
     sitter, support = PERCENTILES[given(keys.percentile)], LumbarSupport(keys.lumbar_support, keys.lumbar_height)
-    return build_cushion(
-        "backrest", keys, preload, x, y, (sitter, support), lambda x, y: back_gap(sitter, support, x, y)
-    )
+    body = PressingBody(x, y, (sitter, support), lambda x, y: back_gap(sitter, support, x, y))
+    return build_cushion("backrest", keys, preload, body)

@@ -212,11 +212,11 @@ class SeatCushion(CushionSection):
     force is the integral of its pressure.
     """
 
-    tilt: float = number(
+    thigh_tilt: float = number(
         -0.2,
         0.2,
         "rad",
-        "slope of the pan against the thighs, front up positive: more load before the buttocks",
+        "angle of the pan against the thighs, front up positive: more load under them",
         default=0.0,
     )
 

@@ -6,11 +6,16 @@ from __future__ import annotations
 
 from contact_sim_pkg.records.accuracy import INTEGRATOR, AccuracyPart, AccuracyStudy, field_parts
 from contact_sim_pkg.rigs.vehicle.studies.accuracy_coupling import coupling_rows
+from contact_sim_pkg.rigs.vehicle.studies.accuracy_cushion import cushion_rows
 from contact_sim_pkg.rigs.vehicle.studies.accuracy_field import field_rows, first_solve
 from contact_sim_pkg.rigs.vehicle.studies.accuracy_integrator import tolerance_rows
 
 __all__ = ["ACCURACY"]
 
+_CUSHION = tuple(
+    AccuracyPart(f"cushion {part}", f"seat cushion, error of its {part}", "seat cushion", contact="seat cushion")
+    for part in ("cells", "table")
+)
 _COUPLING = AccuracyPart(
     "coupling", "coupling of bodies and pressure fields: error", "coupling of bodies and fields, whole scene"
 )
@@ -23,4 +28,5 @@ ACCURACY = (
         (*field_parts("tire"), *field_parts("seat")),
         first_solve,
     ),
+    AccuracyStudy(lambda _name, scene, notify: cushion_rows(scene, notify), _CUSHION),
 )
