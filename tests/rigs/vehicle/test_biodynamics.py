@@ -15,7 +15,16 @@ from contact_sim_pkg.rigs.vehicle.seat.biodynamics import (
     seat_to_head,
     seat_transmissibility,
 )
-from contact_sim_pkg.rigs.vehicle.seat.occupants import OCCUPANTS, SEATED_MASS, Link, OccupantModel, scaled, stiffened
+from contact_sim_pkg.rigs.vehicle.seat.occupants import (
+    OCCUPANTS,
+    SEATED_MASS,
+    Link,
+    OccupantModel,
+    scaled,
+    softened,
+    stiffened,
+)
+from contact_sim_pkg.rigs.vehicle.seat.validation import VALIDATION
 
 FREQUENCIES = (1.0, 2.0, 4.0, 5.0, 6.3, 8.0, 10.0, 16.0, 20.0)
 # Apparent mass [kg] and its phase [degrees] at FREQUENCIES, computed apart from this project.
@@ -174,6 +183,19 @@ def test_a_stiffer_posture_raises_frequencies_by_the_root_and_keeps_the_ratio_of
     model, at = OCCUPANTS["wei_griffin_1"], numpy.arange(2.0, 9.0, 0.002)
     erect = abs(apparent_mass(stiffened(model, 1.21), 1.1 * at))
     assert erect == pytest.approx(abs(apparent_mass(model, at)), rel=1e-9)
+
+
+@pytest.mark.parametrize(("rms", "peak"), [(0.25, 6.02), (0.5, 5.26), (1.0, 4.59), (2.0, 4.01)])
+def test_an_exponent_of_0_195_takes_the_peak_of_the_apparent_mass_from_6_to_4_hz(rms, peak):
+    model, at = OCCUPANTS["wei_griffin_2"], numpy.arange(2.0, 8.0, 0.005)
+    magnitude = abs(apparent_mass(softened(model, rms, 0.195), at))
+    assert at[magnitude.argmax()] == pytest.approx(peak, abs=0.02)
+    assert magnitude.max() == pytest.approx(1.523 * model.mass, rel=1e-3)
+
+
+def test_the_published_figures_on_the_occupant_hold():
+    assert [row.quantity for row in VALIDATION if not row.band[0] <= row.ours() <= row.band[1]] == []
+    assert VALIDATION[0].ours() == pytest.approx(4.59, abs=0.01)
 
 
 def test_rest_deflections_of_a_chain_carry_what_is_above():

@@ -71,6 +71,7 @@ RIGS = (
         work=f"{__name__}.work:work_of_seat",
         report=(_SEAT_REPORT,),
         unused_axes=lambda effects: "x" if effects["seat"].get("friction") is None else "",
+        validation=(f"{__name__}.seat.validation",),
         accuracy=_ACCURACY,
         hard_cases=(f"{__name__}.studies.hard_cases_cushion",),
         work_precision=(

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-__all__ = ["H_POINT", "OCCUPANTS", "SEATED_MASS", "Link", "OccupantModel", "scaled", "stiffened"]
+__all__ = ["H_POINT", "OCCUPANTS", "SEATED_MASS", "Link", "OccupantModel", "scaled", "softened", "stiffened"]
 
 H_POINT = 0.098
 """[m] of the H-point over the loaded surface of the cushion, of the manikin of SAE J826 (50th
@@ -117,3 +117,10 @@ def stiffened(model: OccupantModel, factor: float) -> OccupantModel:
             link._replace(stiffness=factor * link.stiffness, damping=root * link.damping) for link in model.links
         )
     )
+
+
+def softened(model: OccupantModel, rms: float, exponent: float) -> OccupantModel:
+    """The model under vibration of an ``rms`` [m/s^2] of the seat: springs by r^(-2 exponent),
+    dampers by r^(-exponent), r the rms over 1 m/s^2. Damping ratios stay.
+    """
+    return stiffened(model, rms ** (-2.0 * exponent))
