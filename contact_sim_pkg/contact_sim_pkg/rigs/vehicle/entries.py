@@ -16,7 +16,7 @@ from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following
 from contact_sim_pkg.rigs.vehicle import motion as vehicle
 from contact_sim_pkg.rigs.vehicle import quarter_car
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
-from contact_sim_pkg.rigs.vehicle.seat.leaning import back_approach, contact_of, pan_friction, slid
+from contact_sim_pkg.rigs.vehicle.seat.leaning import back_approach, back_energy, back_force, pan_friction, slid
 from contact_sim_pkg.rigs.vehicle.seat.motion import seat_energies, seat_mass, slide_index
 
 TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
@@ -62,7 +62,7 @@ def _observe(rig, drive, mode, state, out):
     out[SEAT_HEIGHT] = cushion
     out[SEAT_RATE] = seat_v
     back_x, back_v = back_approach(rig.back, rig.seat, state)
-    out[BACK_NORMAL] = contact_force(contact_of(rig.back), back_x, back_v, state)
+    out[BACK_NORMAL] = back_force(rig.back, back_x, back_v, state)
     out[BACK_APPROACH] = back_x
 
 
@@ -176,7 +176,7 @@ def energies(
     in_tire, _none = contact_energy(rig.tire_contact, tire_x, state)
     in_cushion, hysteresis = contact_energy(rig.seat_contact, seat_x, state)
     back_x, _back_v = back_approach(rig.back, rig.seat, state)
-    in_back, back_hysteresis = contact_energy(contact_of(rig.back), back_x, state)
+    in_back, back_hysteresis = back_energy(rig.back, back_x, state)
     hysteresis += back_hysteresis
     stored += seat_stored + spring + hysteresis
     stored += in_tire + in_cushion + in_back

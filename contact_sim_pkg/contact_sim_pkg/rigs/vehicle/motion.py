@@ -53,7 +53,8 @@ from contact_sim_pkg.rigs.vehicle.quarter_car import (
 )
 from contact_sim_pkg.rigs.vehicle.seat.leaning import (
     back_approach,
-    contact_of,
+    back_force,
+    back_lost_power,
     forward_rates,
     pan_cosine,
     pan_friction,
@@ -91,13 +92,6 @@ def _node_of(seat):
     if seat is None:
         return None
     return seat.node
-
-
-@borrowing_kernel
-def _softening_of(seat):
-    if seat is None:
-        return None
-    return seat.softening
 
 
 @borrowing_kernel
@@ -140,24 +134,24 @@ def _rate(rig, drive, mode, time, state, out):
     seat_force = contact_force(rig.seat_contact, seat_x, seat_v, state)
     rub = pan_friction(_friction_of(rig.seat_contact), rig.back, rig.seat, mode, seat_force, state)
     back_x, back_v = back_approach(rig.back, rig.seat, state)
-    back_force = contact_force(contact_of(rig.back), back_x, back_v, state)
+    leaning = back_force(rig.back, back_x, back_v, state)
     # Rates of the bodies; that of a massless interface last, for it follows from all others.
     lost = lost_in_sidewalls
     lost += tire_rates(rig.tire, rig.gravity, on_wheel, seat_force, a_z, state, out)
-    push_up(rig.back, rig.seat, seat_force, rub, back_force, out)
+    push_up(rig.back, rig.seat, seat_force, rub, leaning, out)
     lost_in_links, brought = seat_rates(rig.tire, rig.seat, rig.gravity, a_z, state, out)
     rubbed, brought_x = forward_rates(
-        _friction_of(rig.seat_contact), rig.back, rig.seat, mode, (seat_force, rub, back_force), a_x, state, out
+        _friction_of(rig.seat_contact), rig.back, rig.seat, mode, (seat_force, rub, leaning), a_x, state, out
     )
     lost += lost_in_links + rubbed
     lost += contact_lost_power(rig.tire_contact, tire_x, tire_v, tire_force, state, out)
     lost += contact_lost_power(rig.seat_contact, seat_x, seat_v, seat_force, state, out)
-    lost += contact_lost_power(contact_of(rig.back), back_x, back_v, back_force, state, out)
+    lost += back_lost_power(rig.back, back_x, back_v, leaning, state, out)
     node_rate(
         _node_of(rig.seat), rig.seat, rig.seat_contact, seat_x, seat_v,
         _floor_acceleration(rig.tire, out) + sliding_in(rig.back, rig.seat, out), pan_cosine(rig.back), state, out,
     )  # fmt: skip
-    brought += softening_rate(_softening_of(rig.seat), rig.seat, a_z if rig.tire is None else 0.0, state, out)
+    brought += softening_rate(rig.seat, a_z if rig.tire is None else 0.0, state, out)
     last = state.shape[0]
     out[last - 2] = brought + brought_x + tire_force * height_rate + seat_force * cushion_rate
     out[last - 2] += body_power(rig.tire, a_z, state) + push * tread_velocity(rig.tire, rig.rigid_ring, state)

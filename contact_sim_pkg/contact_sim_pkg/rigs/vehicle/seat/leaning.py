@@ -16,6 +16,7 @@ the slide on it that friction drives.
 from __future__ import annotations
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
+from contact_sim_pkg.laws.contact_force import contact_energy, contact_force, contact_lost_power
 from contact_sim_pkg.laws.friction import STICK, friction_force
 from contact_sim_pkg.rigs.vehicle.seat.motion import seat_mass, slide_index
 
@@ -59,14 +60,6 @@ def slid(back, seat, values):
 
 
 @borrowing_kernel
-def contact_of(back):
-    """The contact of the seat back; None without one."""
-    if back is None:
-        return None
-    return back.contact
-
-
-@borrowing_kernel
 def back_approach(back, seat, state):
     """Approach in [m] of the trunk to the seat back and its rate in [m/s]; separated without one."""
     if back is None:
@@ -80,6 +73,30 @@ def back_approach(back, seat, state):
 
 
 @borrowing_kernel
+def back_force(back, approach, approach_rate, state):
+    """Force of the seat back in [N] on the trunk; 0 without one."""
+    if back is None:
+        return 0.0
+    return contact_force(back.contact, approach, approach_rate, state)
+
+
+@borrowing_kernel
+def back_lost_power(back, approach, approach_rate, force, state, out):
+    """Power in [W] that the seat back's foam takes."""
+    if back is None:
+        return 0.0
+    return contact_lost_power(back.contact, approach, approach_rate, force, state, out)
+
+
+@borrowing_kernel
+def back_energy(back, approach, state):
+    """Energies in [J] of the seat back's elastic law and beside it of its hysteresis."""
+    if back is None:
+        return 0.0, 0.0
+    return contact_energy(back.contact, approach, state)
+
+
+@borrowing_kernel
 def _upward(back, normal, friction):
     if back is None:
         return normal
@@ -87,13 +104,13 @@ def _upward(back, normal, friction):
 
 
 @borrowing_kernel
-def _push_trunk(back, first, back_force, out):
+def _push_trunk(back, first, pushed, out):
     if back is not None:
-        out[first + back.trunk] += back.back_sine * back_force
+        out[first + back.trunk] += back.back_sine * pushed
 
 
 @borrowing_kernel
-def push_up(back, seat, normal, friction, back_force, out):
+def push_up(back, seat, normal, friction, pushed, out):
     """Write the vertical forces [N] of pan and seat back into the places of the accelerations."""
     if seat is None:
         return
@@ -101,16 +118,16 @@ def push_up(back, seat, normal, friction, back_force, out):
     for i in range(1, seat.masses.shape[0]):
         out[v + i] = 0.0
     out[v] = _upward(back, normal, friction)
-    _push_trunk(back, v, back_force, out)
+    _push_trunk(back, v, pushed, out)
 
 
 @borrowing_kernel
-def _pushed(back, normal, friction, back_force):
+def _pushed(back, normal, friction, held):
     """Force in [N] along x, and what of it is no contact force."""
     if back is None:
         return -friction, 0.0
-    held = back.back_cosine * back_force - back.pan_sine * normal - back.preload
-    return held - back.pan_cosine * friction, -back.preload
+    along = back.back_cosine * held - back.pan_sine * normal - back.preload
+    return along - back.pan_cosine * friction, -back.preload
 
 
 @borrowing_kernel

@@ -193,12 +193,19 @@ def node_rate(node, seat, contact, approach, approach_rate, cushion_acceleration
 
 
 @borrowing_kernel
-def softening_rate(softening, seat, acceleration_z, state, out):
+def softening_rate(seat, acceleration_z, state, out):
     """Write the rate of the mean square of the seat's acceleration; returns the power in [W] that
     the change of the springs brings in.
 
     ``acceleration_z`` [m/s^2] of the frame of reference.
     """
+    if seat is None:
+        return 0.0
+    return _softening_rate(seat.softening, seat, acceleration_z, state, out)
+
+
+@borrowing_kernel
+def _softening_rate(softening, seat, acceleration_z, state, out):
     if softening is None:
         return 0.0
     z = seat.offset
