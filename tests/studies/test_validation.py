@@ -1,5 +1,7 @@
 """Published figures beside those of the bench."""
 
+from pathlib import Path
+
 import pytest
 
 from contact_sim_pkg.records.published import Published
@@ -15,11 +17,24 @@ OUTSIDE = Published(
 )  # fmt: skip
 
 
-@pytest.fixture(autouse=True)
-def _published(monkeypatch):
+PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
+
+
+def test_the_page_in_the_project_has_every_published_figure():
+    """`bench validation --page docs/validation.md --overwrite` makes it anew."""
+    page = PAGE.read_text(encoding="utf-8")
+    published = validation.all_published()
+    assert len(published) >= 10
+    for each in published:
+        assert f"| {each.quantity} | {each.unit} | {each.value} |" in page
+
+
+@pytest.fixture
+def _two(monkeypatch):
     monkeypatch.setattr(validation, "all_published", lambda: [INSIDE, OUTSIDE])
 
 
+@pytest.mark.usefixtures("_two")
 def test_a_row_holds_both_figures_and_whether_they_agree():
     rows = validation.study()
     assert [(row["ours"], row["inside"]) for row in rows] == [(9.80665, True), (2.5, False)]
@@ -29,6 +44,7 @@ def test_a_row_holds_both_figures_and_whether_they_agree():
     ]
 
 
+@pytest.mark.usefixtures("_two")
 def test_the_page_gives_band_verdict_reason_and_source():
     page = validation.page(validation.study())
     assert "| weight of 1 kg | N | 9.81 ± 0.01 | 9.81 | 9.8 to 9.82 | inside, fitted | [1](#sources-scale) |" in page

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable
 from typing import Any
 
@@ -13,9 +14,11 @@ __all__ = ["all_published", "page", "sections", "study"]
 
 _COMMAND = "bench validation --page docs/validation.md --overwrite"
 
+_WIDTH = 100
 _HEAD = f"""# Validation
 
-Published figures beside those of the bench. Made by `{_COMMAND}`.
+Published figures beside those of the bench. Made by
+`{_COMMAND}`.
 
 *Band*: values that agree with the publication, its scatter included. *Fitted*: a constant of the
 bench was chosen by this figure; all others were not used. What leaves its band says why.
@@ -53,7 +56,7 @@ def sections(rows: list[dict[str, Any]]) -> list[Section]:
         lines = [
             {
                 "quantity": row["quantity"], "unit": row["unit"], "published": row["published"],
-                "ours": f"{row['ours']:.3g}", "band": _band(row), "inside": "yes" if row["inside"] else "NO",
+                "ours": _digits(row["ours"]), "band": _band(row), "inside": "yes" if row["inside"] else "NO",
                 "fitted": "yes" if row["fitted"] else "",
             }
             for row in own
@@ -75,19 +78,29 @@ def page(rows: list[dict[str, Any]]) -> str:
             marks = f"{verdict}, fitted" if row["fitted"] else verdict
             number = sources.index(row["source"]) + 1
             parts.append(
-                f"| {row['quantity']} | {row['unit']} | {row['published']} | {row['ours']:.3g} | {_band(row)} | {marks} "
+                f"| {row['quantity']} | {row['unit']} | {row['published']} | {_digits(row['ours'])} | {_band(row)} | {marks} "
                 f"| [{number}](#sources-{_anchor(machine)}) |"
             )
-        remarks = [f"* {row['quantity']}: {row['note']}" for row in own if row["note"]]
+        remarks = [_item("* ", f"{row['quantity']}: {row['note']}") for row in own if row["note"]]
         if remarks:
             parts.append("\n" + "\n".join(remarks))
         parts.append(f"\n### Sources: {machine}\n")
-        parts.append("\n".join(f"{number}. {source}" for number, source in enumerate(sources, 1)) + "\n")
-    return "\n".join(parts)
+        parts.append("\n".join(_item(f"{number}. ", source) for number, source in enumerate(sources, 1)) + "\n")
+    return "\n".join(parts).rstrip() + "\n"
+
+
+def _item(mark: str, text: str) -> str:
+    """An item of a list, in lines of `_WIDTH` characters."""
+    return textwrap.fill(text, _WIDTH, initial_indent=mark, subsequent_indent=" " * len(mark))
 
 
 def _anchor(heading: str) -> str:
     return heading.lower().replace(" ", "-")
+
+
+def _digits(value: float) -> str:
+    """Three significant digits, without exponent where there are few before the point."""
+    return f"{float(f'{value:.3g}'):g}"
 
 
 def _band(row: dict[str, Any]) -> str:
