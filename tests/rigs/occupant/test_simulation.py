@@ -9,7 +9,7 @@ from tests.run.scenes import resolved
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
-from contact_sim_pkg.rigs.occupant.model import build_occupant
+from contact_sim_pkg.rigs.occupant.model import back_cushion, build_occupant
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import matrices
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OCCUPANTS
 from contact_sim_pkg.run.rigs import make_simulation, result_topics
@@ -163,8 +163,9 @@ def test_energy_is_kept_by_pan_back_and_occupant_together(values, drive):
 
 
 def test_the_heaviest_mass_leans():
-    assert build_occupant(resolved("seat_ride_full")).rig.back.trunk == 1
-    assert build_occupant(resolved("seat_ride_full", "seat.occupant.model=inert_75")).rig.back.trunk == 0
+    for values, trunk in (((), 1), (("seat.occupant.model=inert_75",), 0)):
+        scene = resolved("seat_ride_full", *values)
+        assert build_occupant(scene, back_cushion(scene)).rig.back.trunk == trunk
 
 
 def test_foam_bottoms_out_under_an_occupant_who_falls_back():
