@@ -162,10 +162,10 @@ def test_energy_is_kept_by_pan_back_and_occupant_together(values, drive):
     assert max(abs(each.residual) for each in ledgers) <= 1e-5 * supplied
 
 
-def test_the_heaviest_mass_leans():
-    for values, trunk in (((), 1), (("seat.occupant.model=inert_75",), 0)):
-        scene = resolved("seat_ride_full", *values)
-        assert build_occupant(scene, back_cushion(scene)).rig.back.trunk == trunk
+@pytest.mark.parametrize(("name", "trunk"), [("wei_griffin_2", 1), ("iso_5982", 3), ("inert_75", 0)])
+def test_the_heaviest_mass_leans(name, trunk):
+    scene = resolved("seat_ride_full", f"seat.occupant.model={name}")
+    assert build_occupant(scene, back_cushion(scene)).rig.back.trunk == trunk
 
 
 def test_foam_bottoms_out_under_an_occupant_who_falls_back():

@@ -4,6 +4,7 @@ import math
 
 import numpy
 import pytest
+import scipy.signal
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.records.constants import GRAVITY
@@ -174,3 +175,59 @@ def test_a_users_own_occupant_arrives_as_given():
     assert made.rig.seat.springs.tolist() == [[4e4, 5e4], [900.0, 90.0]]
     assert made.rig.seat.node is None
     assert build(resolved("seat_ride", "seat.occupant.model=wan_schimmels")).rig.seat.node.damping == 2475.0
+
+
+BAND = numpy.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0])  # [Hz]
+
+
+def signals(name, duration, vibration):
+    """Force [N] less its mean, accelerations [m/s^2] of seat and head (None without one) and sample rate [Hz]."""
+    found = outputs_of("seat_ride", duration, f"seat.occupant.model={name}", vibration, "accuracy=1e-3", LINEAR)
+    force = numpy.concatenate([record.normal for record in records_of(found, "seat/force")])
+    motions = records_of(found, "bench/motion")
+    acceleration = numpy.hstack([record.acceleration for record in motions])
+    head = OCCUPANTS[name].head
+    moved = acceleration[1 + head] if head else None
+    return force - force[0], acceleration[1], moved, 1.0 / motions[0].sample_period
+
+
+def assert_within_half_a_per_cent_and_a_degree(found, expected):
+    assert abs(found) == pytest.approx(abs(expected), rel=5e-3)
+    assert numpy.degrees(abs(numpy.angle(found / expected))).max() < 1.0
+
+
+@pytest.mark.parametrize("name", OCCUPANTS)
+def test_by_a_sweep_a_named_occupant_has_its_responses(name):
+    """The sweep ends and the occupant comes to rest: the quotient of both transforms is the response, without leakage."""
+    force, seat, head, rate = signals(
+        name, 30.0, "vibration={kind: sweep, start_frequency: 0.5, end_frequency: 22, amplitude: 0.5, duration: 24}"
+    )
+    assert abs(seat[-100:]).max() < 1e-6
+    at = numpy.round(BAND * len(seat) / rate).astype(int)
+    transformed = numpy.fft.rfft(seat)[at]
+    frequency = at * rate / len(seat)
+    assert_within_half_a_per_cent_and_a_degree(
+        numpy.fft.rfft(force)[at] / transformed, apparent_mass(OCCUPANTS[name], frequency)
+    )
+    if head is not None:
+        found = numpy.fft.rfft(head)[at] / transformed
+        assert_within_half_a_per_cent_and_a_degree(found, seat_to_head(OCCUPANTS[name], frequency))
+
+
+@pytest.mark.parametrize("name", ["wei_griffin_2", "boileau_rakheja"])
+def test_by_noise_a_named_occupant_has_its_responses_with_coherence(name):
+    """Welch's method in segments of 16 s, whose Hann window hides little of a resonance 1 Hz wide."""
+    force, seat, head, rate = signals(name, 160.0, "vibration={kind: noise, low: 0.5, high: 20, rms: 1.0}")
+    length = round(16.0 * rate)
+    for target, response in ((force, apparent_mass), (head, seat_to_head)):
+        if target is None:
+            continue
+        frequency, power = scipy.signal.welch(seat, rate, nperseg=length)
+        _, cross = scipy.signal.csd(seat, target, rate, nperseg=length)
+        _, coherence = scipy.signal.coherence(seat, target, rate, nperseg=length)
+        at = numpy.searchsorted(frequency, BAND)
+        assert coherence[at].min() > 0.95
+        found = cross[at] / power[at]
+        expected = response(OCCUPANTS[name], frequency[at])
+        assert abs(found) == pytest.approx(abs(expected), rel=1e-2)
+        assert numpy.degrees(abs(numpy.angle(found / expected))).max() < 1.0
