@@ -2,7 +2,8 @@
 
 import os
 import threading
-from contextlib import suppress
+
+END = b"\x00"
 
 
 class Terminal:
@@ -17,12 +18,14 @@ class Terminal:
         return self
 
     def _read(self) -> None:
-        with suppress(OSError):  # the other end is closed
-            while True:
-                self._pieces.append(os.read(self._reading, 65536))
+        while not b"".join(self._pieces[-2:]).endswith(END):
+            self._pieces.append(os.read(self._reading, 65536))
 
     def __exit__(self, *_: object) -> None:
-        self.stream.close()
+        # what is still on its way is lost where the other end closes
+        self.stream.write(END.decode())
+        self.stream.flush()
         self._reader.join()
+        self.stream.close()
         os.close(self._reading)
-        self.drawn = b"".join(self._pieces).decode()
+        self.drawn = b"".join(self._pieces).decode().removesuffix(END.decode())

@@ -76,8 +76,15 @@ RARE_BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # what no shipped scene 
         ("tire_bump", "effects.tire.tread_viscoelasticity={retardation_time: 0.01, branches: []}"),
         ("tire_bump", "effects.tire.rigid_ring={}", "effects.tire.asperity_impulses={}"),
     ),
-    "seat": (("seat_ride", "effects.seat.friction={}"),),
-    "backrest": (("seat_slap", "effects.backrest.shell_modes={}"),),
+    "seat": (
+        ("seat_ride", "effects.seat.friction={}"),
+        ("seat_ride", "effects.seat.softening={}"),
+        ("seat_ride", "effects.seat={normal_elastic: {}, normal_dissipative: {}, half_space_field: {}}"),
+    ),
+    "backrest": (
+        ("seat_slap", "effects.backrest.shell_modes={}"),
+        ("seat_shock", "vibration.start=0", "effects.backrest={normal_elastic: {}, foam: {}, normal_dissipative: {}}"),
+    ),
     "block": (
         (
             "block_fall",
