@@ -28,7 +28,6 @@ class Contact:
         effects: in the order of the documentation; a field's topic follows this order too.
         rules: ``module:function`` of rules between keys, each a scene -> its breaches.
         topics: its recorded topics, in the order of a bag.
-        bench_topics: further topics below `bench/`, by their whole name.
         loosest_integration: plain data of its effects by name -> largest relative tolerance of the
             time integration.
     """
@@ -40,7 +39,6 @@ class Contact:
     effects: tuple[Effect, ...]
     rules: tuple[str, ...] = ()
     topics: tuple[ContactTopic, ...] = (FORCE, WRENCH)
-    bench_topics: tuple[str, ...] = ()
     loosest_integration: Callable[[Mapping[str, Any]], float] = lambda _effects: LOOSEST_INTEGRATION
 
     @cached_property

@@ -44,6 +44,7 @@ class Rig:
         hard_cases: modules whose `CASES` holds `records.hard_case.HardCase`: `bench hard`.
         validation: modules whose `VALIDATION` holds `records.published.Published`: `bench
             validation`.
+        bench_topics: its own topics below `bench/`, by their whole name.
         scenes: its shipped scenes, each with its place in `bench list`: the smaller the run, the
             sooner.
         forecast: module whose `facts_before_run` and `sentence_before_run` report what is known
@@ -69,6 +70,7 @@ class Rig:
     goals: tuple[str, ...] = ()
     hard_cases: tuple[str, ...] = ()
     validation: tuple[str, ...] = ()
+    bench_topics: tuple[str, ...] = ()
     scenes: Mapping[str, int] = field(default_factory=dict)
     forecast: str = ""
     rules: tuple[str, ...] = ()

@@ -21,8 +21,7 @@ def make_simulation(scene: ResolvedScene) -> BlockSimulation:
 def result_topics(scene: ResolvedScene) -> list[str]:
     """Recorded topics that the simulator publishes for the scene."""
     own = [topic for contact in rigs()[scene.rig].contacts for topic in contact.published(scene.data)]
-    last = dict.fromkeys(topic for contact in rigs()[scene.rig].contacts for topic in contact.bench_topics)
-    return [*own, *last, "bench/motion", "bench/energy", "bench/cost"]
+    return [*own, *rigs()[scene.rig].bench_topics, "bench/motion", "bench/energy", "bench/cost"]
 
 
 class Forecast(NamedTuple):

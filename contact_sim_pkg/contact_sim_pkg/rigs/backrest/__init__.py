@@ -15,7 +15,6 @@ BACKREST = Contact(
     effects=BACKREST_EFFECTS,
     rules=(f"{__name__}.schema_rules:backrest_breaches",),
     topics=(FORCE, WRENCH, PATCH, POINTS),
-    bench_topics=("bench/episodes",),
 )
 
 RIGS = (
@@ -23,6 +22,7 @@ RIGS = (
         name="backrest",
         help="occupant against a backrest",
         contacts=(BACKREST,),
+        bench_topics=("bench/episodes",),
         needs=("vibration",),
         scenes={"seat_slap": 12, "seat_slip": 13, "seat_shock": 14, "seat_general": 15},
         simulation=f"{__name__}.simulation:BackrestSimulation",
