@@ -29,10 +29,10 @@ def test_a_car_with_a_tire_field_has_every_section(car_page):
 
 
 def test_each_section_is_named_before_it_is_drawn(car, tmp_path):
-    told = []
-    write_report(car, tmp_path / "car.html", on_section=lambda *section: told.append(section))
+    sections = []
+    write_report(car, tmp_path / "car.html", on_section=lambda *section: sections.append(section))
     names = ["tire", "seat", "seat", "energy", "cost"]  # the second of the seat: its vibration, in any bag
-    assert told == [(number, len(names), name) for number, name in enumerate(names)]
+    assert sections == [(number, len(names), name) for number, name in enumerate(names)]
 
 
 def test_a_seat_alone_has_no_tire_and_no_map(seat, tmp_path):

@@ -7,7 +7,7 @@ from contact_sim_pkg.scene.resolve import load_resolved
 
 
 @pytest.mark.parametrize(
-    ("scene", "value", "where", "told"),
+    ("scene", "value", "where", "sentence"),
     [
         ("seat_ride_full", "backrest.mass=20", "backrest.mass", "with its own mass; remove it"),
         ("seat_ride_full", "effects.backrest.shell_modes={}", "effects.backrest.shell_modes", "in the rig backrest"),
@@ -18,12 +18,12 @@ from contact_sim_pkg.scene.resolve import load_resolved
         ("seat_slap", "backrest.angle=0.1", "backrest.angle", "in the rig occupant"),
     ],
 )
-def test_what_does_not_belong_to_one_trunk_is_refused(scene, value, where, told):
+def test_what_does_not_belong_to_one_trunk_is_refused(scene, value, where, sentence):
     with pytest.raises(SceneError) as caught:
         load_resolved(scene, value)
     (fault,) = caught.value.faults
     assert fault.where == where
-    assert told in fault.sentence
+    assert sentence in fault.sentence
 
 
 def test_friction_on_a_tilted_pan_needs_a_frame_with_mass():

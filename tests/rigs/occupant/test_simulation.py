@@ -148,18 +148,25 @@ def test_the_back_leaves_a_seat_shaken_forward(shaken):
 
 
 @pytest.mark.parametrize(
-    "values",
-    [(), ("seat.occupant.model=wan_schimmels",), ("effects.seat.friction={}",), ("effects.seat.softening={}",)],
+    ("values", "allowed"),
+    [
+        ((), 1e-6),
+        (("seat.occupant.model=wan_schimmels",), 1e-6),
+        (("effects.seat.friction={}",), 1e-6),
+        (("effects.seat.softening={least: 0.01, most: 100}",), 1e-6),
+        # its usual limits are corners of the stiffness, which no event locates
+        (("effects.seat.softening={}",), 1e-5),
+    ],
 )
 @pytest.mark.parametrize("drive", [FORWARD, DROP])
-def test_energy_is_kept_by_pan_back_and_occupant_together(values, drive):
+def test_energy_is_kept_by_pan_back_and_occupant_together(values, allowed, drive):
     found = messages_of(resolved("seat_ride_full", *drive, *values, "integrator.relative_tolerance=1e-7"))
     motion = decode(BodyMotion, found["bench/motion"][0])
     assert (motion.bodies[0], *motion.bodies[-2:]) == ("floor_z", "seat_back_x", "occupant_x")
     ledgers = [decode(EnergyLedger, data) for data in found["bench/energy"]]
     supplied = max(abs(each.supplied) for each in ledgers)
     assert supplied > 10.0
-    assert max(abs(each.residual) for each in ledgers) <= 1e-5 * supplied
+    assert max(abs(each.residual) for each in ledgers) <= allowed * supplied
 
 
 @pytest.mark.parametrize(("name", "trunk"), [("wei_griffin_2", 1), ("iso_5982", 3), ("inert_75", 0)])

@@ -129,7 +129,7 @@ def _points_sentence(points: PointSeries | None) -> str:
     if points is None:
         return ""
     if points.points == 1:
-        return " One mass has one contact point, 1, whose force is spread over the mat."
+        return " One mass has one contact point, 1; the map has the same force."
     counts = [int(np.count_nonzero(each.state != APART)) for each in (points.touch, points.heaviest)]
     kinds = {int(state) for each in (points.touch, points.heaviest) for state in each.state} - {APART, TOUCHES}
     colours = " Dots: points that carry; blue sticks, orange slips." if kinds else " Dots: points that carry."

@@ -62,9 +62,9 @@ def _link_breaches(section: OccupantSection) -> Iterator[Breach]:
     thing, many = ("mass", count) if links is None else ("link", len(links))
     for name in ("stiffness", "damping"):
         if len(values[name]) != many:
-            told = "masses" if links is None else "links"
-            sentence = f"has {len(values[name])} values, {told} has {many}; each {thing} needs one"
-            yield Breach(f"seat.occupant.{name}", sentence, (f"seat.occupant.{told}",))
+            counted = "masses" if links is None else "links"
+            sentence = f"has {len(values[name])} values, {counted} has {many}; each {thing} needs one"
+            yield Breach(f"seat.occupant.{name}", sentence, (f"seat.occupant.{counted}",))
     if links is not None:
         yield from _end_breaches(links, count)
     if values.get("head", 0) > count:
