@@ -9,7 +9,7 @@ __all__ = ["RIGS"]
 RIGS = (
     Rig(
         name="occupant",
-        kernels=140,
+        kernels=110,
         help="on a seat and against its back",
         contacts=(SEAT, BACKREST),
         needs=("vibration",),

@@ -35,7 +35,7 @@ _ROAD_STRIP = f"{__name__}.lattice:road_strip"
 RIGS = (
     Rig(
         name="tire",
-        kernels=180,
+        kernels=190,
         help="tire on a road",
         contacts=(TIRE,),
         needs=("travel", "road"),
@@ -62,6 +62,7 @@ RIGS = (
     ),
     Rig(
         name="seat",
+        kernels=110,
         help="occupant on a seat",
         contacts=(SEAT,),
         needs=("vibration",),
@@ -84,7 +85,7 @@ RIGS = (
     ),
     Rig(
         name="car",
-        kernels=160,
+        kernels=190,
         help="both as a car",
         contacts=(TIRE, SEAT),
         needs=("travel", "road"),
