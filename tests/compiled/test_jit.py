@@ -85,7 +85,9 @@ class Start:
     def environment(self, **more: str) -> dict[str, str]:
         kept = {key: value for key, value in os.environ.items() if not key.startswith("NUMBA_")}
         source = str(self.package.parent)
-        return {**kept, "PYTHONPATH": source, "CONTACT_BENCH_CACHE": str(self.cache), **more}
+        # Python takes bytecode of an edit within the same second for that of the file before it
+        fresh = {"PYTHONDONTWRITEBYTECODE": "1"}
+        return {**kept, "PYTHONPATH": source, "CONTACT_BENCH_CACHE": str(self.cache), **fresh, **more}
 
     def command(self, before: str = "") -> list[str]:
         return [sys.executable, "-c", before + PROGRAM]
@@ -424,6 +426,19 @@ def test_a_kernel_that_borrows_its_arrays_may_not_make_one():
 
     with pytest.raises(numba.core.errors.NumbaError, match="NRT required"):
         doubled(numpy.ones(3))
+
+
+@pytest.mark.parametrize("lend", [lambda values: values, lambda values: (values, 1.0)], ids=["array", "tuple"])
+def test_a_kernel_that_borrows_its_arrays_may_not_return_one(lend):
+    """The caller would give back a reference that nobody took: freed memory in use, without a word."""
+    borrowed = jit.borrowing_kernel(lend)
+
+    @jit.entry
+    def call(values):
+        return borrowed(values)
+
+    with pytest.raises(numba.core.errors.NumbaError, match="must return no array"):
+        call(numpy.ones(3))
 
 
 def test_machine_code_that_was_given_up_is_made_when_it_is_needed() -> None:

@@ -19,6 +19,7 @@ from typing import Any, TypeVar
 
 import numba
 from numba.core.compiler import Compiler
+from numba.core.errors import NumbaTypeError
 
 from contact_sim_pkg.compiled import companion
 from contact_sim_pkg.compiled.linking import KernelLibrary, Overload
@@ -59,9 +60,20 @@ class _KernelCompiler(Compiler):
         state.library = KernelLibrary(codegen, function.func_qualname, overload, is_machine_code=self.is_entry)
         with _few_collections():
             result = _on_a_large_stack(super()._compile_bytecode)
+        _refuse_uncounted_array(state, result.signature.return_type)
         global _compiled
         _compiled += overload is not None
         return result
+
+
+def _refuse_uncounted_array(state: Any, returned: Any) -> None:
+    """Raise TypeError where a kernel that counts no references returns an array, or a tuple that
+    holds one: its caller would give back a reference that nobody took.
+    """
+    if not state.flags.nrt and state.targetctx.data_model_manager[returned].contains_nrt_meminfo():
+        raise NumbaTypeError(
+            f"borrowing_kernel {state.func_id.func_qualname} returns {returned}: it must return no array"
+        )
 
 
 class _EntryCompiler(_KernelCompiler):
