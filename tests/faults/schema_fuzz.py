@@ -79,6 +79,10 @@ RARE_BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # what no shipped scene 
     "seat": (
         ("seat_ride", "effects.seat.friction={}"),
         ("seat_ride", "effects.seat.softening={}"),
+        (
+            "seat_ride",
+            "effects.seat={normal_elastic: {}, foam: {}, foam_hysteresis: {}, general_dissipative: {}}",
+        ),
         ("seat_ride", "effects.seat={normal_elastic: {}, normal_dissipative: {}, half_space_field: {}}"),
     ),
     "backrest": (

@@ -102,7 +102,7 @@ def test_an_occupant_follows_its_twin_through_lift_off_and_landing(name, law):
 
 
 @pytest.mark.parametrize("name", OCCUPANTS)
-def test_energy_is_kept_through_lift_off_and_landing_on_foam(name):
+def test_energy_is_kept_through_lift_off_and_landing(name):
     found = outputs_of(
         "seat_drop", 0.8, f"seat.occupant.model={name}", "integrator.relative_tolerance=1e-7",
         "effects.seat.friction={}",
