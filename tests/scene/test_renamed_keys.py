@@ -1,6 +1,7 @@
-"""Renamed scene keys: a scene with the old key is refused with the new one, the scene of an old bag is read.
+"""Renamed and removed scene keys: a scene with an old key is refused with what takes its place, the scene of an old bag
+is read.
 
-The renames of these tests are made up: an effect, a section and a key below a section.
+Most renames of these tests are made up: an effect, a section and a key below a section.
 """
 
 import pytest
@@ -11,9 +12,9 @@ from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.texts import scene_of_text
 from contact_sim_pkg.cli.main import main as bench_main
 from contact_sim_pkg.records.messages import String
-from contact_sim_pkg.run.from_bag import refuse_other_scene
+from contact_sim_pkg.run.from_bag import cautions, refuse_other_scene
 from contact_sim_pkg.scene.overrides import set_value
-from contact_sim_pkg.scene.renamed_keys import RENAMED, new_key
+from contact_sim_pkg.scene.renamed_keys import REMOVED, RENAMED, sentence_of
 from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit, read_resolved, resolve
 from contact_sim_pkg.scene.schema.catalog import catalog
 
@@ -42,7 +43,7 @@ def with_old_names(text):
 
 def test_no_old_key_is_a_key_of_today_and_every_new_one_is():
     keys = {".".join(location) for location in catalog()}
-    assert not keys & set(RENAMED)
+    assert not keys & {*RENAMED, *REMOVED}
     assert set(RENAMED.values()) <= keys
 
 
@@ -65,6 +66,14 @@ def test_no_old_key_is_a_key_of_today_and_every_new_one_is():
         (
             {"seat.occupant.hip_mass": 6.0, "seat.occupant.frame_mass": 7.0},
             "seat.occupant.hip_mass: was renamed; write seat.occupant.frame_mass in its place",
+        ),
+        (
+            {"effects.seat.pressure_mat": {"rows": 12}},
+            f"effects.seat.pressure_mat: was removed; write {REMOVED['effects.seat.pressure_mat']} in its place",
+        ),
+        (
+            {"effects.seat.contact_field": {"rows": 12}},
+            "effects.seat.contact_field.rows: was renamed; write effects.seat.half_space_field.rows in its place",
         ),
     ],
 )
@@ -118,16 +127,41 @@ def test_a_bag_with_old_keys_is_reported_and_simulated_again(tmp_path):
     refuse_other_scene(tmp_path / "old", ResolvedScene(read_explicit(old, "scene of a bag")))
 
 
+FIELD_OF_0_1 = {"length": 0.6, "width": 0.5, "rows": 40, "cols": 40, "tolerance": 1e-3, "corrector_passes": 0}
+
+
+@pytest.mark.parametrize(
+    ("effect", "keys", "today"),
+    [("contact_field", FIELD_OF_0_1, {"half_space_field": FIELD_OF_0_1}), ("pressure_mat", {"rows": 36}, {})],
+)
+def test_the_seat_of_a_bag_of_0_1_is_read(maker, tmp_path, effect, keys, today):
+    law = {"normal_elastic": {"coefficient": 2.73e5, "exponent": 1.5}}
+    text = resolve(maker.load("seat", {"effects.seat": law})).to_yaml()
+    indented = "\n".join(f"      {key}: {value}" for key, value in keys.items())
+    old = text.replace("    normal_elastic:\n", f"    {effect}:\n{indented}\n    normal_elastic:\n")
+    expected = {**law, **today}
+    assert scene_of_text(old, "scene of a bag")["effects"]["seat"] == expected
+    data = read_explicit(old, "scene of a bag")
+    assert data["effects"]["seat"] == expected
+    content = hand_made.seat_ride()
+    content.texts = {**content.texts, "scene": old}
+    content.messages[0] = ("bench/scene", 0, encode(String(data=old)))
+    hand_made.write(tmp_path / "old", content)
+    said = [line for line in cautions(tmp_path / "old") if "was removed" in line]
+    assert len(said) == (effect == "pressure_mat")
+
+
 @pytest.mark.parametrize(
     ("key", "found"),
     [
-        ("shaker", "vibration"),
-        ("shaker.rate", "vibration.rate"),
-        ("effects.seat.bounce", "effects.seat.normal_elastic"),
+        ("shaker", "was renamed; write vibration in its place"),
+        ("shaker.rate", "was renamed; write vibration.rate in its place"),
+        ("effects.seat.bounce", "was renamed; write effects.seat.normal_elastic in its place"),
+        ("effects.seat.pressure_mat.rows", f"was removed; write {REMOVED['effects.seat.pressure_mat']} in its place"),
         ("effects.seat", ""),
         ("shakers", ""),
     ],
 )
 @pytest.mark.usefixtures("renamed")
-def test_the_new_key_of_a_section_holds_for_the_keys_below_it(key, found):
-    assert new_key(tuple(key.split("."))) == found
+def test_the_sentence_of_a_section_holds_for_the_keys_below_it(key, found):
+    assert sentence_of(tuple(key.split("."))) == found

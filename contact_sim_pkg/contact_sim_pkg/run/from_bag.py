@@ -10,12 +10,13 @@ from typing import Any
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.excitation import DECODERS
 from contact_sim_pkg.bag.reader import Bag, open_bag
-from contact_sim_pkg.bag.texts import excitation_of_text, scene_of_text
+from contact_sim_pkg.bag.texts import excitation_of_text, scene_of_text, values_of_text
 from contact_sim_pkg.bag.versions import differences_from, installed_versions
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names, kernel_fingerprint
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import Source, road_lattice
+from contact_sim_pkg.scene.renamed_keys import removed_keys, sentence_of
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.timing import make_timing
 
@@ -63,9 +64,13 @@ def sources_from_bag(path: Path, scene: ResolvedScene) -> dict[str, Source]:
 
 
 def cautions(path: Path) -> list[str]:
-    """Lines about a bag that is run again: what it lacks, and other versions that recorded it."""
+    """Lines about a bag that is run again: what it lacks, other versions that recorded it, keys of
+    its scene that were removed since.
+    """
     bag = open_bag(path)
-    return [*bag.notes, *filter(None, [differences_from(bag, installed_versions(kernel_fingerprint()))])]
+    recorded = {} if bag.scene is None else values_of_text(bag.scene, f"scene of {path}")
+    removed = [f"{key} of the bag's scene {sentence_of(tuple(key.split('.')))}" for key in removed_keys(recorded)]
+    return [*bag.notes, *filter(None, [differences_from(bag, installed_versions(kernel_fingerprint()))]), *removed]
 
 
 def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:

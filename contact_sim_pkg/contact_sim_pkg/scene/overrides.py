@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contact_sim_pkg.scene.errors import Fault, SceneError
-from contact_sim_pkg.scene.renamed_keys import new_key, sentence_of
+from contact_sim_pkg.scene.renamed_keys import sentence_of
 from contact_sim_pkg.scene.yaml.document import parse_value
 from contact_sim_pkg.scene.yaml.nodes import ListNode, MappingNode, Mark, Node, ScalarNode
 
@@ -90,8 +90,8 @@ def apply(root: MappingNode, overrides: Iterable[Override]) -> list[Fault]:
     faults = []
     for override in overrides:
         mark = Mark(override.option, 0, 0)
-        if new := new_key(override.path):
-            sentence = sentence_of(new)
+        if old := sentence_of(override.path):
+            sentence = old
         elif override.node is None:
             sentence = _remove(root, override.path)
         elif override.file_section:

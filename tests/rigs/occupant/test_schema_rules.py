@@ -9,7 +9,12 @@ from contact_sim_pkg.scene.resolve import load_resolved
 @pytest.mark.parametrize(
     ("scene", "value", "where", "sentence"),
     [
-        ("seat_ride_full", "backrest.mass=20", "backrest.mass", "with its own mass; remove it"),
+        (
+            "seat_ride_full",
+            "backrest.mass=20",
+            "backrest.mass",
+            "with its own mass; remove it (--set backrest.mass=null)",
+        ),
         ("seat_ride_full", "effects.backrest.shell_modes={}", "effects.backrest.shell_modes", "in the rig backrest"),
         ("seat_ride_full", "effects.backrest.friction={}", "effects.backrest.friction", "in the rig backrest"),
         ("seat_ride_full", "seat.pan_tilt=0", "seat.pan_tilt", "nothing presses the occupant"),

@@ -9,8 +9,7 @@ from contact_sim_pkg.records.registry import contacts, effects
 
 EFFECTS = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
-    "pressure_mat", "cushion", "half_space_field", "softening", "shell_modes", "contact_search", "rigid_ring",
-    "envelopment",
+    "cushion", "half_space_field", "softening", "shell_modes", "contact_search", "rigid_ring", "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
     "rigid_contact", "compliant_contact",
@@ -27,7 +26,6 @@ SEAT_ONLY = {
     "foam",
     "foam_hysteresis",
     "friction",
-    "pressure_mat",
     "cushion",
     "half_space_field",
     "softening",
@@ -43,7 +41,7 @@ ELSEWHERE = set(EFFECTS) - set(OF_THE_BACK)
 OF_THE_IMPACT = (
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
 )  # fmt: skip
-OF_FOAM = ("foam", "foam_hysteresis", "pressure_mat", "cushion", "half_space_field", "softening")
+OF_FOAM = ("foam", "foam_hysteresis", "cushion", "half_space_field", "softening")
 SHELL = ("shell_modes", "contact_search")
 OF_VEHICLES = tuple(name for name in EFFECTS if name not in (*SHELL, *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY))
 SUBSETS = {
@@ -59,7 +57,7 @@ SUBSETS = {
     + [{"normal_elastic", "friction"}, {"normal_elastic", "contact_field"}],
     "roller": [set(chosen) for count in range(9) for chosen in combinations(("normal_elastic", *OF_THE_ROLLER), count)]
     + [{"normal_elastic", "friction"}, {"normal_elastic", "rigid_contact"}],
-    "seat": [set(chosen) for count in range(11) for chosen in combinations(EFFECTS[:10], count)]
+    "seat": [set(chosen) for count in range(10) for chosen in combinations(EFFECTS[:9], count)]
     + [{"normal_elastic", name} for name in sorted(TIRE_ONLY)],
 }
 
@@ -76,12 +74,12 @@ def allowed(contact, named):
         return False
     if len(named & {"normal_elastic", "cushion"}) != 1 or named & refused:
         return False
-    if "cushion" in named and named & {"foam", "shell_modes", "half_space_field", "pressure_mat"}:
+    if "cushion" in named and named & {"foam", "shell_modes", "half_space_field"}:
         return False
     if contact == "seat":
         if "contact_field" in named and "cushion" not in named:
             return False
-        if "half_space_field" in named and named & {"foam", "foam_hysteresis", "pressure_mat"}:
+        if "half_space_field" in named and named & {"foam", "foam_hysteresis"}:
             return False
     if named & {"gyroscope", "rolling_friction"} and "tilt_yaw" not in named:
         return False

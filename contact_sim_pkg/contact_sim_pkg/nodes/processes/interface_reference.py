@@ -20,7 +20,7 @@ from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED
 from contact_sim_pkg.records.definitions import PACKAGE, texts
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.run.rigs import result_topics
-from contact_sim_pkg.scene.renamed_keys import RENAMED
+from contact_sim_pkg.scene.renamed_keys import REMOVED, RENAMED
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 BEGIN = "<!-- tables made from the code: begin -->"
@@ -198,8 +198,8 @@ def _exit_codes() -> str:
 
 def _renamed() -> str:
     rows = [(f"`{old}`", f"`{new}`") for old, new in RENAMED.items()]
-    table = _table(("old key", "new key"), rows) if rows else "None so far."
-    return f"## Renamed scene keys\n\n{table}"
+    rows += [(f"`{old}`", f"removed; {new} in its place") for old, new in REMOVED.items()]
+    return f"## Renamed scene keys\n\n{_table(('old key', 'new key'), rows)}"
 
 
 def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:

@@ -32,7 +32,9 @@ def leaning_breaches(scene: Scene) -> Iterator[Breach]:
     """
     seat, back = scene.section(SeatSection), scene.section(BackrestSection)
     if back.mass is not None:
-        sentence = "the trunk of seat.occupant leans on the seat back, with its own mass; remove it"
+        sentence = (
+            "the trunk of seat.occupant leans on the seat back, with its own mass; remove it (--set backrest.mass=null)"
+        )
         yield Breach("backrest.mass", sentence, ("rig",))
     for name, kind in ELSEWHERE.items():
         if scene.effect("backrest", kind) is not None:

@@ -26,9 +26,8 @@ from contact_sim_pkg.rigs.vehicle.coupling_model import (
 from contact_sim_pkg.rigs.vehicle.lattice import field_settings, occupant_mass, standing_load
 from contact_sim_pkg.rigs.vehicle.parameters import MasslessNode, Seat, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
-from contact_sim_pkg.rigs.vehicle.seat.cushion import build_pan_cushion
+from contact_sim_pkg.rigs.vehicle.seat.cushion import SeatMap, build_pan_cushion, build_seat_map
 from contact_sim_pkg.rigs.vehicle.seat.lean import Lean, build_back, interface_at_rest, pose_of, rest_of
-from contact_sim_pkg.rigs.vehicle.seat.mat import SeatMap, build_seat_map
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OccupantModel
 from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap, shape_of
 from contact_sim_pkg.rigs.vehicle.tire import schema as tire_schema
@@ -90,9 +89,6 @@ def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
     seat = None if occupant is None else _seat(scene, occupant, lean, offset=behind)
     cushion = None if occupant is None else build_pan_cushion(scene, rest_of(occupant, pose_of(lean), GRAVITY).pan)
     seat_contact = None if seat is None else _seat_contact(scene, seat, lean, cushion, seat_field, shape)
-    seat_map = None
-    if given_seat is not None and seat_contact is not None:
-        seat_map = build_seat_map(scene, given_seat.body, seat_contact.elastic, cushion)
     rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
     if occupant is not None and seat is not None and seat_contact is not None and lean is not None:
         last = _behind_foam(scene, seat, lean) + (0 if seat.softening is None else 1)
@@ -116,7 +112,7 @@ def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
         asperities=None if tire is None else tire.asperities,
         seat_field=seat_field,
         seat_shape=shape,
-        seat_map=seat_map,
+        seat_map=build_seat_map(scene, cushion),
         corrector_passes=max(
             (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
             default=0,

@@ -38,7 +38,7 @@ def validate(root: MappingNode, file: str, known: Iterable[Fault] = (), rules: I
 
     Raises:
         SceneError: with all faults. A key with a fault of its own takes no part in the rules. A key
-            that was renamed is one of them; its value is checked under the new name.
+            that was renamed or removed is one of them; a renamed one's value is checked under the new name.
     """
     validator = _Validator(root, [*known, *use_new_names(root)])
     scene = validator.types()

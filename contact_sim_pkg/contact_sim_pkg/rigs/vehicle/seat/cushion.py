@@ -1,17 +1,29 @@
-"""The foam cushion of a scene under buttocks and thighs."""
+"""The foam cushion of a scene under buttocks and thighs, and its map."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import NamedTuple
+
 import numpy
+from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.cushion.foam_layer import FoamLayer
 from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, pan_gap
-from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion
+from contact_sim_pkg.rigs.vehicle.seat.schema import CushionMap, SeatCushion
 from contact_sim_pkg.run.contact_laws import Cushion, PressingBody, build_cushion, layer_under
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 
 BEHIND, AHEAD, HALF_WIDTH = 0.24, 0.48, 0.32  # [m] of the cells, from the tuberosities
+
+
+class SeatMap(NamedTuple):
+    """Pressure map of a seat pan: x forward from the tuberosities, y left."""
+
+    cells: tuple[float, float, float, float]  # [m] sizes of a cell along x and y, centre of cell (0, 0)
+    fields: int  # maps a block
+    pressure: Callable[[float, float], NDArray[numpy.float64]]  # approach [m], force [N] -> [rows, cols] [Pa]
 
 
 def build_pan_cushion(scene: ResolvedScene, load: float) -> Cushion | None:
@@ -20,6 +32,13 @@ def build_pan_cushion(scene: ResolvedScene, load: float) -> Cushion | None:
     """
     keys = scene.effect("seat", SeatCushion)
     return None if keys is None else build_cushion("seat", keys, load, _body(keys))
+
+
+def build_seat_map(scene: ResolvedScene, cushion: Cushion | None) -> SeatMap | None:
+    """The map of a scene's ``cushion``; None where the scene does not call for one."""
+    if cushion is None or scene.effect("seat", CushionMap) is None:
+        return None
+    return SeatMap(cushion.cells, round(scene.block_length * scene.outputs.field_rate), cushion.pressure)
 
 
 def pan_layer(keys: SeatCushion) -> FoamLayer:

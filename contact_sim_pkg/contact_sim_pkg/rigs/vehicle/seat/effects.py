@@ -90,11 +90,6 @@ SEAT_EFFECTS = (
         called_for=choice_of_model("the cushion of the paper; foam on a seat shell is a cushion of finite thickness"),
     ),
     Effect(
-        name="pressure_mat", section=f"{_SCHEMA}:PressureMat", help="pressure map of a point contact",
-        needs=("normal_elastic",), excludes=("cushion", "contact_field", "half_space_field"), publishes="patch", feeds=("patch",),
-        called_for=choice_of_model("needed where a map of the pressure is requested"),
-    ),
-    Effect(
         name="softening", section=f"{_SCHEMA}:SofteningSection", help="occupant that softens with vibration",
         source="Huang and Griffin 2006", feeds=("force", "wrench"), called_for=_softening,
     ),

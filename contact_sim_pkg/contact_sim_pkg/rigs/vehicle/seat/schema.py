@@ -165,7 +165,7 @@ class SeatSection(Section):
     """Occupant on a cushion that stands on the floor."""
 
     occupant: OccupantSection = Field(default_factory=OccupantSection, description="masses on the cushion")
-    body: Body = Field(default_factory=Body, description="shape of the body; acts in half_space_field and pressure_mat")
+    body: Body = Field(default_factory=Body, description="shape of the body; acts in half_space_field")
     pan_tilt: float | None = number(
         0.0, 0.6, "rad", f"tilt of the pan, front edge up; rig occupant alone, {PAN_TILT:g} by default", default=None
     )
@@ -268,14 +268,3 @@ class SofteningSection(Section):
     time_constant: float = number(0.1, 60.0, "s", "of the running mean square", default=5.0)
     least: float = number(0.01, 10.0, "m/s^2", "rms below which nothing changes", default=0.25)
     most: float = number(0.01, 100.0, "m/s^2", "rms above which nothing changes, above least", default=2.5)
-
-
-class PressureMat(Section):
-    """Pressure under the occupant of the point contact's force: spread over the cells as a bed of
-    springs under the body would.
-    """
-
-    length: float = number(0.05, 5.0, "m", "extent forward", default=0.6)
-    width: float = number(0.05, 5.0, "m", "extent to the left", default=0.5)
-    rows: int = number(4, 256, "", "cells forward", default=36)
-    cols: int = number(4, 256, "", "cells to the left", default=30)
