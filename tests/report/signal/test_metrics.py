@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from contact_sim_pkg.report.signal.metrics import ride_metrics, root_mean_square, seat_factor
+from contact_sim_pkg.report.signal.metrics import ride_metrics, root_mean_square, seat_factor, weighted_rms
+from contact_sim_pkg.report.signal.spectrum import power_density
 from contact_sim_pkg.report.signal.weighting import WD
 
 # |Wk| at the true third-octave centres, from the table of ISO 8041-1.
@@ -28,6 +29,14 @@ def test_a_sine_of_unit_rms_is_weighted_by_the_gain_at_its_frequency(frequency, 
     assert metrics.rms == pytest.approx(1.0, rel=1e-4)
     assert metrics.weighted_rms == pytest.approx(gain, rel=2e-3)
     assert metrics.vibration_dose == pytest.approx(1.10668 * gain * duration**0.25, rel=2e-3)
+
+
+@pytest.mark.parametrize(("frequency", "gain"), SINE_CASES)
+def test_the_weighted_rms_of_a_sine_follows_from_its_density(frequency, gain):
+    rate = 1000.0
+    sine = math.sqrt(2.0) * np.sin(2.0 * np.pi * frequency * np.arange(0.0, 300.0, 1.0 / rate))
+
+    assert weighted_rms(power_density(sine, rate)) == pytest.approx(gain, rel=1e-2)  # Wk over bins of 0.25 Hz
 
 
 @pytest.mark.parametrize(("width", "peak", "weighted", "crest", "dose"), SHOCK_CASES)

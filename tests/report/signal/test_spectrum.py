@@ -1,10 +1,10 @@
-"""Spectra against closed forms: a sine's variance, white noise, and a one-mass oscillator."""
+"""Spectra against scipy and closed forms: a sine's variance, white noise, and a one-mass oscillator."""
 
 import numpy as np
 import pytest
 import scipy.signal
 
-from contact_sim_pkg.report.signal.spectrum import power_density, segment_samples, transmissibility
+from contact_sim_pkg.report.signal.spectrum import Welch, power_density, segment_samples, transmissibility
 
 RATE = 500.0
 
@@ -68,3 +68,52 @@ def test_number_of_segments_is_the_number_that_fits(samples):
 
     assert 1 <= length <= samples
     assert power_density(np.arange(float(samples)), RATE).segments == len(starts)
+
+
+def noises(signals, samples):
+    """Coloured noises with offsets, the later ones following the first in part."""
+    white = np.random.default_rng(5).normal(size=(signals, samples))
+    return np.cumsum(white, axis=0) + 9.81
+
+
+@pytest.mark.parametrize(("samples", "length"), [(9000, 2000), (9000, 1001), (4000, 4000), (50, 4), (9, 3), (7, 2)])
+def test_cross_densities_are_those_of_scipy(samples, length):
+    signals = noises(3, samples)
+    welch = Welch(3, length, RATE)
+    ends = list(welch.advance(signals))
+    found = welch.mean()
+
+    for source in range(3):
+        for target in range(3):
+            frequency, expected = scipy.signal.csd(signals[source], signals[target], RATE, nperseg=length)
+            np.testing.assert_allclose(found.frequency, frequency, rtol=1e-14)
+            difference = np.abs(found.density[source, target] - expected)
+            assert difference.max() <= 1e-10 * np.abs(expected).max()
+    assert ends == list(range(length - 1, samples, length - length // 2))
+    assert found.segments == len(ends)
+
+
+def test_responses_are_those_of_scipy():
+    source, target = noises(2, 9000)
+    length = segment_samples(9000, RATE)
+    _, cross = scipy.signal.csd(source, target, RATE, nperseg=length)
+    _, power = scipy.signal.welch(source, RATE, nperseg=length)
+    _, coherence = scipy.signal.coherence(source, target, RATE, nperseg=length)
+
+    found = transmissibility(source, target, RATE)
+
+    np.testing.assert_allclose(found.magnitude, np.abs(cross / power), rtol=1e-10)
+    np.testing.assert_allclose(found.phase, np.angle(cross / power), atol=1e-10)
+    np.testing.assert_allclose(found.coherence, coherence, rtol=1e-10)
+
+
+@pytest.mark.parametrize("part", [1, 7, 100, 300])
+def test_signals_in_parts_give_the_bits_of_the_whole(part):
+    signals = noises(2, 900)
+    whole, parts = Welch(2, 200, RATE), Welch(2, 200, RATE)
+
+    ends = list(whole.advance(signals))
+    found = [first + end for first in range(0, 900, part) for end in parts.advance(signals[:, first : first + part])]
+
+    assert found == ends
+    assert parts.mean().density.tobytes() == whole.mean().density.tobytes()

@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_sim_pkg.report.signal.weighting import WK, Weighting, apply_weighting
+from contact_sim_pkg.report.signal.spectrum import Density
+from contact_sim_pkg.report.signal.weighting import WK, Weighting, apply_weighting, response
 
 
 class RideMetrics(NamedTuple):
@@ -42,6 +43,14 @@ def ride_metrics(acceleration: NDArray[np.float64], sample_rate: float, weightin
         vibration_dose=float((np.sum(weighted**4) / sample_rate) ** 0.25),
         crest_factor=largest / weighted_rms if weighted_rms > 0.0 else math.nan,
     )
+
+
+def weighted_rms(spectrum: Density, weighting: Weighting = WK) -> float:
+    """Weighted rms a_w = sqrt(int |H(f)|^2 S(f) df) [m/s^2] of an acceleration by its power spectral
+    density S [(m/s^2)^2/Hz], at least two frequencies: motion slower than a segment is left out.
+    """
+    power = np.abs(response(weighting, spectrum.frequency)) ** 2 * spectrum.density
+    return float(np.sqrt(np.sum(power) * spectrum.frequency[1]))
 
 
 def seat_factor(seat: float, floor: float) -> float:

@@ -1,11 +1,13 @@
-"""Power spectral density and transmissibility by Welch's method (scipy)."""
+"""Cross spectral densities, power spectral density and transmissibility by Welch's method, of a
+whole record or while a run goes on.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-import scipy.signal
 from numpy.typing import NDArray
 
 SEGMENT_TIME = 4.0
@@ -16,6 +18,8 @@ LEAST_SEGMENTS = 8
 """Segments (half overlapping) that a shorter record is cut into; the coherence of one segment would
 always be 1.
 """
+HIGHEST_FREQUENCY = 80.0
+"""[Hz] upper end of the range of whole-body vibration"""
 
 
 class Density(NamedTuple):
@@ -43,6 +47,91 @@ class Transmissibility(NamedTuple):
     """number of segments averaged"""
 
 
+class CrossDensity(NamedTuple):
+    """One-sided cross spectral densities of several signals."""
+
+    frequency: NDArray[np.float64]
+    """[Hz] from 0"""
+    density: NDArray[np.complex128]
+    """[signals, signals, frequencies], S_xy of signals x and y: mean of conj(X) Y [unit_x unit_y/Hz]"""
+    segments: int
+    """number of segments averaged"""
+
+    def power(self, signal: int) -> Density:
+        """Power spectral density of one signal."""
+        return Density(self.frequency, self.density[signal, signal].real, self.segments)
+
+    def response(self, source: int, target: int) -> Transmissibility:
+        """Response of one signal to another, nan at frequencies at which the source has no power."""
+        cross = self.density[source, target]
+        power_source, power_target = self.power(source).density, self.power(target).density
+        with np.errstate(divide="ignore", invalid="ignore"):
+            # H1 estimate: noise of the target averages out
+            ratio = cross / power_source
+            coherence = np.abs(cross) ** 2 / (power_source * power_target)
+        defined = power_source > 0.0
+        magnitude, phase, coherence = (
+            np.where(defined, each, np.nan) for each in (np.abs(ratio), np.angle(ratio), coherence)
+        )
+        return Transmissibility(self.frequency, magnitude, phase, coherence, self.segments)
+
+
+class Welch:
+    """Welch's method on signals that come part by part: Hann window, half overlap, mean of each
+    segment removed. It keeps one segment of samples and the sums over all of them, so the parts do
+    not change the result. Source: Welch 1967, IEEE Trans. Audio Electroacoust. 15.
+    """
+
+    def __init__(self, signals: int, length: int, sample_rate: float) -> None:
+        """Begin without a sample.
+
+        Args:
+            signals: number of signals, >= 1.
+            length: samples of a segment, >= 1.
+            sample_rate: [Hz] > 0.
+        """
+        self._length, self._sample_rate = length, sample_rate
+        # Periodic: half-overlapping windows add up to 1
+        self._window = np.sin(np.pi * np.arange(length) / length) ** 2 if length > 1 else np.ones(1)
+        self._segment = np.zeros((signals, length))
+        self._filled = 0
+        self._sums = np.zeros((signals, signals, length // 2 + 1), dtype=np.complex128)
+        self.segments = 0
+
+    def advance(self, samples: NDArray[np.float64]) -> Iterator[int]:
+        """Take the next samples [signals, samples], any units, as the result is iterated over:
+        numbers of the samples that end a segment, each when that segment is in the sums.
+        """
+        first, count = 0, samples.shape[1]
+        while first < count:
+            taken = min(count - first, self._length - self._filled)
+            self._segment[:, self._filled : self._filled + taken] = samples[:, first : first + taken]
+            self._filled += taken
+            first += taken
+            if self._filled == self._length:
+                self._add_segment()
+                yield first - 1
+
+    def _add_segment(self) -> None:
+        """Add the spectra of a full segment to the sums, and keep the half that the next one
+        shares.
+        """
+        centred = self._segment - self._segment.mean(axis=1, keepdims=True)
+        spectra = np.fft.rfft(centred * self._window)
+        self._sums += spectra.conj()[:, None] * spectra
+        self.segments += 1
+        self._filled = self._length // 2
+        self._segment[:, : self._filled] = self._segment[:, self._length - self._filled :]
+
+    def mean(self) -> CrossDensity:
+        """Mean over the segments so far, at least one."""
+        frequency = np.fft.rfftfreq(self._length, 1.0 / self._sample_rate).astype(np.float64)
+        density = self._sums / (self.segments * self._sample_rate * np.sum(self._window**2))
+        # One-sided: every frequency but 0, and half the rate, stands for its negative too
+        density[:, :, 1 : (self._length + 1) // 2] *= 2.0
+        return CrossDensity(frequency, density, self.segments)
+
+
 def segment_samples(samples: int, sample_rate: float) -> int:
     """Samples a segment: 4 s, or less so that a short record still gives 8 half-overlapping
     segments; sample_rate: [Hz]."""
@@ -58,9 +147,7 @@ def power_density(values: NDArray[np.float64], sample_rate: float) -> Density:
         values: [unit] one dimension, at least 2 samples.
         sample_rate: [Hz] > 0.
     """
-    length = segment_samples(values.size, sample_rate)
-    frequency, density = scipy.signal.welch(values, sample_rate, nperseg=length)
-    return Density(frequency, density, _count_segments(values.size, length))
+    return _cross_density(values[np.newaxis], sample_rate).power(0)
 
 
 def transmissibility(source: NDArray[np.float64], target: NDArray[np.float64], sample_rate: float) -> Transmissibility:
@@ -73,24 +160,17 @@ def transmissibility(source: NDArray[np.float64], target: NDArray[np.float64], s
         target: [unit] same shape.
         sample_rate: [Hz] > 0.
     """
-    length = segment_samples(source.size, sample_rate)
-    frequency, power_source = scipy.signal.welch(source, sample_rate, nperseg=length)
-    _, power_target = scipy.signal.welch(target, sample_rate, nperseg=length)
-    _, cross = scipy.signal.csd(source, target, sample_rate, nperseg=length)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # H1 estimate: noise of the target averages out
-        ratio = cross / power_source
-        coherence = np.abs(cross) ** 2 / (power_source * power_target)
-    defined = power_source > 0.0
-    return Transmissibility(
-        frequency,
-        np.where(defined, np.abs(ratio), np.nan),
-        np.where(defined, np.angle(ratio), np.nan),
-        np.where(defined, coherence, np.nan),
-        _count_segments(source.size, length),
-    )
+    return _cross_density(np.stack([source, target]), sample_rate).response(0, 1)
 
 
-def _count_segments(samples: int, length: int) -> int:
-    step = length - length // 2
-    return (samples - length) // step + 1
+def band(frequency: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Mask [frequencies] of the ``frequency`` [Hz] of whole-body vibration: above 0, up to 80 Hz."""
+    inside: NDArray[np.bool_] = (frequency > 0.0) & (frequency <= HIGHEST_FREQUENCY)
+    return inside
+
+
+def _cross_density(signals: NDArray[np.float64], sample_rate: float) -> CrossDensity:
+    welch = Welch(len(signals), segment_samples(signals.shape[1], sample_rate), sample_rate)
+    for _end in welch.advance(signals):
+        pass
+    return welch.mean()

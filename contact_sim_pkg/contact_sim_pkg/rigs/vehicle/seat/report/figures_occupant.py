@@ -9,10 +9,9 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from contact_sim_pkg.report.drawing import INK, Picture, picture
-from contact_sim_pkg.report.signal.spectrum import Transmissibility
+from contact_sim_pkg.report.signal.spectrum import HIGHEST_FREQUENCY, Transmissibility
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import apparent_mass, seat_to_head
 from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import (
-    HIGHEST_FREQUENCY,
     TRUSTED_COHERENCE,
     response_figure,
     trusted_part,

@@ -8,11 +8,16 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
-from contact_sim_pkg.report.signal.spectrum import Density, Transmissibility, power_density, transmissibility
+from contact_sim_pkg.report.signal.spectrum import (
+    HIGHEST_FREQUENCY,
+    Density,
+    Transmissibility,
+    band,
+    power_density,
+    transmissibility,
+)
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals
 
-HIGHEST_FREQUENCY = 80.0
-"""[Hz] upper end of the range of whole-body vibration"""
 TRUSTED_COHERENCE = 0.9
 DRIVEN_SHARE = 1e-3
 """Share of the floor's largest density below which its leakage, not its motion, is measured."""
@@ -89,12 +94,6 @@ def response_figure(result: Transmissibility, trusted: NDArray[np.bool_], label:
     axes[2].set_xlabel("frequency, Hz")
     _frequency_axis(axes[2], result.frequency)
     return figure, list(axes)
-
-
-def band(frequency: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Mask [frequencies] of the ``frequency`` [Hz] that are drawn: above 0, up to 80 Hz."""
-    inside: NDArray[np.bool_] = (frequency > 0.0) & (frequency <= HIGHEST_FREQUENCY)
-    return inside
 
 
 def _transmissibility_caption(result: Transmissibility, trusted: NDArray[np.bool_]) -> str:
