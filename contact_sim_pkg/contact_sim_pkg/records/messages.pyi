@@ -345,6 +345,27 @@ class RollerVolumes(_Record):
     with_bending: NDArray[numpy.float64] = ...
 
 @dataclass(frozen=True, kw_only=True)
+class SeatResponse(_Record):
+    block: int
+    segments: int
+    segment_length: float
+    floor_weighted_rms: float
+    seat_weighted_rms: float
+    seat_factor: float
+    frequency: NDArray[numpy.float64]
+    floor_density: NDArray[numpy.float64]
+    seat_density: NDArray[numpy.float64]
+    transmissibility: NDArray[numpy.float64]
+    transmissibility_phase: NDArray[numpy.float64]
+    transmissibility_coherence: NDArray[numpy.float64]
+    apparent_mass: NDArray[numpy.float64]
+    apparent_mass_phase: NDArray[numpy.float64]
+    apparent_mass_coherence: NDArray[numpy.float64]
+    seat_to_head: NDArray[numpy.float64] = ...
+    seat_to_head_phase: NDArray[numpy.float64] = ...
+    seat_to_head_coherence: NDArray[numpy.float64] = ...
+
+@dataclass(frozen=True, kw_only=True)
 class SolverCost(_Record):
     block: int
     wall_time: float

@@ -75,16 +75,22 @@ def test_the_topics_of_a_scene_appear_as_in_the_table(name):
 
 
 def test_the_counts_of_messages_in_a_bag_follow_from_the_rates(tmp_path):
-    values = ("duration=0.05", "outputs.display_rate=200", "outputs.field_rate=500", "effects.seat.contact_field={}")
+    values = (
+        "duration=0.5", "outputs.display_rate=200", "outputs.field_rate=500", "seat.response_segment=0.1",
+        "effects.seat.contact_field={}",
+    )  # fmt: skip
+    expected = {
+        "every `block_length`": 50, "`outputs.display_rate`": 100, "`outputs.field_rate`": 250, "once": 1,
+        "every half of `seat.response_segment`": 8,
+    }  # fmt: skip
     run_offline(resolved("seat_ride", *values), tmp_path / "bag")
     bag, counted = open_bag(tmp_path / "bag"), 0
     for name, topic in TOPICS.items():
         rate = topic.rate.partition(",")[0]
-        expected = {"every `block_length`": 5, "`outputs.display_rate`": 10, "`outputs.field_rate`": 25, "once": 1}
         if full_name(name) in bag.topics:
             assert bag.count(full_name(name)) == expected[rate], name
             counted += 1
-    assert counted == 8
+    assert counted == 9
 
 
 def test_a_renamed_key_is_listed(monkeypatch):

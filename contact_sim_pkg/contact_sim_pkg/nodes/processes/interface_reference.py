@@ -109,14 +109,16 @@ def _conditions(rig: str) -> Iterator[tuple[str, str]]:
         for effect in contact.effects:
             added = [topic for topic in _published(rig, contact.name, effect.name) if topic not in base]
             yield from ((topic, f"`{effect.name}`") for topic in added)
-    yield from ((topic, "`impact.course_samples`") for topic in _published(rig, course=1) if topic not in base)
+        for key in {each.key for each in contact.topics if each.key}:
+            added = [topic for topic in _published(rig, contact.name, key=key) if topic not in base]
+            yield from ((topic, f"`{contact.name}.{key}`") for topic in added)
 
 
-def _published(rig: str, contact: str = "", effect: str = "", course: int = 0) -> list[str]:
+def _published(rig: str, contact: str = "", effect: str = "", key: str = "") -> list[str]:
     effects: dict[str, dict[str, Any]] = {contact.name: {} for contact in rigs()[rig].contacts}
     if effect:
         effects[contact][effect] = {}
-    return result_topics(ResolvedScene({"rig": rig, "effects": effects, "impact": {"course_samples": course}}))
+    return result_topics(ResolvedScene({"rig": rig, "effects": effects, contact: {key: 1}}))
 
 
 class FieldRow(NamedTuple):

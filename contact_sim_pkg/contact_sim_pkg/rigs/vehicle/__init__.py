@@ -8,6 +8,8 @@ from contact_sim_pkg.rigs.vehicle.tire.effects import TIRE_EFFECTS
 
 __all__ = ["RIGS", "SEAT", "TIRE"]
 
+RESPONSE = "every half of `seat.response_segment`, from its second segment on"
+
 TIRE = Contact(
     name="tire",
     help="contact between tire and road",
@@ -23,8 +25,13 @@ SEAT = Contact(
     section=f"{__name__}.seat.schema:SeatSection",
     section_help="occupant and cushion (rigs seat and car); defaults where absent",
     effects=SEAT_EFFECTS,
-    rules=(f"{__name__}.seat.schema_rules:occupant_breaches",),
-    topics=(FORCE, WRENCH, PATCH),
+    rules=tuple(f"{__name__}.seat.schema_rules:{name}" for name in ("occupant_breaches", "response_breaches")),
+    topics=(
+        FORCE,
+        WRENCH,
+        PATCH,
+        ContactTopic("response", "contact_msgs_defs/msg/SeatResponse", RESPONSE, "response_segment"),
+    ),
 )
 _SIMULATION = f"{__name__}.simulation:Simulation"
 _OTHER_HALF = f"{__name__}.other_half:compile_all_but_fields"

@@ -16,6 +16,8 @@ from contact_sim_pkg.rigs.vehicle.coupling import Coupling
 from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive
 from contact_sim_pkg.rigs.vehicle.model import Model, build
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord, block_outputs
+from contact_sim_pkg.rigs.vehicle.seat.response import RunningResponse
+from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
 from contact_sim_pkg.rigs.vehicle.tire.rolling_shear import RollingShear
 from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
 from contact_sim_pkg.run.outputs import NANOSECONDS, BlockStamps, largest
@@ -46,6 +48,14 @@ class Simulation:
 
     def _reset(self) -> None:
         self._start_energy: Vector | None = None  # of the run
+        self._response = self._new_response()
+
+    def _new_response(self) -> RunningResponse | None:
+        """Responses of the seat before the first block; None where the scene calls for none."""
+        if self.model.occupant is None:
+            return None
+        segment = self.scene.section(SeatSection).response_segment
+        return RunningResponse(segment, self.scene.outputs.force_rate, self.model.occupant.head) if segment else None
 
     def prepare(self) -> None:
         """Compile or load every kernel that the scene needs, by one interval on a flat road."""
@@ -111,6 +121,8 @@ class Simulation:
             record.field_residual = max(record.field_residual, residual)
         self._map_seat(record)
         outputs = self._outputs(record, began)
+        if self._response is not None:
+            outputs += self._response.outputs(BlockStamps(block, self.model.timing), outputs)
         load, peak = largest(outputs, "force", "normal"), largest(outputs, "patch", "peak")
         return BlockResult(outputs, load, peak, time.perf_counter() - began)
 

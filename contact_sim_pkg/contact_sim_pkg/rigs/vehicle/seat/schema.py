@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field
 
+from contact_sim_pkg.report.signal.spectrum import segment_samples
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OCCUPANTS, SEATED_MASS, Link, OccupantModel, scaled, stiffened
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
 from contact_sim_pkg.scene.schema.laws import (
@@ -179,8 +180,27 @@ class SeatSection(Section):
     )
     cushion_poisson: float = number(0.0, 0.5, "", "Poisson's ratio of the foam; acts in half_space_field", default=0.3)
 
+    response_segment: float | None = number(
+        0.0,
+        1000.0,
+        "s",
+        "segment of Welch's method in seat/response, half overlapping; 0: none; by default 4 s, less in a run of less than 18 s",
+        default=None,
+    )
+
     def open_values(self, scene: Scene) -> dict[str, Any]:
-        return {"pan_tilt": PAN_TILT} if scene.rig == "occupant" else {}
+        rate = scene.outputs.force_rate
+        shortest, longest = segment_range(rate)
+        segment = segment_samples(round(scene.duration * rate), rate) / rate
+        segment = min(max(segment, shortest), longest)
+        return {"response_segment": segment, **({"pan_tilt": PAN_TILT} if scene.rig == "occupant" else {})}
+
+
+def segment_range(rate: float) -> tuple[float, float]:
+    """Shortest and longest segment [s] of the responses at a ``rate`` [Hz] of samples: frequencies of
+    10 Hz and its multiples, four samples; 2^18 samples, a memory of 40 MB.
+    """
+    return max(0.1, 4.0 / rate), 2.0**18 / rate
 
 
 class PowerElastic(PowerLaw):

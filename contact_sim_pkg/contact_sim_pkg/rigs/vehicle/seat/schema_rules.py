@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from contact_sim_pkg.rigs.vehicle.seat.schema import OWN, OccupantSection, SeatSection, SofteningSection
+from contact_sim_pkg.rigs.vehicle.seat.schema import OWN, OccupantSection, SeatSection, SofteningSection, segment_range
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.scene import Scene
@@ -25,6 +25,17 @@ def occupant_breaches(scene: Scene) -> Iterator[Breach]:
     if softening is not None and softening.least >= softening.most:
         sentence = f"{show(softening.least)} m/s^2 is not below most ({show(softening.most)} m/s^2)"
         yield Breach("effects.seat.softening.least", sentence)
+
+
+def response_breaches(scene: Scene) -> Iterator[Breach]:
+    """A segment of the responses that is too short, or of more samples than memory has room for."""
+    segment, rate = scene.section(SeatSection).response_segment, scene.outputs.force_rate
+    shortest, longest = segment_range(rate)
+    if segment and not shortest <= segment <= longest:
+        sentence = (
+            f"{show(segment)} s is outside {show(shortest)} to {show(longest)} s at {show(rate)} Hz; 0 leaves it out"
+        )
+        yield Breach("seat.response_segment", sentence, ("outputs.force_rate",))
 
 
 def _choice_breaches(section: OccupantSection) -> Iterator[Breach]:

@@ -10,11 +10,7 @@ from contact_sim_pkg.report.cushions import cushion_warnings
 from contact_sim_pkg.report.series import FloatArray, MotionSeries, Recording
 from contact_sim_pkg.report.signal.metrics import ride_metrics, seat_factor
 from contact_sim_pkg.report.tiles import Tile, number
-
-SEAT_BODIES = ("seat_frame_z",)
-"""The mass that rests on the cushion moves as the seat surface does."""
-FLOOR_BODIES = ("floor_z", "body_z")
-"""The seat stands on the platform, or on the body of the car."""
+from contact_sim_pkg.rigs.vehicle.seat.response import FLOOR_BODIES, SEAT_BODY
 
 
 class RideSignals(NamedTuple):
@@ -35,7 +31,7 @@ def ride_signals(motion: MotionSeries | None) -> RideSignals | None:
     """
     if motion is None or motion.time.size < 2:
         return None
-    seat = next((motion.acceleration[name] for name in SEAT_BODIES if name in motion.acceleration), None)
+    seat = motion.acceleration.get(SEAT_BODY)
     floor = next((motion.acceleration[name] for name in FLOOR_BODIES if name in motion.acceleration), None)
     if seat is None or floor is None:
         return None
