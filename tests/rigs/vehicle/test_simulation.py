@@ -2,10 +2,11 @@
 
 import numpy
 import pytest
+import scipy.signal
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.messages import decode
-from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger, SeatResponse
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.offline import run_offline
@@ -57,6 +58,19 @@ def test_the_wheel_accelerates_by_the_published_forces_alone(car):
         damper = 1500.0 * (motion.velocity[wheel] - motion.velocity[body])
         expected = (force.normal - spring - damper) / 40.0 - GRAVITY
         assert motion.acceleration[wheel] == pytest.approx(expected, abs=1e-8)
+
+
+def test_the_response_of_the_seat_in_a_car_is_over_its_body(car):
+    """Against scipy, by the published accelerations: segments of 0.222 s in a second."""
+    motions = [decode(BodyMotion, data) for data in car["bench/motion"]]
+    acceleration = dict(zip(motions[0].bodies, numpy.hstack([each.acceleration for each in motions]), strict=True))
+    last = decode(SeatResponse, car["seat/response"][-1])
+    given = {"fs": 1000.0, "nperseg": 222}
+    _, cross = scipy.signal.csd(acceleration["body_z"], acceleration["seat_frame_z"], **given)
+    _, power = scipy.signal.welch(acceleration["body_z"], **given)
+    assert (len(car["seat/response"]), last.segments) == (7, 8)
+    found = last.transmissibility * numpy.exp(1j * last.transmissibility_phase)
+    numpy.testing.assert_allclose(found, (cross / power)[1 : 1 + len(last.frequency)], rtol=1e-9)
 
 
 def test_energy_supplied_is_found_again(car):
