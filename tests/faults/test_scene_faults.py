@@ -268,11 +268,10 @@ def test_a8_millimetres_for_metres_are_caught(tmp_path):
 duration: 1
 travel: {speed: 10}
 road: {kind: bump, position: 5, height: 30, length: 600}
-tire: {radius_rolling: 300}
-effects: {tire: {normal_elastic: {}, contact_field: {length: 200}}}
+effects: {tire: {normal_elastic: {radius_rolling: 300}, contact_field: {length: 200}}}
 """
     assert [fault.where for fault in refusal(written(tmp_path, text)).faults] == [
-        "road.height", "road.length", "tire.radius_rolling", "effects.tire.contact_field.length",
+        "road.height", "road.length", "effects.tire.normal_elastic.radius_rolling", "effects.tire.contact_field.length",
     ]  # fmt: skip
 
 

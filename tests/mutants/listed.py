@@ -49,8 +49,8 @@ MUTANTS = (
         "weights[k] * now",
         ("test_tread_viscoelasticity",),
     ),
-    Mutant("brush.rolling_step", "(1.0 + slip)", "(1.0 - slip)", ("test_brush",)),
-    Mutant("tire/brush_steps.carry", "way * stress * 0.5", "way * stress", ("test_brush",)),
+    Mutant("rolling_brush.rolling_step", "(1.0 + slip)", "(1.0 - slip)", ("test_brush",)),
+    Mutant("tire/brush/steps.carry", "way * stress * 0.5", "way * stress", ("test_brush",)),
     # Rigid bodies
     Mutant("impact/law._left", "restitution**2", "restitution", ("impact/test_law",)),
     Mutant("impact/law._left", "taken = 0.5", "taken = 1.5", ("impact/test_law",)),

@@ -72,7 +72,7 @@ def test_a_subscriber_that_is_there_gets_every_byte_from_the_first_on(bag, repla
     assert (forces, scene) == (recorded(bag, "seat/force"), recorded(bag, "bench/scene"))
     count = open_bag(bag).count()
     assert f"{count} of {count} messages went out" in nodes.printed[-1]
-    assert any("2 subscriptions on 2 of 7 topics" in line for line in nodes.printed)
+    assert any("2 subscriptions on 2 of 8 topics" in line for line in nodes.printed)
 
 
 def test_a_subscriber_that_cannot_be_served_is_named_and_not_waited_for(bag, replay, listener):
@@ -95,7 +95,7 @@ def test_a_subscriber_that_cannot_be_served_is_named_and_not_waited_for(bag, rep
     assert [line.split(": ", 1)[1] for line in nodes.printed if "gets nothing" in line] == [
         "/listener gets nothing of /seat/force: it asks for a transient-local topic, the topic was recorded as volatile"
     ]
-    assert any("1 subscriptions on 1 of 7 topics" in line for line in nodes.printed)
+    assert any("1 subscriptions on 1 of 8 topics" in line for line in nodes.printed)
 
 
 def test_a_service_pauses_and_resumes_at_the_same_message(bag, replay, listener):

@@ -66,7 +66,7 @@ def test_the_full_bench_on_five_processes_under_load_records_the_same_bits_as_of
 
 
 def test_a_tire_with_every_effect_records_the_same_bits_as_offline(tmp_path):
-    effects = ("envelopment", "tread_viscoelasticity", "asperity_impulses")
+    effects = ("tread_viscoelasticity", "asperity_impulses")
     values = ("duration=0.2", "pace=max", *(f"effects.tire.{name}={{}}" for name in effects))
     options = [part for value in values for part in ("--set", value)]
     ended = bench("run", "tire_braking", *options, "--out", tmp_path / "nodes")

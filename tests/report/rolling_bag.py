@@ -35,12 +35,13 @@ road: {{kind: cleat}}
 tire:
   wheel_mass: 40.0
   body_mass: {MASS - 40.0}
-  radius_rolling: {RADIUS_X}
-  radius_lateral: {RADIUS_Y}
-  young_modulus: {YOUNG}
-  poisson_ratio: {POISSON}
 effects:
   tire:
+    normal_elastic:
+      radius_rolling: {RADIUS_X}
+      radius_lateral: {RADIUS_Y}
+      young_modulus: {YOUNG}
+      poisson_ratio: {POISSON}
     contact_field: {{rows: {ROWS}, cols: {COLS}}}
 """
 TOPICS = ("bench/scene", "road/patch", "tire/force", "tire/patch", "bench/motion")

@@ -2,7 +2,7 @@
 
 from contact_sim_pkg.records.messages import ContactPoints, ContactShear
 from contact_sim_pkg.rigs.backrest import entries
-from contact_sim_pkg.rigs.vehicle.tire import brush
+from contact_sim_pkg.rigs.vehicle.tire.brush import rolling_brush as brush
 
 
 def test_states_of_the_brush_are_those_of_contact_shear():

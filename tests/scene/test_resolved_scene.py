@@ -28,7 +28,7 @@ def test_a_section_has_the_values_of_the_scene(scene):
 def test_an_effect_is_found_by_its_class_or_one_above_it_and_is_none_where_it_is_absent(scene):
     assert isinstance(scene.effect("tire", BrushSection), BrushSection)
     assert isinstance(scene.effect("tire", PressureFieldSection), TireField)
-    assert scene.effect("tire", HuntCrossley).damping == 0.06
+    assert scene.effect("tire", HuntCrossley).damping == 0.015
     assert scene.effect("tire", Envelopment) is None
     assert scene.effect("seat", HuntCrossley) is None
 

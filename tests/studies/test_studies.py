@@ -14,7 +14,7 @@ from contact_sim_pkg.studies.goals import starts
 
 @pytest.fixture(scope="module")
 def tolerance_rows():
-    return accuracy_cost_integrator.tolerance_rows(load_resolved("tire_bump"), lambda text: None)
+    return accuracy_cost_integrator.tolerance_rows(load_resolved("tire_half_space"), lambda text: None)
 
 
 def test_the_error_of_the_time_integration_falls_with_the_tolerance(tolerance_rows):

@@ -14,6 +14,19 @@ class BeltSettings(NamedTuple):
     foundation: float  # [N/m^2] radial stiffness per length of circumference, > 0
 
 
+class InflatedBelt(NamedTuple):
+    """Belt of an inflated tire, an inextensible ring without its modes 0 and 1, rigid across its
+    width (``rigs/vehicle/tire/inflated_belt.py``).
+    """
+
+    radius: float  # [m]
+    tension: float  # [N]
+    foundation: float  # [N/m^2] radial, per length of circumference
+    tangential: float  # [N/m^2]
+    bending: float  # [N m^2]
+    ring_compliance: float  # [m/N] of the rigid ring against the rim; 0 where that is a body of its own
+
+
 class FieldSettings(NamedTuple):
     """Grid and accuracy of one pressure field."""
 
@@ -25,7 +38,7 @@ class FieldSettings(NamedTuple):
     tolerance: float  # complementarity residual requested of the solver
     maximum_iterations: int
     corrector_passes: int  # most repetitions of a coupling step with the field found at its end
-    belt: BeltSettings | None = None  # yields in series with the half-space
+    belt: BeltSettings | InflatedBelt | None = None  # yields in series with the half-space
 
 
 def widened(settings: FieldSettings) -> FieldSettings:

@@ -13,9 +13,10 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
-__all__ = ["Law", "Occupant", "Quarter", "normal_force", "states_at_segments"]
+__all__ = ["Law", "Occupant", "Quarter", "law_by_table", "normal_force", "power_law", "states_at_segments"]
 
 State = NDArray[numpy.float64]
 Rate = Callable[[float, State], State]
@@ -23,12 +24,11 @@ RELATIVE, ABSOLUTE = 1.0e-12, 1.0e-14
 
 
 class Law(NamedTuple):
-    """`F = coefficient x^exponent (1 + damping x') + B x^p sgn(x') |x'|^q` for x > 0, never below
-    `lowest`.
+    """`F = E(x) (1 + damping x') + B x^p sgn(x') |x'|^q` for x > 0, never below `lowest`; E [N] of x
+    [m] the elastic force.
     """
 
-    coefficient: float
-    exponent: float
+    elastic: Callable[[float], float]
     damping: float
     dissipation: tuple[float, float, float] = (0.0, 0.0, 1.0)  # B, p, q
     lowest: float = 0.0  # [N]; -inf where the contact may pull
@@ -37,7 +37,7 @@ class Law(NamedTuple):
         """The sum before it is limited, at an approach above 0."""
         b, p, q = self.dissipation
         viscous = b * approach**p * numpy.sign(rate) * abs(rate) ** q if b > 0.0 else 0.0
-        return float(self.coefficient * approach**self.exponent * (1.0 + self.damping * rate) + viscous)
+        return float(self.elastic(approach) * (1.0 + self.damping * rate) + viscous)
 
     def tension(self, approach: float, rate: float) -> float:
         """Positive while the contact does not pull; 1 where it may."""
@@ -46,6 +46,21 @@ class Law(NamedTuple):
         if self.dissipation[0] == 0.0:
             return 1.0 + self.damping * rate
         return self.unlimited(max(approach, 1e-9), rate)
+
+
+def power_law(coefficient: float, exponent: float) -> Callable[[float], float]:
+    """`E(x) = coefficient x^exponent`."""
+    return lambda approach: float(coefficient * approach**exponent)
+
+
+def law_by_table(spacing: float, force: State) -> Callable[[float], float]:
+    """Monotone cubic through `force` [N] at 0, `spacing`, 2 `spacing` ... [m] by scipy, straight beyond
+    the last.
+    """
+    curve = PchipInterpolator(spacing * numpy.arange(len(force)), force)
+    last = spacing * (len(force) - 1)
+    slope = float(curve.derivative()(last))
+    return lambda approach: float(curve(min(approach, last))) + slope * max(approach - last, 0.0)
 
 
 class Belt(NamedTuple):

@@ -122,7 +122,7 @@ def _grids(scene: Scene) -> Iterator[tuple[str, int, int]]:
         field = scene.effect(contact.name, PressureFieldSection)
         if field is not None:
             name = next(name for name, effect in scene.effects_at(contact) if effect is field)
-            yield f"effects.{contact.name}.{name}", *field.cells(scene.accuracy)
+            yield f"effects.{contact.name}.{name}", *field.cells(scene)
 
 
 def _sides(scene: Scene) -> Iterator[Breach]:

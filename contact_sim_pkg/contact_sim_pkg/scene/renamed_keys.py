@@ -15,6 +15,10 @@ from contact_sim_pkg.scene.yaml.nodes import MappingNode, Mark
 RENAMED: dict[str, str] = {
     "effects.tire.carcass": "effects.tire.rigid_ring",
     **{
+        f"tire.{key}": f"effects.tire.normal_elastic.{key}"
+        for key in ("radius_rolling", "radius_lateral", "young_modulus", "poisson_ratio")
+    },
+    **{
         f"effects.seat.contact_field.{key}": f"effects.seat.half_space_field.{key}"
         for key in ("length", "width", "rows", "cols", "tolerance", "corrector_passes")
     },

@@ -7,8 +7,8 @@ import pytest
 from tests.pressure.cushion.cushions import pan_layer
 
 from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force, elastic_stiffness
-from contact_sim_pkg.pressure.cushion.force_table import ForceTable, make_table
-from contact_sim_pkg.pressure.cushion.kept_tables import MOST_KEPT, kept_table
+from contact_sim_pkg.pressure.cushion.force_table import ForceTable, kept_table, make_table
+from contact_sim_pkg.pressure.kept_arrays import MOST_KEPT
 
 F_TABLE = (5.6, 18.2, 40.4, 88.8, 183.1, 293.4, 402.6, 512.2, 628.8, 759.6, 920.3, 1140.0, 1504.0)  # at 5, 10 ... 65 mm
 

@@ -26,9 +26,9 @@ ROADS = {
 
 
 @cache
-def run(*sets):
-    """Normal force of the tire at 1 kHz, and stretches, of 0.6 s of tire_bump with other values."""
-    scene = resolved("tire_bump", "duration=0.6", *sets)
+def run(*sets, scene="tire_bump"):
+    """Normal force of the tire at 1 kHz, and stretches, of 0.6 s of a scene with other values."""
+    scene = resolved(scene, "duration=0.6", *sets)
     simulation, sources = Simulation(scene), make_sources(scene)
     simulation.prepare()
     forces, costs = [], []
@@ -128,7 +128,7 @@ def test_a_wall_before_the_usual_grid_is_felt_before_it_enters(rate):
     """The far edge of a pothole 0.1 m deep is higher than the tire is at the end of its usual grid (33 mm at 0.14 m)."""
     pothole = ("travel.speed=5", "road={kind: pothole, position: 1.5, depth: 0.1, length: 0.6}")
     usual, costs = run(*pothole, f"outputs.force_rate={rate}")
-    large, _costs = run(*pothole, "effects.tire.contact_field.length=0.6", "effects.tire.contact_field.rows=96")
+    large, _costs = run(*pothole, "effects.tire.contact_field.length=0.6", "effects.tire.contact_field.rows=160")
     assert usual.max() == pytest.approx(large.max(), rel=0.02)
     assert usual[:: rate // 1000] == pytest.approx(large, abs=0.1 * large.max())
     assert max(cost.coupling_error for cost in costs) < 0.1
@@ -157,7 +157,7 @@ def test_a_wall_beyond_both_grids_is_refused_by_name(position):
     with pytest.raises(
         RunError, match=r"beyond its pressure grid of 0\.56 m, .* enlarge effects\.tire\.contact_field\.length"
     ):
-        run("travel={speed: 0.0}", f"road={{kind: step, position: {position}, height: 0.3}}")
+        run("travel={speed: 0.0}", f"road={{kind: step, position: {position}, height: 0.3}}", scene="tire_half_space")
 
 
 def test_a_belt_that_yields_beside_the_footprint_keeps_the_usual_grid():

@@ -14,12 +14,12 @@ from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
 TIRE = "effects.tire"
 
 
-def model(*values, name="tire_bump"):
+def model(*values, name="tire_half_space"):
     return build(resolved(name, *values))
 
 
 def test_a_loss_by_damping_or_by_default_reaches_the_contact():
-    assert model().rig.tire_contact.dissipative == NormalDissipative(0.06)
+    assert model().rig.tire_contact.dissipative == NormalDissipative(0.015)
     assert model(f"{TIRE}.normal_dissipative={{damping: 0.5}}").rig.tire_contact.dissipative == NormalDissipative(0.5)
     assert model(
         "effects.seat={normal_elastic: {}, normal_dissipative: {}}", name="seat_ride"
@@ -63,7 +63,7 @@ def test_the_numbers_of_belt_brush_tread_and_asperities_arrive():
     step = made.tread.step
     assert 0.01 / step == pytest.approx(round(0.01 / step))  # a field every 0.01 s is one of its instants
     assert (
-        10.0 * step <= 0.125 * 2.0 * made.tire_geometry.semi_axis_x
+        10.0 * step <= 0.125 * made.tire_geometry.footprint_length
     )  # [m] at 10 m/s: an eighth of the footprint at most
     raised = 1.0 + 0.01 / step + 0.3 * (0.02 / step) * (1.0 - numpy.exp(-step / 0.02))
     assert settings.modulus == pytest.approx(4e6 * raised)

@@ -19,7 +19,7 @@ def test_a_high_bump_is_run_on_two_grids_and_summarised(tmp_path):
     outcome = run_offline(resolved("tire_bump", "road.height=0.1", "duration=1.2"), tmp_path / "bag")
     assert outcome.failure == ""
     fields = [decode(ContactPatch, m.data) for m in open_bag(tmp_path / "bag").messages() if m.topic == "/tire/patch"]
-    assert {field.pressure.shape for field in fields} == {(48, 64), (96, 128)}
+    assert {field.pressure.shape for field in fields} == {(64, 48), (128, 96)}
     for field in fields:
         assert float(field.pressure.sum()) * field.cell_x * field.cell_y == pytest.approx(
             field.load, rel=1e-6, abs=1e-9
@@ -43,7 +43,7 @@ def test_a_grid_that_cannot_hold_the_standing_contact_is_refused_by_name():
     with pytest.raises(
         SceneError, match=r"effects\.tire\.contact_field: the contact does not fit .* enlarge length and width"
     ):
-        Simulation(resolved("tire_bump", "effects.tire.contact_field.length=0.02"))
+        Simulation(resolved("tire_half_space", "effects.tire.contact_field.length=0.02"))
 
 
 def patch(pressure, origin=(0.0, 0.0), cell=0.01):

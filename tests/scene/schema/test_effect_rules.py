@@ -10,12 +10,12 @@ from contact_sim_pkg.records.registry import contacts, effects
 EFFECTS = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
     "cushion", "half_space_field", "softening", "shell_modes", "contact_search", "rigid_ring", "envelopment",
-    "tread_viscoelasticity", "brush", "asperity_impulses",
+    "tread_viscoelasticity", "brush", "asperity_impulses", "inflation",
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
     "rigid_contact", "compliant_contact",
     "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
 )  # fmt: skip
-TIRE_ONLY = {"rigid_ring", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
+TIRE_ONLY = {"inflation", "rigid_ring", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
 OF_THE_ROLLER = (
     "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
 )  # fmt: skip
@@ -72,7 +72,9 @@ def allowed(contact, named):
     }[contact]  # fmt: skip
     if named & {"surface_waves", "history"} and "normal_dissipative" not in named:
         return False
-    if len(named & {"normal_elastic", "cushion"}) != 1 or named & refused:
+    if len(named & {"normal_elastic", "cushion", "inflation"}) != 1 or named & refused:
+        return False
+    if named >= {"inflation", "envelopment"}:
         return False
     if "cushion" in named and named & {"foam", "shell_modes", "half_space_field"}:
         return False

@@ -9,18 +9,21 @@ a contact multiplies force and pressure alike. A map never acts back on the forc
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.guards import require_positive
+from contact_sim_pkg.laws import foam_elastic
 from contact_sim_pkg.laws.parameters import TabulatedElastic
 from contact_sim_pkg.laws.tabulated_elastic import tabulated_law
 from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
 from contact_sim_pkg.pressure.cushion.foam_layer import Compression, CushionError, FoamLayer
+from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 
-__all__ = ["SPACING", "ForceTable", "make_table"]
+__all__ = ["SPACING", "ForceTable", "kept_table", "make_table"]
 
 Field = NDArray[numpy.float64]
 SPACING = 5e-4  # [m]; the force between two nodes is then right to 4e-4
@@ -92,3 +95,11 @@ def make_table(
         if on_progress is not None:
             on_progress(i / (nodes - 1))
     return ForceTable(spacing, layer.grid.cell_area, force[:nodes], strain[:nodes], pressure[:nodes], end)
+
+
+def kept_table(description: str, make: Callable[[], ForceTable], directory: Path | None = None) -> ForceTable:
+    """The table that ``description`` stands for, kept on disk (``kept_arrays``)."""
+    sources = (*sorted(Path(__file__).parent.glob("*.py")), Path(foam_elastic.__file__))
+    found = kept_arrays("cushions", description, sources, lambda: make()._asdict(), directory)
+    spacing, cell_area = (float(found.pop(name)) for name in ("spacing", "cell_area"))
+    return ForceTable(spacing, cell_area, end=str(found.pop("end")), **found)

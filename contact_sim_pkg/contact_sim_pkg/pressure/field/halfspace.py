@@ -61,6 +61,7 @@ class HalfSpace(NamedTuple):
     preconditioner: Field
     # [rows, 2 cols - 1] `influence` from cols - 1 cells on one side to as many on the other
     mirrored: Field
+    pushes_only: bool  # whether a pressure lifts the surface nowhere
 
 
 class Buffers(NamedTuple):
@@ -82,10 +83,11 @@ def make_half_space(
 
     rows, cols: number of cells along x and y; cell_x, cell_y: their size [m]; modulus: contact
     modulus E* [Pa]; further: influence [m/Pa] [rows, cols] of something else that yields under the
-    pressure, in series with the half-space; it must be positive and not grow with the distance, as
-    that of a belt does (`rigs/vehicle/tire/envelopment.py`). Raises `ValueError` for sizes that are
-    not positive and finite, counts that are not whole or outside 1 to 4096, and a `further` that is
-    negative or of another shape. A ratio cell_x/cell_y up to 100 either way is fine.
+    pressure, in series with the half-space, as a belt does (`rigs/vehicle/tire/inflated_belt.py`);
+    positive definite, and not growing with the distance within the size of a contact. Raises
+    `ValueError` for sizes that are not positive and finite, counts that are not whole or outside 1
+    to 4096, and a `further` of another shape or with a larger value than that of the loaded cell. A
+    ratio cell_x/cell_y up to 100 either way is fine.
     """
     rows = require_count("half-space: rows", rows, least=MINIMUM_CELLS, most=MAXIMUM_CELLS)
     cols = require_count("half-space: cols", cols, least=MINIMUM_CELLS, most=MAXIMUM_CELLS)
@@ -94,7 +96,8 @@ def make_half_space(
     # In series with the half-space: displacements under one pressure add up
     influence = love_coefficients(rows, cols, cell_x, cell_y) / (numpy.pi * modulus)
     if further is not None:
-        influence += require_values("half-space: further", further, "m/Pa", shape=(rows, cols), least=0.0)
+        largest = float(further[0, 0]) if numpy.shape(further) == (rows, cols) else numpy.inf
+        influence += require_values("half-space: further", further, "m/Pa", shape=(rows, cols), most=largest)
     return _half_space(influence, float(cell_x), float(cell_y), float(modulus))
 
 
@@ -138,6 +141,7 @@ def _half_space(influence: Field, cell_x: float, cell_y: float, modulus: float) 
         transfer=_transfer(influence),
         preconditioner=_preconditioner(influence, cell_x, cell_y, modulus),
         mirrored=numpy.ascontiguousarray(numpy.concatenate([influence[:, :0:-1], influence], axis=1)),
+        pushes_only=bool(influence.min() >= 0.0),
     )
 
 

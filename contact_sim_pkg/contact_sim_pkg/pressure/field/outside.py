@@ -4,7 +4,8 @@ do not decide.
 A window is enough if no cell outside it penetrates. The gap of a block of cells outside is not less
 than its lowest gap plus the displacement that the pressure of each block inside causes at the
 largest distance between the two. Only cells of blocks where that bound fails are evaluated, from
-the influence table. The bound holds for any influence that decays with distance.
+the influence table. The bound holds for any influence that decays with distance, to
+below 0 too.
 """
 
 from __future__ import annotations
@@ -270,7 +271,7 @@ def bound(half_space: HalfSpace, blocks: Blocks, i: int, j: int, side: int, dept
         away_x = max(i + side - 1 - loaded[k, 0], loaded[k, 0] + far - i)
         away_y = max(j + side - 1 - loaded[k, 1], loaded[k, 1] + far - j)
         total += blocks.pressures[k] * influence[min(away_x, last_row), min(away_y, last_col)]
-        if total >= depth:
+        if total >= depth and half_space.pushes_only:
             break
     return total
 

@@ -54,6 +54,7 @@ RIGS = (
             "tire_rough_road": 25,
             "tire_belgian_block": 26,
             "tire_texture": 27,
+            "tire_half_space": 28,
         },
         simulation=_SIMULATION,
         other_half=_OTHER_HALF,
@@ -65,7 +66,10 @@ RIGS = (
             f"{__name__}.studies.work_precision.{name}"
             for name in ("elliptic", "force", "smooth", "rough", "area", "exponent", "road")
         ),
-        hard_cases=tuple(f"{__name__}.studies.hard_cases_{name}" for name in ("tire", "scenes", "occupant")),
+        hard_cases=tuple(
+            f"{__name__}.studies.hard_cases_{name}" for name in ("tire", "inflation", "scenes", "occupant")
+        ),
+        validation=(f"{__name__}.studies.validation_tire",),
     ),
     Rig(
         name="seat",
@@ -97,7 +101,7 @@ RIGS = (
         contacts=(TIRE, SEAT),
         needs=("travel", "road"),
         takes=("slip", "vibration"),
-        scenes={"car_full_bench": 28},
+        scenes={"car_full_bench": 29},
         simulation=_SIMULATION,
         other_half=_OTHER_HALF,
         work=f"{__name__}.work:work_of_car",

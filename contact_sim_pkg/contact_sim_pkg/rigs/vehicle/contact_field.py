@@ -24,7 +24,7 @@ from contact_sim_pkg.pressure.field.halfspace import HalfSpace, make_half_space
 from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, refuse_bad_gap
 from contact_sim_pkg.pressure.settings import FieldSettings, widened
-from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
+from contact_sim_pkg.rigs.vehicle.tire.envelopment import yielding_of
 from contact_sim_pkg.scene.errors import Fault, SceneError
 
 Field = NDArray[numpy.float64]
@@ -49,8 +49,7 @@ class FieldEdgeError(FieldError):
 def half_space_of(settings: FieldSettings) -> HalfSpace:
     """Half-space of a field's grid, with the belt that yields beside it where there is one."""
     size = (settings.rows, settings.cols, settings.cell_x, settings.cell_y)
-    belt = None if settings.belt is None else belt_influence(settings.belt, *size)
-    return make_half_space(*size, settings.modulus, belt)
+    return make_half_space(*size, settings.modulus, yielding_of(settings.belt, *size))
 
 
 class PressureField:

@@ -77,10 +77,7 @@ def _rolling(model: Model, travel: Travel | None, block: int, road: Any) -> tupl
     _check_road(geometry, block, road)
     places = numpy.array([travel.position((block * steps + i) * timing.segment_length) for i in range(steps + 1)])
     smooth = numpy.empty(steps + 1)
-    inside = effective_heights(
-        road.height, road.first_row, geometry.lattice.cell_x, geometry.lattice.cell_y, geometry.semi_axis_x,
-        geometry.semi_axis_y, places, smooth,
-    )  # fmt: skip
+    inside = effective_heights(road.height, road.first_row, geometry.lattice.cell_x, geometry.weights, places, smooth)
     if not inside:
         raise RunError(
             f"{ROAD}: block {block} does not reach over the footprint from {places[0]:.6g} to {places[-1]:.6g} m"

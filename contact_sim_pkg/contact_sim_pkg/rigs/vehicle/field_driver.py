@@ -9,6 +9,7 @@ from abc import ABC, abstractmethod
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force
 from contact_sim_pkg.laws.normal_force import pressure_factor
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.pressure.settings import FieldSettings
@@ -25,6 +26,9 @@ from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape
 from contact_sim_pkg.run.errors import RunError
 
 Gap = NDArray[numpy.float64]
+
+AT_REST = 1e-8
+"""Tolerance of the field that a run starts from."""
 
 AS_PREDICTED = 0.1
 """Of the allowed height: a correction that differs by less from the expected one is as predicted.
@@ -141,7 +145,11 @@ class ContactField(ABC):
         for field in grids.both():
             try:
                 field.roll_to(self.road_row(field.settings))
-                approach = field.solve_load(self.gap(field.settings), load)
+                # A start must not shake: what the field misses of the load would
+                approach = field.solve_load(self.gap(field.settings), load, min(AT_REST, field.settings.tolerance))
+                level = self.level_height(field)
+                if level is not None and self.contact is not None:
+                    approach = float(approach_of_force(self.contact.elastic, load)) - level
                 if field is grids.wide:
                     self.refuse_beyond(grids, approach, 0)
                 elif self.touches_beyond(grids, approach):
@@ -186,9 +194,20 @@ class ContactField(ABC):
         field.roll_to(self.road_row(field.settings))
         field.solve(gap, approach)
         self.published = FieldRecord(field.pressure, *self.origin(field.settings), approach, self.travel)
+        level = self.level_height(field)
+        if level is not None:  # the law is exact, the field its map
+            force = float(elastic_force(self.contact.elastic, approach + level))
+            self.published = self.published._replace(pressure=field.pressure * (force / field.load))
+            return approach + level - geometric
         if field.load == 0.0:  # free: the nearest place may lie beyond the usual grid
             gap = self.gap(self.grids.wide.settings)
         return correction_of(self.contact.elastic, field, gap, approach, geometric)
+
+    def level_height(self, field: PressureField) -> float | None:
+        """Height [m] of what the contact of the last solution rests on, where that is level and the
+        law is made for it; None elsewhere.
+        """
+        return None
 
     def road_row(self, settings: FieldSettings) -> int:
         """Row of the road under the first row of a grid."""

@@ -8,13 +8,14 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from contact_sim_pkg.excitation.blocks import RoadLattice
-from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, widened
+from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt, widened
 from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, tire_body
 from contact_sim_pkg.scene.resolved_scene import plain
 
 if TYPE_CHECKING:
     from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection
-    from contact_sim_pkg.rigs.vehicle.tire.schema import Envelopment, TireSection
+    from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
     from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 
 FIELD_ITERATIONS = 400
@@ -24,7 +25,7 @@ SIGHT = 1.0  # of the tire's radius: how far the road is looked at beyond the pr
 
 
 def field_settings(
-    field: PressureFieldSection | None, modulus: float, envelopment: Envelopment | None = None
+    field: PressureFieldSection | None, modulus: float, belt: BeltSettings | InflatedBelt | None = None
 ) -> FieldSettings | None:
     """Grid and accuracy of a resolved pressure field over a ``modulus`` [Pa]; None where the scene
     calls for none.
@@ -32,17 +33,19 @@ def field_settings(
     if field is None:
         return None
     # A resolved scene leaves none of these open.
-    rows, cols, tolerance, passes = field.rows, field.cols, field.tolerance, field.corrector_passes
+    length, width, rows, cols = field.length, field.width, field.rows, field.cols
+    tolerance, passes = field.tolerance, field.corrector_passes
+    assert length is not None
+    assert width is not None
     assert rows is not None
     assert cols is not None
     assert tolerance is not None
     assert passes is not None
-    belt = None if envelopment is None else BeltSettings(envelopment.tension, envelopment.foundation)
     return FieldSettings(
         rows=rows,
         cols=cols,
-        cell_x=field.length / rows,
-        cell_y=field.width / cols,
+        cell_x=length / rows,
+        cell_y=width / cols,
         modulus=modulus,
         tolerance=tolerance,
         maximum_iterations=FIELD_ITERATIONS,
@@ -59,46 +62,44 @@ def occupant_mass(occupant: OccupantSection) -> float:
     return occupant.frame_mass + sum(occupant.masses)
 
 
-def contact_modulus(tire: TireSection) -> float:
-    """Plane-strain modulus E / (1 - nu^2) in [Pa] of the tire on a rigid road."""
-    return tire.young_modulus / (1.0 - tire.poisson_ratio**2)
-
-
 def standing_load(tire: TireSection, occupant: OccupantSection | None) -> float:
     """Load in [N] of the tire at rest, under an occupant where it carries one."""
     mass = tire.wheel_mass + tire.body_mass
     return (mass + (0.0 if occupant is None else occupant_mass(occupant))) * GRAVITY
 
 
-def tire_lattice(tire: TireSection, settings: FieldSettings | None, load: float) -> RoadLattice:
+def tire_lattice(body: TireBody, settings: FieldSettings | None, load: float) -> RoadLattice:
     """Lattice of the road under a tire: the cells of its field, or cells that hold its footprint
     under ``load`` [N].
     """
+    form = body.form
     if settings is not None:
         wide = widened(settings)
-        road_rows = max(wide.rows, 2 * math.ceil(SIGHT * tire.radius_rolling / settings.cell_x))
+        road_rows = max(wide.rows, 2 * math.ceil(SIGHT * form.radius_rolling / settings.cell_x))
         return RoadLattice(settings.rows, settings.cols, settings.cell_x, settings.cell_y, road_rows, wide.cols)
-    rows, cols = FOLLOWER_CELLS
-    modulus = contact_modulus(tire)
-    radius_x, radius_y = (
-        (0.75 * load * radius / modulus) ** (1.0 / 3.0) for radius in (tire.radius_rolling, tire.radius_lateral)
-    )
-    return RoadLattice(rows, cols, FOLLOWER_REACH * radius_x / rows, FOLLOWER_REACH * radius_y / cols, rows, cols)
+    (rows, cols), extent = FOLLOWER_CELLS, body.extent
+    if extent is None:
+        spheres = ((0.75 * load * radius / body.modulus) ** (1.0 / 3.0) for radius in form[:2])
+        length, width = (FOLLOWER_REACH * radius for radius in spheres)
+    else:
+        length, width = extent
+    return RoadLattice(rows, cols, length / rows, width / cols, rows, cols)
 
 
-def plain_tire(scene: dict[str, Any]) -> tuple[TireSection, OccupantSection | None]:
-    """The tire of a resolved scene's plain data, and the occupant that it carries in a car."""
-    tire: TireSection = plain(scene["tire"])
-    return tire, plain(scene["seat"]["occupant"]) if scene["rig"] == "car" else None
+def plain_load(scene: dict[str, Any]) -> float:
+    """Load in [N] at rest of the tire of a resolved scene's plain data, with the occupant that it
+    carries in a car.
+    """
+    occupant = plain(scene["seat"]["occupant"]) if scene["rig"] == "car" else None
+    return standing_load(plain(scene["tire"]), occupant)
 
 
-def plain_field(scene: dict[str, Any], modulus: float) -> FieldSettings | None:
-    """Grid of the tire's field of a resolved scene's plain data over a ``modulus`` [Pa]."""
-    effects = scene["effects"].get("tire") or {}
-    return field_settings(plain(effects.get("contact_field")), modulus, plain(effects.get("envelopment")))
+def plain_field(scene: dict[str, Any], body: TireBody) -> FieldSettings | None:
+    """Grid of the field of a resolved scene's plain data under its tire."""
+    return field_settings(plain(scene["effects"]["tire"].get("contact_field")), body.modulus, body.belt)
 
 
 def road_strip(scene: dict[str, Any]) -> RoadLattice:
     """The strip of road that the tire of a resolved scene's plain data needs."""
-    tire, occupant = plain_tire(scene)
-    return tire_lattice(tire, plain_field(scene, contact_modulus(tire)), standing_load(tire, occupant))
+    body = tire_body(scene["effects"]["tire"])
+    return tire_lattice(body, plain_field(scene, body), plain_load(scene))

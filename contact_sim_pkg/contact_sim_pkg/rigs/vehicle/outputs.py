@@ -14,7 +14,7 @@ from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactSh
 from contact_sim_pkg.rigs.vehicle import entries as columns
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
 from contact_sim_pkg.rigs.vehicle.model import Model
-from contact_sim_pkg.rigs.vehicle.tire.rolling_shear import Sheared
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import Sheared
 from contact_sim_pkg.run.contact_patch import contact_patch
 from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_ledger, solver_cost
 

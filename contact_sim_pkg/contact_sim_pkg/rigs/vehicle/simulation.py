@@ -18,7 +18,7 @@ from contact_sim_pkg.rigs.vehicle.model import Model, build
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord, block_outputs
 from contact_sim_pkg.rigs.vehicle.seat.response import RunningResponse
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
-from contact_sim_pkg.rigs.vehicle.tire.rolling_shear import RollingShear
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear
 from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
 from contact_sim_pkg.run.outputs import NANOSECONDS, BlockStamps, largest
 from contact_sim_pkg.run.sources import make_travel

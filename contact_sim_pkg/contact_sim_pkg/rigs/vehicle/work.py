@@ -10,6 +10,7 @@ from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
 from contact_sim_pkg.rigs.vehicle.tire.schema import RigidRingSection, TireSection
 from contact_sim_pkg.run.integrator_work import Link, integrator_steps, links_of_laws, segments
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
 
 __all__ = ["seat_steps", "tire_steps", "work_of_car", "work_of_seat", "work_of_tire"]
 
@@ -47,10 +48,10 @@ def seat_steps(scene: ResolvedScene) -> Iterator[Work]:
 
 
 def tire_steps(scene: ResolvedScene) -> Iterator[Work]:
-    """Steps of suspension and sidewalls; Hertz's law of the tire is softer than the latter."""
+    """Steps of suspension and sidewalls; the law of the tire is softer than the latter."""
     tire, ring = scene.section(TireSection), scene.effect("tire", RigidRingSection)
     least = min(tire.wheel_mass, tire.body_mass)
     links = [Link("suspension", least, tire.suspension_stiffness, tire.suspension_damping)]
     if ring is not None:
-        links.append(Link("rigid_ring", min(ring.belt_mass, least), ring.stiffness, ring.damping))
+        links.append(Link("rigid_ring", min(ring.belt_mass, least), given(ring.stiffness), given(ring.damping)))
     yield from integrator_steps(scene, "tire", links)

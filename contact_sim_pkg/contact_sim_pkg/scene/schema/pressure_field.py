@@ -8,6 +8,7 @@ from contact_sim_pkg.scene.schema.accuracy import level_of
 from contact_sim_pkg.scene.schema.fields import Section, number
 
 if TYPE_CHECKING:
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
     from contact_sim_pkg.scene.schema.scene import Scene
 
 MOST_CELLS_A_SIDE = 65536
@@ -33,8 +34,8 @@ class PressureFieldSection(Section):
     levels: ClassVar[tuple[GridSection, ...]]
     """One grid for each of `accuracy.LEVELS`."""
 
-    length: float = number(0.01, 5.0, "m", "extent forward")
-    width: float = number(0.01, 5.0, "m", "extent to the left")
+    length: float | None = number(0.01, 5.0, "m", "extent forward")
+    width: float | None = number(0.01, 5.0, "m", "extent to the left")
     rows: int | None = number(
         4, MOST_CELLS_A_SIDE, "", "cells along the field (forward); taken from accuracy when absent", default=None
     )
@@ -49,10 +50,15 @@ class PressureFieldSection(Section):
         default=None,
     )  # fmt: skip
 
-    def open_values(self, scene: Scene) -> dict[str, Any]:
-        return self.levels[level_of(scene.accuracy)]._asdict()
+    @classmethod
+    def levels_of(cls, scene: Scene | ResolvedScene) -> tuple[GridSection, ...]:
+        """The levels of the contact in a scene."""
+        return cls.levels
 
-    def cells(self, accuracy: float | str) -> tuple[int, int]:
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        return self.levels_of(scene)[level_of(scene.accuracy)]._asdict()
+
+    def cells(self, scene: Scene) -> tuple[int, int]:
         """Rows and cols: as given, else those of the level."""
-        rows, cols = self.levels[level_of(accuracy)].cells
+        rows, cols = self.levels_of(scene)[level_of(scene.accuracy)].cells
         return rows if self.rows is None else self.rows, cols if self.cols is None else self.cols

@@ -8,7 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from contact_sim_pkg.rigs.vehicle.tire.brush import (
+from contact_sim_pkg.rigs.vehicle.tire.brush.reference import (
+    follow_bristles,
+    hertz_brush,
+    linear_start,
+    parabolic_brush,
+    steady_strip,
+)
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import (
     PatchGrid,
     RollingStep,
     advance_brush,
@@ -16,15 +23,8 @@ from contact_sim_pkg.rigs.vehicle.tire.brush import (
     make_brush_state,
     rolling_step,
 )
-from contact_sim_pkg.rigs.vehicle.tire.brush_steps import PAD, unit_slide
+from contact_sim_pkg.rigs.vehicle.tire.brush.steps import PAD, unit_slide
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
-from contact_sim_pkg.rigs.vehicle.tire.reference_brush import (
-    follow_bristles,
-    hertz_brush,
-    linear_start,
-    parabolic_brush,
-    steady_strip,
-)
 
 LOAD, HALF_LENGTH, WIDTH, STIFFNESS = 4000.0, 0.06, 0.12, 3.0e7
 PEAK = 0.75 * LOAD / (HALF_LENGTH * WIDTH)

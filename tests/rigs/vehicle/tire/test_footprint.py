@@ -5,18 +5,25 @@ import math
 import numpy
 import pytest
 
-from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between, effective_heights, touches_beyond
+from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
+from contact_sim_pkg.rigs.vehicle.tire.footprint import (
+    effective_between,
+    effective_heights,
+    hertz_weights,
+    touches_beyond,
+)
 
 CELL = 0.005  # [m]
 ROWS, COLS = 161, 41
 ALONG = CELL * numpy.arange(ROWS)[:, None] * numpy.ones(COLS)  # [m] of the nodes
 ACROSS = CELL * (numpy.arange(COLS) - COLS // 2) * numpy.ones((ROWS, 1))
+WEIGHTS = hertz_weights(0.06, 0.08, CELL, CELL, COLS)
 PLACES = numpy.linspace(0.3, 0.5, 777)  # [m], most of them between nodes
 
 
 def heights(road):
     out = numpy.empty(len(PLACES))
-    assert effective_heights(road.astype(numpy.float32), 0, CELL, CELL, 0.06, 0.08, PLACES, out)
+    assert effective_heights(road.astype(numpy.float32), 0, CELL, WEIGHTS, PLACES, out)
     return out
 
 
@@ -43,12 +50,13 @@ def test_a_lattice_that_does_not_hold_the_footprint_is_reported():
     out = numpy.empty(1)
     for place in (0.05, 0.75):
         flat = numpy.zeros((ROWS, COLS), dtype=numpy.float32)
-        assert not effective_heights(flat, 0, CELL, CELL, 0.06, 0.08, numpy.array([place]), out)
+        assert not effective_heights(flat, 0, CELL, WEIGHTS, numpy.array([place]), out)
 
 
 def beyond(road, approach, pressure):
     """On a grid of 40 x 20 cells around the wheel at 0.4 m, of which ``pressure`` holds the middle."""
-    return touches_beyond(road.astype(numpy.float32), 0, 0.3, 0.5, 60, 0.4, approach, 2e6, CELL, CELL, pressure, 40, 20)
+    form = TireForm(0.3, 0.5)
+    return touches_beyond(road.astype(numpy.float32), 0, form, 60, 0.4, approach, 2e6, CELL, CELL, pressure, 40, 20)
 
 
 def test_a_wall_touches_beyond_the_grid_where_it_is_higher_than_the_tire():

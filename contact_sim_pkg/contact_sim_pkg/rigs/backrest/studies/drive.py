@@ -14,7 +14,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalElastic
-from contact_sim_pkg.reference.vehicle import Law, Occupant, normal_force, states_at_segments
+from contact_sim_pkg.reference.vehicle import Law, Occupant, normal_force, power_law, states_at_segments
 from contact_sim_pkg.rigs.backrest import entries
 from contact_sim_pkg.rigs.backrest.model import BackrestModel, build_backrest
 from contact_sim_pkg.rigs.backrest.motion import event_count
@@ -112,8 +112,8 @@ def _law(elastic: object, loss: object) -> Law | None:
         return None
     if isinstance(loss, GeneralDissipative):
         powers = loss.coefficient, loss.approach_exponent, loss.rate_exponent
-        return Law(elastic.coefficient, elastic.exponent, 0.0, powers, loss.lowest_force)
-    return Law(elastic.coefficient, elastic.exponent, float(getattr(loss, "damping", 0.0)))
+        return Law(power_law(*elastic), 0.0, powers, loss.lowest_force)
+    return Law(power_law(*elastic), float(getattr(loss, "damping", 0.0)))
 
 
 def _touches(drive: DrivenBackrest, pressed: float, approach: Vector, speed: Vector) -> Vector:

@@ -17,10 +17,13 @@ from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.reference.halfspace import dense_influence, pressure_at_approach
 from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
-from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass, plain_tire, standing_load
+from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass, plain_load
 from contact_sim_pkg.rigs.vehicle.model import build, seat_gap_on
 from contact_sim_pkg.rigs.vehicle.seat.schema import HalfSpaceField, SeatSection
-from contact_sim_pkg.rigs.vehicle.tire.schema import TireField, TireSection
+from contact_sim_pkg.rigs.vehicle.tire.body import body_of
+from contact_sim_pkg.rigs.vehicle.tire.envelopment import yielding_of
+from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road
+from contact_sim_pkg.rigs.vehicle.tire.schema import TireField
 from contact_sim_pkg.run.sources import make_road, make_travel
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import LEVELS
@@ -99,7 +102,7 @@ def bench_solves(scene: ResolvedScene, cells: Cells, tolerance: float) -> tuple[
 
 
 def _rungs(scene: ResolvedScene, contact: str, notify: Callable[[str], None]) -> list[dict[str, Any]]:
-    grids = {"tire": TireField, "seat": HalfSpaceField}[contact].levels
+    grids = {"tire": TireField, "seat": HalfSpaceField}[contact].levels_of(scene)
     finest = (2 * grids[-1].rows, 2 * grids[-1].cols)
     notify(f"{contact} field: reference grid {finest[0]}x{finest[1]}")
     reference = _solve(_problem(scene, contact, finest, grids[-1].tolerance), FEW)
@@ -131,6 +134,10 @@ def _independent(scene: ResolvedScene, contact: str, notify: Callable[[str], Non
     settings, gap = problem.settings, problem.gaps[len(problem.gaps) // 2]
     approach = PressureField(settings, contact).solve_load(gap, problem.load)
     influence = dense_influence(*cells, settings.cell_x, settings.cell_y, settings.modulus)
+    belt = yielding_of(settings.belt, *cells, settings.cell_x, settings.cell_y)
+    if belt is not None:
+        row, col = numpy.divmod(numpy.arange(CHECK_ROWS * CHECK_COLS), CHECK_COLS)
+        influence += belt[abs(row[:, None] - row), abs(col[:, None] - col)]
     exact = pressure_at_approach(influence, gap, approach)
     rate = scene.outputs.field_rate
     rows = []
@@ -170,7 +177,7 @@ def _problem(scene: ResolvedScene, contact: str, cells: Cells, tolerance: float)
             occupant_mass(scene.section(SeatSection).occupant) * GRAVITY,
         )
     else:
-        gaps, load = _tire_gaps(scene, settings), standing_load(*plain_tire(scene.data))
+        gaps, load = _tire_gaps(scene, settings), plain_load(scene.data)
     return FieldProblem(settings, contact, gaps, load)
 
 
@@ -178,10 +185,9 @@ def _tire_gaps(scene: ResolvedScene, settings: FieldSettings) -> list[Field]:
     """Gaps [m] at consecutive field instants, heights taken at the cell centres of the grid."""
     surface, travel = make_road(scene).surface, make_travel(scene)
     step = 1.0 / scene.outputs.field_rate
-    tire = scene.section(TireSection)
     x = (numpy.arange(settings.rows, dtype=numpy.float64) - 0.5 * (settings.rows - 1)) * settings.cell_x
     y = (numpy.arange(settings.cols, dtype=numpy.float64) - 0.5 * (settings.cols - 1)) * settings.cell_y
-    crown = 0.5 * x[:, None] ** 2 / tire.radius_rolling + 0.5 * y[None, :] ** 2 / tire.radius_lateral
+    crown = gap_over_level_road(body_of(scene).form, x, y)
     middle = min(MIDDLE, 0.5 * scene.duration)
     at = [travel.position(middle + i * step) for i in range(INSTANTS)]
     return [numpy.asarray(crown - surface.heights(numpy.asarray(x + position), y)) for position in at]

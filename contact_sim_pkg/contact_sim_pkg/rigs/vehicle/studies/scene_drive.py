@@ -12,8 +12,17 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
-from contact_sim_pkg.laws.parameters import Contact, GeneralDissipative, NormalElastic
-from contact_sim_pkg.reference.vehicle import Belt, Law, Occupant, Quarter, states_at_segments
+from contact_sim_pkg.laws.parameters import Contact, GeneralDissipative, NormalElastic, TabulatedElastic
+from contact_sim_pkg.laws.tabulated_elastic import FORCE
+from contact_sim_pkg.reference.vehicle import (
+    Belt,
+    Law,
+    Occupant,
+    Quarter,
+    law_by_table,
+    power_law,
+    states_at_segments,
+)
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import event_count
@@ -75,10 +84,7 @@ def drive_of(scene: ResolvedScene, duration: float, builder: Callable[[ResolvedS
 def _fill_heights(model: Model, patch: Any, positions: Vector, out: Vector) -> None:
     geometry = model.tire_geometry
     assert geometry is not None
-    effective_heights(
-        patch.height, patch.first_row, patch.cell_x, patch.cell_y, geometry.semi_axis_x, geometry.semi_axis_y,
-        positions, out,
-    )  # fmt: skip
+    effective_heights(patch.height, patch.first_row, patch.cell_x, geometry.weights, positions, out)
 
 
 def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
@@ -121,8 +127,8 @@ def twin_laws(rig: Vehicle) -> tuple[Law | None, Law | None]:
 
 
 def twin_covers(rig: Vehicle) -> bool:
-    """Whether the laws of all contacts are among those that the twin has: power laws without
-    hysteresis, under an occupant that neither softens nor leans on a seat back.
+    """Whether the laws of all contacts are among those that the twin has: power laws and
+    tables without hysteresis, under an occupant that neither softens nor leans on a seat back.
     """
     if rig.back is not None or (rig.seat is not None and rig.seat.softening is not None):
         return False
@@ -131,17 +137,25 @@ def twin_covers(rig: Vehicle) -> bool:
 
 
 def _is_covered(contact: Contact | None) -> bool:
-    return contact is not None and isinstance(contact.elastic, NormalElastic) and contact.hysteresis is None
+    return contact is not None and _elastic_of(contact) is not None and contact.hysteresis is None
+
+
+def _elastic_of(contact: Contact) -> Callable[[float], float] | None:
+    """Elastic force [N] of the approach [m] for the twin; None where it has no such law."""
+    if isinstance(contact.elastic, TabulatedElastic):
+        return law_by_table(contact.elastic.spacing, contact.elastic.pieces[:, FORCE])
+    return power_law(*contact.elastic) if isinstance(contact.elastic, NormalElastic) else None
 
 
 def _law(contact: Contact | None) -> Law:
-    if contact is None or not isinstance(contact.elastic, NormalElastic) or contact.hysteresis is not None:
-        raise ValueError("the slow twin covers power laws without hysteresis only; leave out foam and foam_hysteresis")
-    coefficient, exponent, loss = contact.elastic.coefficient, contact.elastic.exponent, contact.dissipative
+    elastic = None if contact is None or contact.hysteresis is not None else _elastic_of(contact)
+    if contact is None or elastic is None:
+        raise ValueError("the slow twin covers laws without hysteresis only; leave out foam and foam_hysteresis")
+    loss = contact.dissipative
     if isinstance(loss, GeneralDissipative):
         powers = loss.coefficient, loss.approach_exponent, loss.rate_exponent
-        return Law(coefficient, exponent, 0.0, powers, loss.lowest_force)
-    return Law(coefficient, exponent, 0.0 if loss is None else loss.damping)
+        return Law(elastic, 0.0, powers, loss.lowest_force)
+    return Law(elastic, 0.0 if loss is None else loss.damping)
 
 
 def _occupant(seat: Seat, law: Law) -> Occupant:

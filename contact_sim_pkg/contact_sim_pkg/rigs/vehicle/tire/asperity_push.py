@@ -36,6 +36,6 @@ def _slopes(geometry: TireGeometry, road: RoadPatch, x: Vector) -> Vector:
     """Slope of the mean profile under the footprint at ``x`` [m]."""
     rows, cols = road.height.shape
     y = (numpy.arange(cols) - 0.5 * (cols - 1)) * road.cell_y
-    profile = road.height[:, abs(y) <= geometry.semi_axis_y].mean(axis=1, dtype=numpy.float64)
+    profile = road.height[:, abs(y) <= geometry.half_width].mean(axis=1, dtype=numpy.float64)
     lattice = (road.first_row + numpy.arange(rows)) * road.cell_x
     return numpy.asarray(numpy.interp(x, lattice, numpy.gradient(profile, road.cell_x)), dtype=numpy.float64)

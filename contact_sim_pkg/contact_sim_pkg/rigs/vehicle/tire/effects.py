@@ -75,6 +75,11 @@ TIRE_EFFECTS = (
         carries=True, feeds=("force", "wrench"), called_for=_FREE,
     ),
     Effect(
+        name="inflation", section=f"{_SCHEMA}:Inflation", help="inflated tire: belt under tension, sidewalls, tread",
+        source="Pacejka, Tire and Vehicle Dynamics, 9", carries=True, excludes=("normal_elastic", "envelopment"),
+        feeds=("force", "wrench", "patch"), called_for=_FREE,
+    ),
+    Effect(
         name="normal_dissipative", section=f"{_SCHEMA}:TireLoss", help="loss", source="Brogliato, Nonsmooth Mechanics, 2",
         needs=("normal_elastic",), feeds=("force", "wrench", "patch"), called_for=needed_where_it_opens("tire"),
     ),

@@ -18,9 +18,20 @@ import math
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.pressure.settings import BeltSettings
+from contact_sim_pkg.pressure.settings import BeltSettings, InflatedBelt
+from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import inflated_influence
 
-__all__ = ["belt_influence", "relaxation_length"]
+__all__ = ["belt_influence", "relaxation_length", "yielding_of"]
+
+
+def yielding_of(
+    belt: BeltSettings | InflatedBelt | None, rows: int, cols: int, cell_x: float, cell_y: float
+) -> NDArray[numpy.float64] | None:
+    """Influence [m/Pa] [rows, cols] of the belt under a tread, of either kind; None without one."""
+    if belt is None:
+        return None
+    influence = belt_influence if isinstance(belt, BeltSettings) else inflated_influence
+    return influence(belt, rows, cols, cell_x, cell_y)  # type: ignore[arg-type]
 
 
 def relaxation_length(belt: BeltSettings) -> float:

@@ -2,9 +2,9 @@
 
 By the reciprocal theorem (Betti) a small roughness h(x, y) under a contact of fixed pressure p
 changes the approach by ``integral(p h) / integral(p)``: exact to first order in h. The weights are
-the Hertz pressure ``sqrt(1 - (x/a)^2 - (y/b)^2)`` of the standing load. It drives the point contact
-everywhere, and between two field instants it determines how the effective height changes with the
-travel; at the instants the pressure field itself decides.
+the pressure of the standing load: from the table of an inflated tire, or Hertz's ``sqrt(1 - (x/a)^2
+- (y/b)^2)``. It drives the point contact everywhere, and between two field instants it determines
+how the effective height changes with the travel; at the instants the pressure field itself decides.
 """
 
 from __future__ import annotations
@@ -16,25 +16,36 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry, kernel
+from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 
 Heights = NDArray[numpy.float32]
 Pressures = NDArray[numpy.float64]
 
 
+def hertz_weights(semi_axis_x: float, semi_axis_y: float, cell_x: float, cell_y: float, cols: int) -> Pressures:
+    """Hertz pressure on the nodes of a road around its middle, [odd rows, cols], of sum 1.
+
+    semi_axis_x, semi_axis_y: of the footprint [m]; cell_x, cell_y: spacing of the nodes [m].
+    """
+    reach = int(semi_axis_x / cell_x) + 1
+    u = (numpy.arange(2 * reach + 1) - reach) * cell_x / semi_axis_x
+    v = (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y / semi_axis_y
+    weights = numpy.sqrt(numpy.maximum(0.0, 1.0 - u[:, None] ** 2 - v[None, :] ** 2))
+    return numpy.asarray(weights / weights.sum())
+
+
 @entry
 def effective_heights(
-    height: Heights, first_row: int, cell_x: float, cell_y: float, semi_axis_x: float, semi_axis_y: float,
-    travel: Vector, out: Vector,
-) -> bool:  # fmt: skip
+    height: Heights, first_row: int, cell_x: float, weights: Pressures, travel: Vector, out: Vector
+) -> bool:
     """Weighted mean height in [m] for each wheel position ``travel`` [m], written into ``out``.
 
     ``height`` [rows, cols] in [m] on the road lattice (node (i, j) at x = (first_row + i) cell_x, y
-    = (j - (cols-1)/2) cell_y); ``semi_axis_x``, ``semi_axis_y`` [m] of the footprint. The mean is
-    taken with the wheel over a node and laid as a cubic with continuous slope (Catmull-Rom) between
-    the nodes: there the steep edge of the weights would cross the nodes one by one, and each would
-    show as a jerk. Returns False where the lattice does not hold the footprint.
+    = (j - (cols-1)/2) cell_y); ``weights`` [odd rows, cols] of sum 1, the wheel over the middle. The
+    mean is taken with the wheel over a node and laid as a cubic with continuous slope (Catmull-Rom)
+    between the nodes: there the steep edge of the weights would cross the nodes one by one, and each
+    would show as a jerk. Returns False where the lattice does not hold the footprint.
     """
-    weights = _weights(height.shape[1], cell_x, cell_y, semi_axis_x, semi_axis_y)
     reach = weights.shape[0] // 2
     # At the node before the one behind the wheel, at that, and at the two ahead
     means = numpy.zeros(4)
@@ -66,20 +77,6 @@ def _cubic(means: Vector, part: float) -> float:
 
 
 @kernel
-def _weights(cols: int, cell_x: float, cell_y: float, semi_axis_x: float, semi_axis_y: float) -> Pressures:
-    """Hertz pressure of the footprint on the nodes around its middle, of sum 1."""
-    reach = int(semi_axis_x / cell_x) + 1
-    weights = numpy.zeros((2 * reach + 1, cols))
-    total = 0.0
-    for i in range(2 * reach + 1):
-        for j in range(cols):
-            u, v = (i - reach) * cell_x / semi_axis_x, (j - 0.5 * (cols - 1)) * cell_y / semi_axis_y
-            weights[i, j] = math.sqrt(max(0.0, 1.0 - u * u - v * v))
-            total += weights[i, j]
-    return weights / total
-
-
-@kernel
 def _mean(height: Heights, weights: Pressures, first: int) -> float:
     """Mean of the rows from ``first`` on."""
     total = 0.0
@@ -91,13 +88,19 @@ def _mean(height: Heights, weights: Pressures, first: int) -> float:
 
 @entry
 def tire_gap(
-    height: Heights, first_row: int, cell_x: float, cell_y: float, radius_rolling: float, radius_lateral: float,
-    first: int, travel: float, out: Vector,
-) -> bool:  # fmt: skip
+    height: Heights,
+    first_row: int,
+    cell_x: float,
+    cell_y: float,
+    form: TireForm,
+    first: int,
+    travel: float,
+    out: Vector,
+) -> bool:
     """Undeformed gap in [m] of the tire whose lowest point stands at height 0 over the road,
     written into ``out`` [rows, cols].
 
-    ``g = x^2/(2 R_rolling) + y^2/(2 R_lateral) - h``; row 0 of ``out`` is lattice row ``first``, x
+    Height of the ``form`` minus that of the road; row 0 of ``out`` is lattice row ``first``, x
     counts from ``travel`` [m]. Cells coincide with road nodes, so no height is interpolated; the
     road may be wider than ``out`` by an even number of columns. Returns False where the lattice
     does not hold the grid.
@@ -109,18 +112,37 @@ def tire_gap(
     margin = (height.shape[1] - cols) // 2
     middle = 0.5 * (cols - 1)
     for i in range(rows):
-        x = (first + i) * cell_x - travel
-        crown = 0.5 * x * x / radius_rolling
+        along = height_along(form, (first + i) * cell_x - travel)
         for j in range(cols):
-            y = (j - middle) * cell_y
-            out[i, j] = crown + 0.5 * y * y / radius_lateral - height[first + i - first_row, margin + j]
+            across = height_across(form, (j - middle) * cell_y)
+            out[i, j] = along + across - height[first + i - first_row, margin + j]
     return True
+
+
+@kernel
+def height_along(form: TireForm, x: float) -> float:
+    """Height of the tire in [m] at ``x`` [m] before its lowest point; that of its centre beyond its
+    radius.
+    """
+    radius = form.radius_rolling
+    if form.circular:
+        return radius - math.sqrt(max(radius * radius - x * x, 0.0))
+    return 0.5 * x * x / radius
+
+
+@kernel
+def height_across(form: TireForm, y: float) -> float:
+    """Height of the tire in [m] at ``y`` [m] beside its lowest point."""
+    crown = 0.5 * y * y / form.radius_lateral
+    if form.shoulder > 0.0:
+        return crown + form.shoulder * (y / form.half_width) ** 6
+    return crown
 
 
 @entry
 def touches_beyond(
-    height: Heights, first_row: int, radius_rolling: float, radius_lateral: float, first: int, travel: float,
-    approach: float, modulus: float, cell_x: float, cell_y: float, pressure: Pressures, rows: int, cols: int,
+    height: Heights, first_row: int, form: TireForm, first: int, travel: float, approach: float, modulus: float,
+    cell_x: float, cell_y: float, pressure: Pressures, rows: int, cols: int,
 ) -> bool:  # fmt: skip
     """Whether the road touches the tire outside the grid of ``pressure`` [Pa], on a larger one of
     ``rows`` x ``cols`` cells.
@@ -138,13 +160,13 @@ def touches_beyond(
     # Rows and columns of the larger grid that the lattice holds.
     for i in range(max(0, first_row - first), min(rows, first_row + height.shape[0] - first)):
         x = (first + i) * cell_x - travel
-        free = approach - 0.5 * x * x / radius_rolling
+        free = approach - height_along(form, x)
         inside = top <= i < top + own_rows
         for j in range(max(0, -margin), min(cols, height.shape[1] - margin)):
             if inside and left <= j < left + own_cols:
                 continue
             y = (j - middle) * cell_y
-            depth = free - 0.5 * y * y / radius_lateral + height[first + i - first_row, margin + j]
+            depth = free - height_across(form, y) + height[first + i - first_row, margin + j]
             if depth > 0.0 and depth > _sunk(pressure, i - top, j - left, modulus, cell_x, cell_y):
                 return True
     return False

@@ -11,41 +11,35 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.excitation.blocks import RoadLattice
-from contact_sim_pkg.laws.parameters import Contact, NormalElastic
+from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, NormalElastic
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, power_law
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
 from contact_sim_pkg.rigs.vehicle.coupling_model import coupled_timing, uniform_segments
-from contact_sim_pkg.rigs.vehicle.lattice import (
-    contact_modulus,
-    field_settings,
-    standing_load,
-    tire_lattice,
-)
+from contact_sim_pkg.rigs.vehicle.lattice import field_settings, standing_load, tire_lattice
 from contact_sim_pkg.rigs.vehicle.parameters import RigidRing, Tire
 from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection
 from contact_sim_pkg.rigs.vehicle.tire import schema
+from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm, body_of
+from contact_sim_pkg.rigs.vehicle.tire.footprint import hertz_weights
+from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, gap_over_level_road, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, TreadViscoelasticity
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import stiffening
 from contact_sim_pkg.run.contact_laws import normal_loss
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
 
 
 @dataclass(frozen=True)
 class TireGeometry:
-    """Tire and road lattice: radii [m], footprint of the standing load [m], cells [m]."""
+    """Tire and road lattice, and the footprint of the standing load."""
 
-    radius_rolling: float
-    radius_lateral: float
-    semi_axis_x: float
-    semi_axis_y: float
+    form: TireForm
+    footprint_length: float  # [m] along the travel
+    half_width: float  # [m] of the footprint
+    weights: NDArray[numpy.float64]  # [odd rows, cols] of the road's nodes around the wheel, of sum 1
     lattice: RoadLattice
-
-    @property
-    def footprint_length(self) -> float:
-        """Length in [m] along the travel of the footprint of the standing load."""
-        return 2.0 * self.semi_axis_x
 
 
 @dataclass(frozen=True)
@@ -105,15 +99,16 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None) -> TirePa
 
     Raises SceneError where a pressure field cannot carry the standing load.
     """
-    given_tire = scene.section(schema.TireSection)
+    given_tire, body = scene.section(schema.TireSection), body_of(scene)
     load = standing_load(given_tire, occupant)
-    rigid_ring, geometry = _rigid_ring(scene), _geometry(scene, given_tire, load)
-    tread = _tread(scene, given_tire, geometry)
+    rigid_ring, table = _rigid_ring(scene), None if body.extent is None else tire_table(body)
+    geometry = _geometry(scene, body, table, load)
+    tread = _tread(scene, body, geometry)
     tire = Tire(
         given_tire.wheel_mass - (0.0 if rigid_ring is None else rigid_ring.belt_mass), given_tire.body_mass,
         given_tire.suspension_stiffness, given_tire.suspension_damping,
     )  # fmt: skip
-    law, length, field = _elastic(scene, given_tire, load, geometry, tread)
+    law, length, field = _elastic(scene, body, table, load, geometry, tread)
     contact = Contact(law, normal_loss(scene, "tire", law, load / GRAVITY), None)
     asperities = _asperities(scene, geometry, load)
     return TireParts(
@@ -130,34 +125,40 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None) -> TirePa
 
 
 def _elastic(
-    scene: ResolvedScene, tire: schema.TireSection, load: float, geometry: TireGeometry, tread: Tread | None
-) -> tuple[NormalElastic, float, FieldGrids | None]:
+    scene: ResolvedScene, body: TireBody, table: TireTable | None, load: float, geometry: TireGeometry, tread: Tread | None
+) -> tuple[ElasticLaw, float, FieldGrids | None]:  # fmt: skip
     """Normal law, length in [m] of the standing footprint, and the field.
 
-    Hertz's law of the point contact, or a field's tangent law; a tread with memory is stiffer at
-    once than for long, and its footprint, which sets its step, is Hertz's for long.
+    The law of an inflated tire is its table, that of a half-space Hertz's, or a field's tangent law; a
+    tread with memory is stiffer at once than for long, and its footprint, which sets its step, is that
+    for long.
     """
-    modulus = contact_modulus(tire)
     raised = 1.0 if tread is None else stiffening(tread.viscoelasticity, tread.step)
-    settings = _field_settings(scene, modulus * raised)
-    if settings is None:
-        curvatures = (0.5 / geometry.radius_rolling, 0.5 / geometry.radius_lateral)
-        return NormalElastic(float(power_law(*curvatures, modulus)), 1.5), geometry.footprint_length, None
-    field = make_grids(settings, "tire")
-    law, length = tangent_law(field, lambda grid: _crown(geometry, grid), load, "tire")
-    return law, length if tread is None else geometry.footprint_length, field
+    settings = _field_settings(scene, body._replace(modulus=body.modulus * raised))
+    field = None if settings is None else make_grids(settings, "tire")
+    if field is None and table is not None:
+        return table.law(), geometry.footprint_length, None
+    if field is None:
+        curvatures = (0.5 / body.form.radius_rolling, 0.5 / body.form.radius_lateral)
+        return NormalElastic(float(power_law(*curvatures, body.modulus)), 1.5), geometry.footprint_length, None
+    law, length = tangent_law(field, lambda grid: _crown(body.form, grid), load, "tire")
+    if tread is not None:
+        return law, geometry.footprint_length, field
+    return (law, length, field) if table is None else (table.law(), length, field)
 
 
-def _field_settings(scene: ResolvedScene, modulus: float) -> FieldSettings | None:
-    return field_settings(scene.effect("tire", schema.TireField), modulus, scene.effect("tire", schema.Envelopment))
+def _field_settings(scene: ResolvedScene, body: TireBody) -> FieldSettings | None:
+    return field_settings(scene.effect("tire", schema.TireField), body.modulus, body.belt)
 
 
 def _rigid_ring(scene: ResolvedScene) -> RigidRing | None:
     rigid_ring = scene.effect("tire", schema.RigidRingSection)
-    return None if rigid_ring is None else RigidRing(4, rigid_ring.belt_mass, rigid_ring.stiffness, rigid_ring.damping)
+    if rigid_ring is None:
+        return None
+    return RigidRing(4, rigid_ring.belt_mass, given(rigid_ring.stiffness), given(rigid_ring.damping))
 
 
-def _tread(scene: ResolvedScene, tire: schema.TireSection, geometry: TireGeometry) -> Tread | None:
+def _tread(scene: ResolvedScene, body: TireBody, geometry: TireGeometry) -> Tread | None:
     memory = scene.effect("tire", schema.TreadViscoelasticitySection)
     if memory is None:
         return None
@@ -165,7 +166,7 @@ def _tread(scene: ResolvedScene, tire: schema.TireSection, geometry: TireGeometr
     tread = TreadViscoelasticity(memory.retardation_time, pairs[:, 0].copy(), pairs[:, 1].copy())
     timing = coupled_timing(scene, True, geometry.footprint_length)
     step = uniform_segments(scene, geometry.footprint_length, timing) * timing.segment_length
-    return Tread(tread, contact_modulus(tire), step)
+    return Tread(tread, body.modulus, step)
 
 
 def _rolling_friction(scene: ResolvedScene) -> RollingFriction | None:
@@ -185,19 +186,25 @@ def _asperities(scene: ResolvedScene, geometry: TireGeometry, load: float) -> As
     return Asperities(law.spacing, geometry.footprint_length, load, law.share, law.window == "raised_cosine")
 
 
-def _geometry(scene: ResolvedScene, tire: schema.TireSection, load: float) -> TireGeometry:
-    radius_x, radius_y, modulus = tire.radius_rolling, tire.radius_lateral, contact_modulus(tire)
-    footprint = hertz_contact(0.5 / radius_x, 0.5 / radius_y, modulus, load)
-    semi_x, semi_y = (footprint.b, footprint.a) if radius_y >= radius_x else (footprint.a, footprint.b)
-    lattice = tire_lattice(tire, _field_settings(scene, modulus), load)
-    return TireGeometry(radius_x, radius_y, semi_x, semi_y, lattice)
+def _geometry(scene: ResolvedScene, body: TireBody, table: TireTable | None, load: float) -> TireGeometry:
+    lattice = tire_lattice(body, _field_settings(scene, body), load)
+    cells = lattice.cell_x, lattice.cell_y
+    if table is not None:
+        length, width, _area = table.contact_at(load)
+        return TireGeometry(body.form, length, 0.5 * width, table.weights(load, cells, lattice.road_cols), lattice)
+    form = body.form
+    footprint = hertz_contact(0.5 / form.radius_rolling, 0.5 / form.radius_lateral, body.modulus, load)
+    wide = form.radius_lateral >= form.radius_rolling
+    semi_x, semi_y = (footprint.b, footprint.a) if wide else (footprint.a, footprint.b)
+    weights = hertz_weights(semi_x, semi_y, *cells, lattice.road_cols)
+    return TireGeometry(form, 2.0 * semi_x, semi_y, weights, lattice)
 
 
-def _crown(geometry: TireGeometry, grid: FieldSettings) -> NDArray[numpy.float64]:
-    """Gap of the tire over a flat road in [m], on the cells of a grid."""
+def _crown(form: TireForm, grid: FieldSettings) -> NDArray[numpy.float64]:
+    """Gap of the tire over a level road in [m], on the cells of a grid."""
     x = (numpy.arange(grid.rows) - grid.rows // 2) * grid.cell_x
     y = (numpy.arange(grid.cols) - 0.5 * (grid.cols - 1)) * grid.cell_y
-    return 0.5 * x[:, None] ** 2 / geometry.radius_rolling + 0.5 * y[None, :] ** 2 / geometry.radius_lateral
+    return gap_over_level_road(form, x, y)
 
 
 def relaxed_grids(grids: FieldGrids, tread: Tread) -> FieldGrids:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy
 
-from contact_sim_pkg.laws.parameters import Contact
+from contact_sim_pkg.laws.parameters import Contact, TabulatedElastic
 from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, PressureField
@@ -93,8 +93,7 @@ class RoadField(ContactField):
             road.first_row,
             cell_x=settings.cell_x,
             cell_y=settings.cell_y,
-            radius_rolling=geometry.radius_rolling,
-            radius_lateral=geometry.radius_lateral,
+            form=geometry.form,
             first=self.road_row(settings),
             travel=self.travel,
             out=out,
@@ -147,8 +146,7 @@ class RoadField(ContactField):
             touches_beyond(
                 road.height,
                 road.first_row,
-                radius_rolling=geometry.radius_rolling,
-                radius_lateral=geometry.radius_lateral,
+                form=geometry.form,
                 first=round(self.travel / settings.cell_x) - rows // 2,
                 travel=self.travel,
                 approach=approach,
@@ -160,6 +158,31 @@ class RoadField(ContactField):
                 cols=cols,
             )
         )
+
+    def level_height(self, field: PressureField) -> float | None:
+        """See `ContactField`; the law of an inflated tire is its field on a level road."""
+        if (
+            self._tread_state is not None
+            or self.contact is None
+            or not isinstance(self.contact.elastic, TabulatedElastic)
+        ):
+            return None
+        loaded = field.pressure > 0.0
+        rows, cols = numpy.flatnonzero(loaded.any(axis=1)), numpy.flatnonzero(loaded.any(axis=0))
+        if not len(rows):
+            return None
+        # The cells around the contact too: at an edge it would go on where the road does not
+        first = self.road_row(field.settings) - self._road.first_row
+        margin = (self._road.height.shape[1] - field.settings.cols) // 2
+        top, bottom, left, right = (
+            first + rows[0] - 1,
+            first + rows[-1] + 2,
+            margin + cols[0] - 1,
+            margin + cols[-1] + 2,
+        )
+        under = self._road.height[max(top, 0) : bottom, max(left, 0) : right]
+        level = float(under[0, 0])
+        return level if (under == level).all() else None
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
         """See `ContactField`."""

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+import math
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, TypeAlias
 
 from pydantic import Field
 
-from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
+from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import ring_stiffness
+from contact_sim_pkg.rigs.vehicle.tire.size import PATTERN, read_size
+from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers, text
 from contact_sim_pkg.scene.schema.laws import HuntCrossley
 from contact_sim_pkg.scene.schema.pressure_field import GridSection, PressureFieldSection
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+    from contact_sim_pkg.scene.schema.scene import Scene
+
+RING_DAMPING = 0.045
+"""Damping ratio of the belt on its sidewalls."""
 
 Branch: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
 
@@ -24,6 +34,11 @@ class TireSection(Section):
         100.0, 1e7, "N/m", "spring between wheel and body; medium car", default=20000.0
     )
     suspension_damping: float = number(0.0, 1e6, "N s/m", "damper between wheel and body; medium car", default=1500.0)
+
+
+class HertzElastic(Section):
+    """The tire of the paper: a half-space of rubber with two radii; elliptic Hertz contact."""
+
     radius_rolling: float = number(0.02, 3.0, "m", "radius in the plane of the wheel", default=0.30)
     radius_lateral: float = number(0.02, 30.0, "m", "radius of the crown across the tread", default=1.0)
     young_modulus: float = number(
@@ -36,10 +51,45 @@ class TireSection(Section):
     poisson_ratio: float = number(0.0, 0.5, "", "Poisson's ratio of that half-space; rubber is 0.5", default=0.5)
 
 
-class HertzElastic(Section):
-    """Elastic force of the tire: elliptic Hertz contact, from the radii and the modulus of
-    `tire`.
+class Inflation(Section):
+    """Inflated tire: a belt under tension of the inflation on membrane sidewalls, tread on top.
+    Stiffness and footprint follow from size, inflation and load.
     """
+
+    size: str = text(
+        "size on the sidewall: width in mm, height in per cent, rim in inches", default="205/55 R16", pattern=PATTERN
+    )
+    pressure: float = number(
+        1e5, 4e5, "Pa", "inflation above the air outside; the model is for 120 to 300 kPa", default=220e3
+    )
+    sidewall_angle: float = number(
+        0.8, 1.57, "rad", "half angle of the inflated sidewall's arc; the one fitted value of its shape", default=1.431
+    )
+    sidewall_chord: float | None = number(
+        0.02, 0.3, "m", "chord of that arc; 0.887 of the section height by default", default=None
+    )
+    belt_width: float | None = number(
+        0.05, 0.4, "m", "belt under pressure; 0.683 of the section width by default", default=None
+    )
+    structure: float = number(0.0, 1e7, "N/m^2", "radial stiffness of the sidewalls without inflation", default=0.0)
+    tangential: float = number(1e4, 1e8, "N/m^2", "tangential stiffness of the sidewalls", default=4.4e5)
+    bending: float = number(0.0, 1e3, "N m^2", "bending stiffness of the belt along; 1 to 10", default=2.0)
+    tread_modulus: float = number(
+        1e5, 1e9, "Pa", "modulus of the half-space for tread and cross bending of the belt (fitted)", default=4.0e6
+    )
+    tread_poisson: float = number(0.0, 0.5, "", "Poisson's ratio of that half-space; rubber is 0.5", default=0.5)
+    crown_radius: float = number(0.1, 30.0, "m", "radius of the inflated crown across the tread", default=2.0)
+    shoulder: float = number(
+        0.0, 0.02, "m", "fall of the shoulder's round, with the 6th power, at half the belt's width", default=8e-4
+    )
+    ring_stiffness: float = number(
+        1e5, 1e8, "N/m", "rigid ring against the rim at 220 kPa; a quarter of it is there without inflation",
+        default=1.4e6,
+    )  # fmt: skip
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        size = read_size(self.size)
+        return {"sidewall_chord": size.sidewall_chord, "belt_width": size.belt_width}
 
 
 class TireLoss(HuntCrossley):
@@ -47,38 +97,62 @@ class TireLoss(HuntCrossley):
     `restitution` at a speed.
     """
 
-    usual_damping = 0.06
+    usual_damping = 0.015
 
     damping: float | None = number(
-        0.0, 100.0, "s/m", "λ; 0.06 by default: 200 N s/m at 3335 N, ζ about 3 %", default=None
+        0.0, 100.0, "s/m", "λ; 0.015 by default: 50 N s/m at 3335 N, ζ about 1 %", default=None
     )
 
 
 class TireField(PressureFieldSection):
-    """Pressure field of the tire on a half-space; it is the contact, its integral drives
-    the wheel.
-    """
+    """Pressure field of the tire; it is the contact, its integral drives the wheel."""
 
-    levels = (GridSection(48, 64, 1e-2, 1), GridSection(96, 128, 1e-3, 2), GridSection(192, 256, 1e-6, 4))
+    levels = (GridSection(64, 48, 1e-2, 1), GridSection(96, 72, 1e-3, 2), GridSection(192, 144, 1e-6, 4))
+    half_space_levels: ClassVar = (
+        GridSection(48, 64, 1e-2, 1), GridSection(96, 128, 1e-3, 2), GridSection(192, 256, 1e-6, 4),
+    )  # fmt: skip
 
-    length: float = number(0.01, 2.0, "m", "extent along the road (forward)", default=0.28)
-    width: float = number(0.01, 2.0, "m", "extent across the track (left); 0.22 m are loaded at 4 kN", default=0.44)
+    length: float | None = number(
+        0.01, 2.0, "m", "extent along the road (forward); 0.24 by default, 0.28 with normal_elastic", default=None
+    )
+    width: float | None = number(
+        0.01, 2.0, "m", "extent across the track (left); 0.18 by default, 0.44 with normal_elastic", default=None
+    )
+
+    @classmethod
+    def levels_of(cls, scene: Scene | ResolvedScene) -> tuple[GridSection, ...]:
+        return cls.half_space_levels if scene.effect("tire", Inflation) is None else cls.levels
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        inflation = scene.effect("tire", Inflation)
+        length, width = (0.28, 0.44) if inflation is None else read_size(inflation.size).grid
+        return {**super().open_values(scene), "length": length, "width": width}
 
 
 class RigidRingSection(Section):
     """Sidewalls and a rigid belt ring: spring and damper in series with the tread's contact."""
 
-    stiffness: float = number(
-        1e3,
-        1e9,
-        "N/m",
-        "stiffness of the sidewalls; with the default tread 200 kN/m at 3335 N in all (fitted)",
-        default=3.1e5,
-    )
-    damping: float = number(
-        0.0, 1e6, "N s/m", "damping of the sidewalls; about 130 N s/m of the whole tire", default=300.0
+    stiffness: float | None = number(
+        1e3, 1e9, "N/m", "stiffness of the sidewalls; that of the inflation by default, 3.1e5 with normal_elastic",
+        default=None,
+    )  # fmt: skip
+    damping: float | None = number(
+        0.0,
+        1e6,
+        "N s/m",
+        "damping of the sidewalls; 4.5 % of critical by default, 300 with normal_elastic",
+        default=None,
     )
     belt_mass: float = number(0.1, 1000.0, "kg", "belt and tread, a part of tire.wheel_mass", default=7.0)
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        inflation = scene.effect("tire", Inflation)
+        if inflation is None:
+            return {"stiffness": 3.1e5, "damping": 300.0}
+        stiffness = (
+            ring_stiffness(inflation.ring_stiffness, inflation.pressure) if self.stiffness is None else self.stiffness
+        )
+        return {"stiffness": stiffness, "damping": 2.0 * RING_DAMPING * math.sqrt(stiffness * self.belt_mass)}
 
 
 class Envelopment(Section):

@@ -28,14 +28,14 @@ from contact_sim_pkg.rigs.vehicle.tire.report.stress_plane import StressPlane, s
 def displacement_picture(key: str, snapshot: Snapshot, reference: TireReference) -> Picture:
     """Surface displacement u(x, y) under the field."""
     field = snapshot.field
-    raised = surface_displacement(field, reference.modulus, reference.belt) * 1e3
+    raised = surface_displacement(field, reference.body) * 1e3
     quantity = Quantity(raised, "displacement u, mm", DISPLACEMENT_COLOURS)
     figure = surface_and_map(field, quantity, whole_window(field), outline=True)
     inside = raised[field.pressure > 0.0]
     caption = (
         f"Displacement of the tread's surface at the largest load, {snapshot.load:.5g} N at {snapshot.time:.3f} s: "
         f"u = (1/πE*) ∬ p/r dA of the recorded pressure on its {raised.shape[0]} × {raised.shape[1]} cells, "
-        f"E* = {reference.modulus * 1e-6:.4g} MPa{_with_belt(reference)}, positive into the tread. "
+        f"E* = {reference.body.modulus * 1e-6:.4g} MPa{_with_belt(reference)}, positive into the tread. "
         f"Largest {raised.max():.4g} mm, inside the "
         f"contact (white line) at least {inside.min():.4g} mm, at the edge of the grid still {_rim(raised):.3g} mm. The "
         "recorded pressure holds the share of the loss; it is taken as elastic here."
@@ -44,7 +44,7 @@ def displacement_picture(key: str, snapshot: Snapshot, reference: TireReference)
 
 
 def _with_belt(reference: TireReference) -> str:
-    belt = reference.belt
+    belt = reference.body.belt
     if belt is None:
         return ""
     return f", and the deflection of the belt ({belt.tension:.4g} N on {belt.foundation * 1e-6:.4g} MN/m²)"
@@ -56,17 +56,17 @@ def _rim(values: FloatArray) -> float:
 
 def relative_pressure_picture(key: str, snapshot: Snapshot, reference: TireReference) -> Picture:
     """Pressure over the largest pressure of the tire at rest on a flat road."""
-    field = snapshot.field
+    field, form = snapshot.field, reference.body.form
     relative = field.pressure / reference.peak_pressure
     quantity = Quantity(relative, "p / p_ref,max", PRESSURE_COLOURS)
     figure = surface_and_map(field, quantity, loaded_window(field), outline=False)
     caption = (
         f"Pressure at the largest load, {snapshot.load:.5g} N at {snapshot.time:.3f} s, over the largest pressure of the "
         f"tire at rest on a flat road, p_ref,max = {reference.peak_pressure * 1e-3:.4g} kPa ({reference.how}, "
-        f"{reference.load:.5g} N, radii {reference.radius_rolling:.4g} and {reference.radius_lateral:.4g} m). Largest: "
+        f"{reference.load:.5g} N, radii {form.radius_rolling:.4g} and {form.radius_lateral:.4g} m). Largest: "
         f"{relative.max():.3f}."
     )
-    if reference.belt is None:
+    if reference.body.belt is None:
         flat = (snapshot.load / reference.load) ** (1.0 / 3.0)
         caption += f" A Hertz contact under this load on a flat road would have {flat:.3f}."
     return picture(f"{key}-relative", figure, "Pressure over the reference maximum at the largest load", caption)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from contact_sim_pkg.report.series import ContactSeries, Recording
-from contact_sim_pkg.rigs.vehicle.lattice import plain_tire, standing_load
+from contact_sim_pkg.rigs.vehicle.lattice import plain_load
 
 TIRE = "tire"
 """Name of its contact."""
@@ -16,7 +16,7 @@ def standing_load_of(scene: dict[str, Any]) -> float | None:
     if not isinstance(scene.get("tire"), dict):
         return None
     try:
-        load = standing_load(*plain_tire(scene))
+        load = plain_load(scene)
     except (KeyError, TypeError):
         return None  # a scene that this version does not know
     return load if load > 0.0 else None

@@ -76,6 +76,6 @@ def _under_load(field: FieldSeries | None, reference: TireReference | None) -> l
     found = [
         displacement_picture(KEY, heaviest, reference),
         relative_pressure_picture(KEY, heaviest, reference),
-        stress_picture(KEY, heaviest, reference.poisson_ratio),
+        stress_picture(KEY, heaviest, reference.body.poisson_ratio),
     ]
     return [each for each in found if each is not None]

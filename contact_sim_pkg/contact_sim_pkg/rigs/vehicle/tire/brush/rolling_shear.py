@@ -10,7 +10,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.tire.brush import (
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import (
     BrushResult,
     PatchGrid,
     advance_brush,

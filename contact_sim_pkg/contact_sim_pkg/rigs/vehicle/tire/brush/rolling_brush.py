@@ -39,8 +39,8 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry, kernel
-from contact_sim_pkg.rigs.vehicle.tire.brush_lattice import blend, copy_field, loaded_window, place_on
-from contact_sim_pkg.rigs.vehicle.tire.brush_steps import (
+from contact_sim_pkg.rigs.vehicle.tire.brush.lattice import blend, copy_field, loaded_window, place_on
+from contact_sim_pkg.rigs.vehicle.tire.brush.steps import (
     PAD,
     Bristles,
     Field,

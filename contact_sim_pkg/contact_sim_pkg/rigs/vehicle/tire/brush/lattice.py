@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 
 from contact_sim_pkg.compiled.jit import kernel
-from contact_sim_pkg.rigs.vehicle.tire.brush_steps import PAD, Bristles, Field, Flags, LoadedWindow
+from contact_sim_pkg.rigs.vehicle.tire.brush.steps import PAD, Bristles, Field, Flags, LoadedWindow
 
 __all__ = ["blend", "copy_field", "loaded_window", "place_on"]
 

@@ -1,4 +1,4 @@
-"""Advance of the bristles of `rigs/vehicle/tire/brush.py` through the contact: one segment of at
+"""Advance of the bristles of `rigs/vehicle/tire/brush/rolling_brush.py` through the contact: one segment of at
 most one cell at a time.
 
 A bristle with the label m stands `phase` cells behind the centre of row m, 0 <= phase <= 1: in the

@@ -1,0 +1,103 @@
+"""Arrays that take a while to compute, kept on disk beside the compiled kernels
+(``compiled/kernel_cache.py``).
+
+A file is named by the hash of everything that its arrays follow from: a description and the sources
+that compute them. It begins with the hash of its content; a file that does not match is computed
+again and written anew. The last `MOST_KEPT` used of a kind stay.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import logging
+import os
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.kernel_cache import cache_directory
+
+__all__ = ["Arrays", "kept_arrays"]
+
+_log = logging.getLogger(__name__)
+Arrays = dict[str, NDArray[Any]]
+MOST_KEPT = 32
+_DIGEST_BYTES = hashlib.sha256().digest_size
+
+
+def kept_arrays(
+    kind: str, description: str, sources: Iterable[str | Path], make: Callable[[], Mapping[str, Any]],
+    directory: Path | None = None,
+) -> Arrays:  # fmt: skip
+    """The arrays that ``description`` stands for: read from disk where they were computed before,
+    else made and kept.
+
+    kind: name of their folder; description: everything that they follow from, exactly; sources:
+    files that compute them; directory: None for that of the kernels. Without a directory that can be
+    written they are computed at each start.
+    """
+    place = _directory(kind) if directory is None else directory
+    if place is None:
+        return {name: numpy.asarray(value) for name, value in make().items()}
+    path = place / f"{_name(description, sources)}.npz"
+    found = _read(path)
+    if found is None:
+        found = {name: numpy.asarray(value) for name, value in make().items()}
+        _write(path, found)
+    return found
+
+
+def _directory(kind: str) -> Path | None:
+    """Beside the kernels; None where they are not kept, or it cannot be made."""
+    place = cache_directory()
+    if place is None:
+        return None
+    with suppress(OSError):
+        (place / kind).mkdir(mode=0o700, exist_ok=True)
+    return place / kind
+
+
+def _name(description: str, sources: Iterable[str | Path]) -> str:
+    digest = hashlib.sha256(f"{numpy.__version__}\0{description}\0".encode())
+    for source in sources:
+        digest.update(Path(source).read_bytes())
+    return digest.hexdigest()[:20]
+
+
+def _read(path: Path) -> Arrays | None:
+    """The arrays in a file; None where there is none, or a damaged one."""
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return None
+    digest, payload = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
+    if hashlib.sha256(payload).digest() != digest:
+        _log.warning("the kept table %s is damaged; it is computed again", path)
+        return None
+    with suppress(OSError):
+        os.utime(path)  # the date of last use, by which the oldest are removed
+    with numpy.load(io.BytesIO(payload), allow_pickle=False) as arrays:
+        return dict(arrays)
+
+
+def _write(path: Path, arrays: Arrays) -> None:
+    """Write a file that appears whole or not at all, and remove the oldest beyond `MOST_KEPT`."""
+    buffer = io.BytesIO()
+    numpy.savez(buffer, **arrays)  # type: ignore[arg-type]
+    payload = buffer.getvalue()
+    draft = path.with_name(f".{path.name}.{os.getpid()}.new")
+    try:
+        draft.write_bytes(hashlib.sha256(payload).digest() + payload)
+        draft.replace(path)
+        kept = sorted(path.parent.glob("*.npz"), key=lambda each: each.stat().st_mtime, reverse=True)
+        for each in kept[MOST_KEPT:]:
+            each.unlink(missing_ok=True)
+    except OSError as error:
+        _log.warning("a table is not kept on disk (each start takes a second longer): %s", error)
+        with suppress(OSError):
+            draft.unlink(missing_ok=True)

@@ -1,0 +1,112 @@
+"""Belt of an inflated tire: a ring under tension on the sidewalls, that bends along and is rigid
+across.
+
+Inflation carries the wheel through the belt. The sidewalls are membranes, arcs of half angle phi
+over a chord c: they take a share of the pressure on the belt of width b, and hold it with a spring
+that grows with the pressure. The belt takes the rest as a hoop:
+
+* share ``f = 1 - (c / b) cot phi``, tension ``T = f p b R``;
+* radial foundation of both sidewalls ``k_r = k_0 + C p``, ``C = (cos phi + phi sin phi) / (sin phi -
+  phi cos phi)``, from an arc of fixed length.
+
+Under a unit line force the inextensible ring takes the form
+
+    G(x) = 1 / (pi R) sum over n >= 2 of cos(n x / R) / D_n
+    D_n = k_r + k_t / n^2 + T (n^2 - 1) / R^2 + B (n^2 - 1)^2 / R^4
+
+The translation n = 1 is not in G: it is the rigid ring on the sidewalls, of stiffness K_b, which
+moves the whole contact by F / K_b. There is no n = 0. G changes its sign at 0.15 m; with all D_n
+above 0 the sum with the half-space is positive definite, and one solve finds both in series.
+
+Under a flat road the belt is straight, so it pushes with ``T / R + k_r w`` along the contact: a
+plateau of f p, and what the sidewalls add to it.
+
+Valid for 120 to 300 kPa, deflections up to 40 mm, road slopes that are small, contact within 0.12 m
+of its middle. Sources: Gong, A study of in-plane dynamics of tires (1993), for the ring; Pacejka,
+Tire and Vehicle Dynamics, ch. 9, for the rigid ring; the membrane is derived in
+``rigs/vehicle/tire/README.md``.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.guards import require, require_positive
+from contact_sim_pkg.pressure.settings import InflatedBelt
+
+__all__ = ["belt_share", "inflated_influence", "make_belt", "membrane_stiffness", "ring_stiffness"]
+
+MODES = 1000
+"""Of the sum: 5e-8 of G at the force."""
+
+NOMINAL_PRESSURE = 220e3  # [Pa]
+OF_STRUCTURE = 0.25
+"""Share of the rigid ring's stiffness at the nominal pressure that is there without inflation; a
+choice.
+"""
+
+
+def belt_share(half_angle: float, chord: float, width: float) -> float:
+    """Share [1] of the inflation that the hoop tension of the belt carries, ``1 - (c / b) cot phi``.
+
+    half_angle: phi [rad] of the sidewall's arc; chord: c [m] of it; width: b [m] of the belt under
+    pressure. Raises ValueError unless 0 < phi < pi, c, b > 0, and where the sidewalls carry all.
+    """
+    phi = require("half_angle", half_angle, "rad", above=0.0, below=math.pi)
+    share = 1.0 - require_positive("chord", chord, "m") / require_positive("width", width, "m") / math.tan(phi)
+    return require("share of the inflation on the belt", share, above=0.0)
+
+
+def membrane_stiffness(half_angle: float) -> float:
+    """Radial stiffness of two sidewalls, per circumference and inflation [N/m^2/Pa = 1]: C.
+
+    half_angle: phi [rad]. Raises ValueError unless 0 < phi < pi.
+    """
+    phi = require("half_angle", half_angle, "rad", above=0.0, below=math.pi)
+    return (math.cos(phi) + phi * math.sin(phi)) / (math.sin(phi) - phi * math.cos(phi))
+
+
+def ring_stiffness(nominal: float, pressure: float) -> float:
+    """Stiffness [N/m] of the rigid ring against the rim at an inflation of ``pressure`` [Pa], where
+    it is ``nominal`` [N/m] at 220 kPa.
+    """
+    return nominal * (OF_STRUCTURE + (1.0 - OF_STRUCTURE) * pressure / NOMINAL_PRESSURE)
+
+
+def make_belt(
+    pressure: float, radius: float, half_angle: float, chord: float, width: float, structure: float,
+    tangential: float, bending: float, ring: float | None,
+) -> InflatedBelt:  # fmt: skip
+    """The belt of a tire of free ``radius`` [m] at an inflation of ``pressure`` [Pa].
+
+    half_angle [rad], chord, width [m] of the sidewalls and the belt; structure: k_0, tangential: k_t
+    [N/m^2]; bending: B [N m^2]; ring: K_b [N/m], None where the rigid ring is a body of its own.
+    """
+    share = belt_share(half_angle, chord, width)
+    return InflatedBelt(
+        radius, share * pressure * width * radius, structure + membrane_stiffness(half_angle) * pressure, tangential,
+        bending, 0.0 if ring is None else 1.0 / ring,
+    )  # fmt: skip
+
+
+def inflated_influence(
+    belt: InflatedBelt, rows: int, cols: int, cell_x: float, cell_y: float
+) -> NDArray[numpy.float64]:
+    """Displacement [m/Pa] i rows and j cols away from a cell under unit pressure, [rows, cols]; the
+    same for every j.
+
+    The exact integral of G over the loaded cell, term n of it by ``sin(n c / 2R) / (n c / 2R)``, and
+    the translation of the rigid ring. cell_x, cell_y: size of a cell [m].
+    """
+    n = numpy.arange(2, MODES + 1, dtype=numpy.float64)
+    rigidity = (
+        belt.foundation + belt.tangential / n**2 + belt.tension * (n**2 - 1.0) / belt.radius**2
+        + belt.bending * (n**2 - 1.0) ** 2 / belt.radius**4
+    )  # fmt: skip
+    half = 0.5 * n * cell_x / belt.radius
+    weight = numpy.sin(half) / half / rigidity / (math.pi * belt.radius)
+    along = numpy.cos(numpy.outer(numpy.arange(rows) * cell_x / belt.radius, n)) @ weight
+    return numpy.repeat(((along + belt.ring_compliance) * cell_x * cell_y)[:, None], cols, axis=1)

@@ -1,0 +1,62 @@
+"""Size of a tire as on its sidewall, `205/55 R16`, and the lengths that follow from it."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+__all__ = ["PATTERN", "TireSize", "read_size"]
+
+PATTERN = r"^([1-9][0-9]{2})/([1-9][0-9]) ?Z?R ?([1-9][0-9])$"
+INCH = 0.0254  # [m]
+CHORD = 0.887
+"""Of the section height: chord of the sidewall's arc, 0.10 m for 205/55 R16; 0.08 to 0.11 m."""
+BELT = 0.683
+"""Of the section width: belt under pressure, 0.14 m for 205/55 R16; a choice, 0.13 to 0.16 m."""
+
+
+class TireSize(NamedTuple):
+    """Nominal size: section width [m], height over width [1], diameter of the rim [m]."""
+
+    width: float
+    aspect: float
+    rim: float
+
+    @property
+    def section_height(self) -> float:
+        """[m] from rim to tread."""
+        return self.aspect * self.width
+
+    @property
+    def radius(self) -> float:
+        """Free radius [m]."""
+        return 0.5 * self.rim + self.section_height
+
+    @property
+    def sidewall_chord(self) -> float:
+        """[m]"""
+        return CHORD * self.section_height
+
+    @property
+    def belt_width(self) -> float:
+        """[m]"""
+        return BELT * self.width
+
+    @property
+    def grid(self) -> tuple[float, float]:
+        """Extent [m] of a pressure field along and across: 0.24 by 0.18 m for 205/55 R16, which holds
+        the contact under two and a half times its usual load.
+        """
+        return round(0.76 * self.radius, 3), round(0.878 * self.width, 3)
+
+
+def read_size(text: str) -> TireSize:
+    """The size of a text such as `205/55 R16`: width in mm, height in per cent of it, rim in inches.
+
+    Raises ValueError for any other text.
+    """
+    found = re.match(PATTERN, text)
+    if found is None:
+        raise ValueError(f"size {text!r}: width in mm, height in per cent, rim in inches as in 205/55 R16 are needed")
+    width, aspect, rim = (int(part) for part in found.groups())
+    return TireSize(1e-3 * width, 1e-2 * aspect, INCH * rim)

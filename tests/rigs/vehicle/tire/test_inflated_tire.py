@@ -1,0 +1,226 @@
+"""The inflated tire: its belt in closed form, its table against another program, and what a run makes of them."""
+
+import math
+
+import numpy
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
+from tests.rigs.vehicle.test_simulation import messages_of
+from tests.run.scenes import resolved
+
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, elastic_stiffness
+from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
+from contact_sim_pkg.reference.halfspace import dense_influence, pressure_at_approach
+from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
+from contact_sim_pkg.rigs.vehicle.tire.body import body_of
+from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road, tire_table
+from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import belt_share, inflated_influence, membrane_stiffness
+from contact_sim_pkg.rigs.vehicle.tire.size import read_size
+
+RADIUS, TENSION, FOUNDATION = 0.316, 8756.0, 4.33e5
+BELT = InflatedBelt(RADIUS, TENSION, FOUNDATION, 4.4e5, 2.0, 0.0)
+
+
+def chord_force(half_angle, closer):
+    """Force along the chord per pressure [m] of an arc of fixed length 2 phi, r = 1, whose chord is shorter by `closer`."""
+    length, chord = 2.0 * half_angle, 2.0 * math.sin(half_angle) - closer
+    phi = brentq(lambda angle: length * math.sin(angle) / angle - chord, 0.1, 3.0)
+    radius = 0.5 * length / phi
+    return radius * math.cos(phi)
+
+
+@pytest.mark.parametrize("degrees", [60, 70, 82, 90])
+def test_the_sidewall_is_an_arc_of_fixed_length(degrees):
+    """Two sidewalls, each the derivative of its chord force: by differences of the arc itself."""
+    phi, step = math.radians(degrees), 1e-5
+    slope = (chord_force(phi, -step) - chord_force(phi, step)) / (2.0 * step)
+    assert membrane_stiffness(phi) == pytest.approx(2.0 * slope, rel=1e-6)
+
+
+def test_the_belt_carries_what_the_sidewalls_leave():
+    assert belt_share(math.pi / 2.0, 0.1, 0.14) == pytest.approx(1.0)  # upright sidewalls push nowhere
+    assert belt_share(math.pi / 4.0, 0.07, 0.14) == pytest.approx(0.5)
+    with pytest.raises(ValueError, match="share of the inflation"):
+        belt_share(0.3, 0.1, 0.14)
+
+
+def test_without_bending_the_influence_is_that_of_a_closed_sum():
+    """sum over n >= 1 of cos(n t) / (n^2 + a^2) = pi cosh(a (pi - t)) / (2 a sinh(a pi)) - 1 / (2 a^2), less its term n = 1."""
+    belt = BELT._replace(tangential=0.0, bending=0.0)
+    rows, cell = 60, 2e-3
+    a = math.sqrt(FOUNDATION * RADIUS**2 / TENSION - 1.0)
+
+    def ring(x):
+        t = abs(x) / RADIUS
+        whole = math.pi * math.cosh(a * (math.pi - t)) / (2.0 * a * math.sinh(a * math.pi)) - 0.5 / a**2
+        return RADIUS / (math.pi * TENSION) * (whole - math.cos(t) / (1.0 + a**2))
+
+    found = inflated_influence(belt, rows, 2, cell, 1.0)[:, 0]
+    for row in (0, 1, 7, 59):
+        inside = [0.0] if row == 0 else None
+        expected, _ = quad(ring, (row - 0.5) * cell, (row + 0.5) * cell, points=inside, epsabs=1e-16)
+        assert found[row] == pytest.approx(expected, rel=5e-4)  # a thousand modes of a kink, which bending takes away
+
+
+def test_regression_of_the_influence():
+    """4.32e-6 m/N at the force, no deflection at 148 mm, lifted by 1.35e-6 m/N at 328 mm: a sum of 1e5 modes by hand."""
+    x = numpy.array([0.0, 0.148, 0.328])
+    n = numpy.arange(2, 100_001, dtype=float)
+    rigidity = FOUNDATION + 4.4e5 / n**2 + TENSION * (n**2 - 1.0) / RADIUS**2 + 2.0 * (n**2 - 1.0) ** 2 / RADIUS**4
+    by_hand = (numpy.cos(numpy.outer(x / RADIUS, n)) / rigidity).sum(axis=1) / (math.pi * RADIUS)
+    assert by_hand == pytest.approx([4.32e-6, 0.0, -1.35e-6], rel=5e-3, abs=3e-8)
+    cell = 1e-3
+    found = inflated_influence(BELT, 329, 1, cell, 1.0)[[0, 148, 328], 0] / cell
+    assert found == pytest.approx(by_hand, abs=2e-4 * by_hand[0])
+    soft = inflated_influence(BELT._replace(ring_compliance=1e-6), 329, 1, cell, 1.0)[:, 0] / cell
+    assert soft == pytest.approx(inflated_influence(BELT, 329, 1, cell, 1.0)[:, 0] / cell + 1e-6)
+
+
+def test_the_field_of_tread_and_belt_is_that_of_dense_least_squares():
+    rows, cols, cell_x, cell_y = 22, 16, 0.01, 0.012
+    settings = FieldSettings(rows, cols, cell_x, cell_y, 5.3e6, 1e-9, 400, 0, BELT._replace(ring_compliance=7e-7))
+    body = body_of(resolved("tire_bump"))
+    x, y = (numpy.arange(rows) - 10.5) * cell_x, (numpy.arange(cols) - 7.5) * cell_y
+    gap = gap_over_level_road(body.form, x, y)
+    gap[:, 3] -= 2e-3  # a rail, so that nothing is symmetric
+    field = PressureField(settings, "tire")
+    load = field.solve(gap, 0.02)
+    table = inflated_influence(settings.belt, rows, cols, cell_x, cell_y)
+    row, col = numpy.divmod(numpy.arange(rows * cols), cols)
+    influence = dense_influence(rows, cols, cell_x, cell_y, 5.3e6)
+    influence += table[abs(row[:, None] - row), abs(col[:, None] - col)]
+    exact = pressure_at_approach(influence, gap, 0.02)
+    assert load > 2000.0
+    assert field.pressure == pytest.approx(exact, abs=1e-6 * exact.max())
+
+
+# Inflation [kPa], load [N]: deflection of the axle [mm], stiffness [kN/m], length, width [mm], area [cm^2], largest
+# pressure [kPa]; a program of its own with an exact active set, cells of 2.5 mm
+ANOTHER_PROGRAM = {
+    (120, 2000): (18.4, 137, 120, 130, 140, 169), (120, 4000): (31.3, 174, 175, 140, 232, 196),
+    (120, 6000): (41.9, 203, 220, 145, 302, 224), (180, 2000): (14.8, 167, 105, 135, 126, 195),
+    (180, 4000): (25.5, 205, 150, 145, 205, 230), (180, 6000): (34.6, 236, 190, 150, 270, 263),
+    (220, 2000): (13.3, 185, 95, 135, 119, 208), (220, 4000): (23.0, 224, 140, 150, 194, 249),
+    (220, 6000): (31.4, 256, 175, 155, 255, 285), (260, 2000): (12.2, 202, 95, 140, 115, 218),
+    (260, 4000): (21.2, 243, 135, 150, 187, 264), (260, 6000): (28.9, 274, 165, 155, 243, 303),
+    (300, 2000): (11.3, 218, 90, 140, 112, 226), (300, 4000): (19.7, 259, 130, 150, 180, 277),
+    (300, 6000): (26.9, 293, 160, 160, 236, 319),
+}  # fmt: skip
+
+
+def table_of(*settings):
+    return tire_table(body_of(resolved("tire_bump", *settings)))
+
+
+@pytest.mark.parametrize("inflation", [120, 180, 220, 260, 300])
+def test_deflection_stiffness_and_footprint_are_those_of_another_program(inflation):
+    table = table_of(f"effects.tire.inflation.pressure={inflation}e3")
+    for load in (2000, 4000, 6000):
+        sunk, stiffness, length, width, area, peak = ANOTHER_PROGRAM[inflation, load]
+        approach = approach_of_force(table.law(), load)
+        assert approach * 1e3 == pytest.approx(sunk, abs=0.1)
+        assert elastic_stiffness(table.law(), approach) * 1e-3 == pytest.approx(stiffness, rel=0.015)
+        found = table.contact_at(load)
+        assert found[0] * 1e3 == pytest.approx(length, abs=4.0)
+        assert found[1] * 1e3 == pytest.approx(width, abs=4.0)
+        assert found[2] * 1e4 == pytest.approx(area, rel=0.02)
+        node = round(approach / table.spacing / 4)
+        assert table.quarters[node].max() * 1e-3 == pytest.approx(peak, rel=0.02)
+
+
+def test_a_tire_that_an_engineer_recognises():
+    table = table_of()
+    approach = approach_of_force(table.law(), 4000.0)
+    length, width, area = table.contact_at(4000.0)
+    assert 180e3 <= elastic_stiffness(table.law(), approach) <= 250e3
+    assert 0.13 <= length <= 0.15
+    assert 0.14 <= width <= 0.16
+    assert 165e-4 <= area <= 205e-4
+    assert 4000.0 / area == pytest.approx(220e3, rel=0.2)
+    quarter = table.quarters[round(approach / table.spacing / 4)]
+    assert (quarter > 0.8 * quarter.max()).sum() / (quarter > 0.0).sum() > 0.65  # a plateau; a Hertz dome has 0.36
+
+
+def test_size_and_inflation_move_what_they_should():
+    usual, wide, flat = table_of(), table_of('effects.tire.inflation={size: "225/45 R17"}'), table_of(
+        "effects.tire.inflation.pressure=120e3"
+    )  # fmt: skip
+    assert wide.contact_at(4000.0)[1] > usual.contact_at(4000.0)[1]
+    assert flat.contact_at(4000.0)[0] > 1.2 * usual.contact_at(4000.0)[0]
+    assert read_size("205/55 R16").radius == pytest.approx(0.316, abs=5e-4)
+    with pytest.raises(ValueError, match="205/55 R16 are needed"):
+        read_size("205/55")
+
+
+def test_the_footprint_weighs_a_road_with_the_pressure_of_the_load():
+    table = table_of()
+    weights = table.weights(4000.0, (0.004, 0.005), 41)
+    assert weights.sum() == pytest.approx(1.0)
+    assert weights == pytest.approx(weights[::-1])
+    assert weights == pytest.approx(weights[:, ::-1])
+    length, width, _area = table.contact_at(4000.0)
+    assert (weights.any(axis=1).sum()) * 0.004 == pytest.approx(length, abs=0.012)
+    assert (weights.any(axis=0).sum()) * 0.005 == pytest.approx(width, abs=0.015)
+
+
+def force_of(found, field="normal"):
+    return numpy.concatenate([getattr(decode(ContactForce, data), field) for data in found["tire/force"]])
+
+
+@pytest.mark.parametrize("accuracy", ["realtime", "1e-2", "1e-3"])
+@pytest.mark.parametrize("ring", [(), ("effects.tire.rigid_ring={}",)], ids=["alone", "ring"])
+def test_a_tire_that_rolls_on_a_level_road_is_at_rest(accuracy, ring):
+    found = messages_of(resolved("tire_bump", "road={kind: flat}", "duration=0.2", f"accuracy={accuracy}", *ring))
+    assert force_of(found) == pytest.approx(340.0 * 9.81, rel=1e-6)
+    motion = [decode(BodyMotion, data) for data in found["bench/motion"]]
+    assert max(abs(block.acceleration).max() for block in motion) < 1e-4
+    for data in found["tire/patch"]:
+        patch = decode(ContactPatch, data)
+        integral = float(patch.pressure.astype(float).sum()) * patch.cell_x * patch.cell_y
+        assert integral == pytest.approx(340.0 * 9.81, rel=1e-6)
+
+
+def test_nothing_moves_before_the_cleat():
+    scene = resolved("tire_cleat", "travel.speed=10", "road.position=2", "duration=0.25")
+    found = messages_of(scene)
+    force = force_of(found)
+    before = int(1000 * (2.0 - 0.2) / 10.0)  # [ms]
+    assert force[:before] == pytest.approx(340.0 * 9.81, rel=1e-6)
+    assert abs(force - force[0]).max() > 500.0
+
+
+def test_the_ledger_of_an_inflated_tire_closes():
+    found = messages_of(resolved("tire_bump", "duration=1.4", "accuracy=1e-3"))
+    ledger = [decode(EnergyLedger, data) for data in found["bench/energy"]]
+    moved = max(abs(entry.supplied) + entry.dissipated for entry in ledger)
+    assert moved > 50.0
+    assert max(abs(entry.residual) for entry in ledger) < 1e-6 * moved
+
+
+def test_the_map_on_a_rough_road_carries_the_force():
+    found = messages_of(
+        resolved("tire_rough_road", "duration=0.3", "outputs.field_rate=100", "outputs.force_rate=1000")
+    )
+    force = force_of(found)[::10]
+    loads = [decode(ContactPatch, data).load for data in found["tire/patch"]]
+    assert loads == pytest.approx(force, rel=1e-6)
+
+
+def test_a_road_seen_through_the_field_is_that_seen_through_the_weights_where_it_is_smooth():
+    """Waves of 5 m are long beside a footprint of 0.13 m."""
+    road = "road={kind: iso8608, roughness_class: B, length: 50, shortest_wavelength: 2, longest_wavelength: 25}"
+    shown = force_of(messages_of(resolved("tire_bump", road, "duration=1", "accuracy=1e-3")))
+    bare = force_of(
+        messages_of(resolved("tire_bump", road, "duration=1", "accuracy=1e-3", "effects.tire.contact_field=null"))
+    )
+    assert (shown - bare).std() < 1e-3 * 340.0 * 9.81 < 0.1 * bare.std()
+
+
+def test_the_force_beyond_the_table_goes_on_straight():
+    law = table_of().law()
+    assert elastic_force(law, 0.08) == pytest.approx(
+        elastic_force(law, 0.06) + 0.02 * elastic_stiffness(law, 0.06), rel=1e-9
+    )
