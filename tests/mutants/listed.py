@@ -51,6 +51,8 @@ MUTANTS = (
     ),
     Mutant("rolling_brush.rolling_step", "(1.0 + slip)", "(1.0 - slip)", ("test_brush",)),
     Mutant("tire/brush/steps.carry", "way * stress * 0.5", "way * stress", ("test_brush",)),
+    Mutant("magic_formula.standing_tire", "square / growth)\n", "square)\n", ("test_magic_formula",)),
+    Mutant("property_file/scene_keys._ring", "2.0 * math.pi", "math.pi", ("property_file/test_scene_keys",)),
     # Rigid bodies
     Mutant("impact/law._left", "restitution**2", "restitution", ("impact/test_law",)),
     Mutant("impact/law._left", "taken = 0.5", "taken = 1.5", ("impact/test_law",)),

@@ -28,6 +28,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "validation": "validation",
     "goals": "goals",
     "material": "material",
+    "tire": "tire",
     "recover": "recover",
 }
 ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share the cores; the same bits without nodes
@@ -92,11 +93,13 @@ def refusal(error: Exception) -> tuple[str, int] | None:
     from contact_sim_pkg.files import FileRefusedError
     from contact_sim_pkg.identify.errors import IdentificationError
     from contact_sim_pkg.rigs.impact.material.errors import MaterialError
+    from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileError
     from contact_sim_pkg.run.errors import RunError
     from contact_sim_pkg.scene.errors import SceneError
 
     # status 2: refused before the start; 1: failed while running
-    if isinstance(error, (SceneError, BagError, ExcitationError, IdentificationError, MaterialError)):
+    bad_input = (SceneError, BagError, ExcitationError, IdentificationError, MaterialError, PropertyFileError)
+    if isinstance(error, bad_input):
         return str(error), 2
     if isinstance(error, RunError):
         return str(error), 1

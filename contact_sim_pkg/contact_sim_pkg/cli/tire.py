@@ -1,0 +1,75 @@
+"""`bench tire`: scene keys from a tire property file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from contact_sim_pkg.cli.output.tables import json_option, print_json, show_sections
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
+    from contact_sim_pkg.rigs.vehicle.tire.property_file.scene_keys import SceneTire
+
+NAMED = 12  # unread keys that are named
+
+
+@click.command("tire")
+@click.argument("file", type=click.Path(path_type=Path), metavar="FILE.tir")
+@json_option
+def command(file: Path, as_json: bool) -> None:
+    """Scene keys from a tire property file (.tir) of the Magic Formula or MF-Swift.
+
+    Shows the keys that are read, in SI units, and what becomes of them; the fitted tire beside the
+    file; and a part of a scene, ready for its `effects`.
+    """
+    from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import read_property_file
+    from contact_sim_pkg.rigs.vehicle.tire.property_file.scene_keys import scene_tire
+
+    tire = read_property_file(file)
+    found = scene_tire(tire)
+    unread = {"count": len(tire.unread), "first": tire.unread[:NAMED]}
+    comparisons = [{**each._asdict(), "difference": each.difference} for each in found.fit]
+    notes = [*tire.notes, *found.notes]
+    if as_json:
+        print_json({
+            "file": tire.file, "units": tire.units, "keys": _rows(tire), "not_read": unread, "fit": comparisons,
+            "notes": notes, "effects": {"tire": found.effects},
+        })  # fmt: skip
+        return
+    _show(tire, found, comparisons)
+    if tire.unread:
+        more = ", ..." if len(tire.unread) > NAMED else ""
+        notes.append(f"{len(tire.unread)} keys not read: {', '.join(tire.unread[:NAMED])}{more}")
+    for note in notes:
+        click.echo(note, err=True)
+
+
+def _rows(tire: PropertyFile) -> list[dict[str, Any]]:
+    from contact_sim_pkg.rigs.vehicle.tire.property_file.keys import KEYS
+
+    return [
+        {"key": key, "value": value, "unit": KEYS[key].unit, "line": line, "becomes": KEYS[key].becomes}
+        for key, (value, line) in tire.values.items()
+    ]
+
+
+def _show(tire: PropertyFile, found: SceneTire, comparisons: list[dict[str, Any]]) -> None:
+    from contact_sim_pkg.records.table import Section
+
+    keys = [{**row, "value": f"{row['value']:.6g}"} for row in _rows(tire)]
+    beside = [
+        {**row, "file": f"{row['file']:.4g}", "tire": f"{row['tire']:.4g}", "difference": f"{row['difference']:+.1%}"}
+        for row in comparisons
+    ]
+    sections = [Section("", keys)]
+    if beside:
+        sections.append(Section("the fitted tire under FNOMIN, beside the file", beside))
+    show_sections(sections)
+    click.echo(f"\n# from {Path(tire.file).name}\neffects:\n  tire:")
+    for effect, values in found.effects.items():
+        click.echo(f"    {effect}:")
+        for key, value in values.items():
+            click.echo(f"      {key}: {value}")

@@ -1,0 +1,5 @@
+"""The one error of a tire property file that cannot be used."""
+
+
+class PropertyFileError(ValueError):
+    """A file, or a tire in it, that cannot be used: what is wrong, where, the value, what is allowed."""

@@ -1,0 +1,61 @@
+"""`bench tire`: a table, a part of a scene that a run takes, JSON; bad input one sentence and exit
+code 2.
+"""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+from tests.rigs.vehicle.tire.property_file.tir_file import write
+
+from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.cli.tire import command
+from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation
+from contact_sim_pkg.scene.load import load_scene
+
+
+def run(*arguments):
+    return CliRunner().invoke(command, [str(a) for a in arguments], catch_exceptions=False)
+
+
+SCENE = """\
+rig: tire
+description: a test
+duration: 1.0
+travel: {speed: 10.0}
+road: {kind: bump, position: 10.0, height: 0.03, length: 0.6}
+"""
+
+
+def test_the_part_of_a_scene_is_one_that_loads(tmp_path):
+    shown = run(write(tmp_path, LATERAL_STIFFNESS=1e5, PCX1=1.5, PCY1=1.3))
+    part = shown.stdout[shown.stdout.index("# from tire.tir") :]
+    (tmp_path / "own.yaml").write_text(SCENE + part + "    contact_field: {}\n")
+    inflation = load_scene(tmp_path / "own.yaml").effect("tire", Inflation)
+    assert inflation.size == "205/55 R16"
+    assert 0.8 < inflation.sidewall_angle < 1.57
+    assert "read, nothing uses it yet" in shown.stdout
+    assert "2 keys not read: PCX1, PCY1" in shown.stderr
+
+
+def test_json_holds_keys_fit_and_effects(tmp_path):
+    found = json.loads(run(write(tmp_path, **{f"P{i}": i for i in range(20)}), "--json").stdout)
+    assert set(found) == {"file", "units", "keys", "not_read", "fit", "notes", "effects"}
+    assert found["keys"][0] == {
+        "key": "UNLOADED_RADIUS", "value": 0.316, "unit": "m", "line": 12, "becomes": "compared with the radius of the size",
+    }  # fmt: skip
+    assert found["not_read"]["count"] == 20
+    assert len(found["not_read"]["first"]) == 12
+    assert abs(found["fit"][0]["difference"]) < 1e-2
+    assert set(found["effects"]["tire"]) == {"inflation", "rigid_ring"}
+
+
+@pytest.mark.fault("A15")
+def test_a_bad_file_is_one_sentence_and_exit_code_2(tmp_path, capsys):
+    for content, sentence in ((b"\0", "this is no text"), ("[UNITS]\nLENGTH = 'furlong'", "'furlong' is not read")):
+        assert main(["tire", str(write(tmp_path, content)), "--json"]) == 2
+        said = capsys.readouterr()
+        assert said.out == ""
+        assert sentence in said.err
+        assert said.err.count("\n") == 1
+    assert main(["tire", str(tmp_path / "none.tir")]) == 2
