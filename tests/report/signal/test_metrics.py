@@ -73,6 +73,7 @@ def test_the_horizontal_weighting_takes_more_off_a_sine_at_8_hertz():
 def test_seat_factor_is_in_per_cent_and_undefined_for_a_floor_at_rest():
     assert seat_factor(0.6, 0.8) == pytest.approx(75.0)
     assert math.isnan(seat_factor(0.6, 0.0))
+    assert math.isnan(seat_factor(2e-14, 1e-14))
 
 
 def test_a_signal_of_zeros_has_no_crest_factor():

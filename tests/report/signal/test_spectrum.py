@@ -54,6 +54,18 @@ def test_unrelated_signals_have_little_coherence():
     assert np.median(result.coherence) < 0.1
 
 
+@pytest.mark.parametrize(("rms", "defined"), [(1e-14, False), (0.9e-6, False), (1.1e-6, True)])
+def test_a_source_that_moves_by_rounding_alone_is_at_rest(rms, defined):
+    source = np.random.default_rng(3).normal(size=60_000)
+    source *= rms / source.std()
+
+    result = transmissibility(source, 50.0 * source, RATE)
+
+    for column in (result.magnitude, result.phase, result.coherence):
+        assert np.isfinite(column[1:]).all() == defined
+        assert np.isnan(column).all() != defined
+
+
 def test_a_floor_at_rest_has_no_transmissibility():
     result = transmissibility(np.zeros(4000), np.random.default_rng(2).normal(size=4000), RATE)
 

@@ -1,5 +1,6 @@
 """Apparent mass and seat-to-head transmissibility of a recorded ride, against those of the linear model."""
 
+import numpy
 import pytest
 from tests.run.scenes import resolved
 
@@ -7,7 +8,9 @@ from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.report.drawing import style
 from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.signal.spectrum import Transmissibility
 from contact_sim_pkg.rigs.vehicle.seat.report.figures_occupant import occupant_pictures
+from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import peak_of, peak_sentence
 from contact_sim_pkg.rigs.vehicle.seat.report.occupant import occupant_signals, summary_numbers
 from contact_sim_pkg.rigs.vehicle.seat.report.section import ride_sections
 from contact_sim_pkg.run.offline import run_offline
@@ -49,6 +52,48 @@ def test_the_page_shows_apparent_mass_and_the_way_to_the_head_beside_the_vibrati
         "Apparent mass of the occupant",
         "Transmissibility from seat to head",
     ]
+
+
+@pytest.mark.parametrize(
+    ("magnitude", "trusted", "peak"),
+    [
+        ((0, 1, 3, 2, 1), (0, 1, 1, 1, 1), (3.0, 2.0)),
+        ((0, 1, 9, 3, 2), (0, 1, 0, 1, 1), None),  # beside a line that is not trusted
+        ((0, 1, 2, 3, 9), (0, 1, 1, 1, 1), None),  # at the end of the lines
+        ((9, 8, 3, 2, 1), (0, 1, 1, 1, 1), None),  # at their beginning
+        ((0, 3, 1, 2, 1), (0, 1, 1, 1, 1), None),  # a lower maximum elsewhere is not the peak
+        ((0, 2.9, 3, 2, 1), (0, 1, 1, 1, 1), None),  # it has hardly begun to fall where the trusted lines begin
+        ((0, 2, 2.9, 3, 2.9, 2), (0, 1, 1, 1, 1, 1), (3.0, 3.0)),
+        ((75, 75, 75 * (1 + 1e-14), 75, 75), (0, 1, 1, 1, 1), None),  # a rigid mass
+        ((0, 1, 3, 2, 1), (0, 0, 0, 0, 0), None),
+    ],
+)
+def test_a_peak_lies_between_lower_lines_that_are_trusted_too(magnitude, trusted, peak):
+    values = numpy.array(magnitude, dtype=float)
+    frequency = numpy.arange(float(len(values)))
+    result = Transmissibility(frequency, values, 0.0 * values, numpy.ones(len(values)), 9)
+    found = peak_of(result, numpy.array(trusted, dtype=bool))
+    assert found == peak
+    said = peak_sentence(result, numpy.array(trusted, dtype=bool))
+    assert said.startswith("No peak can be read" if peak is None else f"Peak: 3 at {peak[1]:g} Hz")
+
+
+def test_a_short_ride_that_does_not_show_its_peak_names_none(tmp_path):
+    run_offline(resolved("seat_ride"), tmp_path / "bag")
+    short = read_recording(open_bag(tmp_path / "bag"))
+    # its model peaks at 77.3 kg and 4.59 Hz, and loses its coherence there
+    assert "apparent_mass_peak_kg" not in summary_numbers(short)["occupant"]
+    with style():
+        (picture,) = occupant_pictures(occupant_signals(short))
+    assert "No peak can be read from this record" in picture.caption
+
+
+def test_a_seat_at_rest_has_no_section_of_its_occupant(tmp_path):
+    still = recording(tmp_path, "vibration={kind: sine, frequency: 4, amplitude: 0}", "duration=10")
+    occupant = summary_numbers(still)["occupant"]
+    assert sorted(occupant) == ["h_point_over_cushion_m", "mass_kg", "model"]
+    with style():
+        assert occupant_pictures(occupant_signals(still)) == []
 
 
 def test_an_occupant_without_a_head_has_its_apparent_mass_alone(tmp_path):

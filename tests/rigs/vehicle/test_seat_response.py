@@ -149,6 +149,26 @@ def test_a_floor_at_rest_has_no_response():
     assert numpy.isnan(last.transmissibility).all()
 
 
+AT_REST = "vibration={kind: sine, frequency: 4, amplitude: 0}"
+FORWARD = "vibration={kind: sine, axis: x, frequency: 4, amplitude: 1}"
+
+
+@pytest.mark.parametrize(
+    ("scene", "values"),
+    [
+        ("seat_ride", (AT_REST,)),
+        ("seat_ride", (FORWARD,)),
+        ("seat_ride_full", (AT_REST, "seat.occupant.model=iso_5982")),
+    ],
+)
+def test_a_seat_that_moves_by_rounding_alone_has_no_response(scene, values):
+    last = records_of(outputs_of(scene, 1.0, *values), TOPIC)[-1]
+    assert last.seat_weighted_rms < 1e-9
+    for name in NAMES:
+        for part in ("", "_phase", "_coherence"):
+            assert numpy.isnan(getattr(last, name + part)).all()
+
+
 def test_a_run_of_less_than_two_segments_publishes_none(tmp_path):
     outcome = run_offline(resolved("seat_ride", "duration=0.5", "seat.response_segment=0.4"), tmp_path / "bag")
     bag = open_bag(tmp_path / "bag")

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_sim_pkg.report.signal.spectrum import Density
+from contact_sim_pkg.report.signal.spectrum import AT_REST, Density
 from contact_sim_pkg.report.signal.weighting import WK, Weighting, apply_weighting, response
 
 
@@ -22,7 +22,7 @@ class RideMetrics(NamedTuple):
     vibration_dose: float
     """[m/s^1.75] VDV = (int a_w(t)^4 dt)^(1/4)"""
     crest_factor: float
-    """max |a_w(t)| / a_w; nan for a signal that is 0. Above 9 the basic method is doubtful."""
+    """max |a_w(t)| / a_w; nan for a signal at rest. Above 9 the basic method is doubtful."""
 
 
 def ride_metrics(acceleration: NDArray[np.float64], sample_rate: float, weighting: Weighting = WK) -> RideMetrics:
@@ -41,7 +41,7 @@ def ride_metrics(acceleration: NDArray[np.float64], sample_rate: float, weightin
         rms=root_mean_square(centred),
         weighted_rms=weighted_rms,
         vibration_dose=float((np.sum(weighted**4) / sample_rate) ** 0.25),
-        crest_factor=largest / weighted_rms if weighted_rms > 0.0 else math.nan,
+        crest_factor=largest / weighted_rms if weighted_rms >= AT_REST else math.nan,
     )
 
 
@@ -56,7 +56,7 @@ def weighted_rms(spectrum: Density, weighting: Weighting = WK) -> float:
 def seat_factor(seat: float, floor: float) -> float:
     """SEAT = 100 seat / floor [%], from two weighted rms values or two VDVs (same unit); nan for a
     floor at rest."""
-    return 100.0 * seat / floor if floor > 0.0 else math.nan
+    return 100.0 * seat / floor if floor >= AT_REST else math.nan
 
 
 def root_mean_square(values: NDArray[np.float64]) -> float:

@@ -18,6 +18,8 @@ LEAST_SEGMENTS = 8
 """Segments (half overlapping) that a shorter record is cut into; the coherence of one segment would
 always be 1.
 """
+AT_REST = 1e-6
+"""[m/s^2] rms below which an acceleration is rounding: what moves so stands still."""
 HIGHEST_FREQUENCY = 80.0
 """[Hz] upper end of the range of whole-body vibration"""
 
@@ -62,14 +64,19 @@ class CrossDensity(NamedTuple):
         return Density(self.frequency, self.density[signal, signal].real, self.segments)
 
     def response(self, source: int, target: int) -> Transmissibility:
-        """Response of one signal to another, nan at frequencies at which the source has no power."""
+        """Response of one signal to another, nan at frequencies at which the source has no power, and
+        everywhere for a source at rest.
+
+        source: number of an acceleration [m/s^2]; target: of any signal.
+        """
         cross = self.density[source, target]
         power_source, power_target = self.power(source).density, self.power(target).density
         with np.errstate(divide="ignore", invalid="ignore"):
             # H1 estimate: noise of the target averages out
             ratio = cross / power_source
             coherence = np.abs(cross) ** 2 / (power_source * power_target)
-        defined = power_source > 0.0
+        moves = float(np.trapezoid(power_source, self.frequency)) >= AT_REST**2
+        defined = (power_source > 0.0) & moves
         magnitude, phase, coherence = (
             np.where(defined, each, np.nan) for each in (np.abs(ratio), np.angle(ratio), coherence)
         )
@@ -153,10 +160,11 @@ def power_density(values: NDArray[np.float64], sample_rate: float) -> Density:
 def transmissibility(source: NDArray[np.float64], target: NDArray[np.float64], sample_rate: float) -> Transmissibility:
     """Magnitude, phase and coherence of `target` over `source`, both sampled at the same instants.
 
-    Frequencies at which the source has no power have magnitude, phase and coherence nan.
+    Frequencies at which the source has no power have magnitude, phase and coherence nan, and all for
+    a source at rest.
 
     Args:
-        source: [unit] one dimension, at least 2 samples.
+        source: [m/s^2] one dimension, at least 2 samples.
         target: [unit] same shape.
         sample_rate: [Hz] > 0.
     """

@@ -13,13 +13,13 @@ from contact_sim_pkg.report.signal.spectrum import HIGHEST_FREQUENCY, Transmissi
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import apparent_mass, seat_to_head
 from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import (
     TRUSTED_COHERENCE,
+    peak_sentence,
     response_figure,
     trusted_part,
 )
 from contact_sim_pkg.rigs.vehicle.seat.report.occupant import (
     OccupantSignals,
     apparent_mass_of,
-    peak_of,
     seat_to_head_of,
 )
 
@@ -63,12 +63,10 @@ def _picture(
         _draw_closed(axes, closed)
     highest = max(float(abs(closed).max()), float(result.magnitude[trusted].max(initial=0.0)))
     axes[0].set_ylim(0.0, 1.3 * highest)
-    peak = peak_of(result, trusted)
-    said = "" if peak is None else f" Largest: {peak[0]:.3g} at {peak[1]:.3g} Hz."
     line = " Thin line: the linear model in closed form." if signals.alone else ""
     caption = (
         f"{meaning}, {signals.name} ({signals.model.source}), mean of {result.segments} segments; blue where the "
-        f"coherence is at least {TRUSTED_COHERENCE} (dashed) and the seat moves enough.{said}{line}"
+        f"coherence is at least {TRUSTED_COHERENCE} (dashed) and the seat moves enough. {peak_sentence(result, trusted)}{line}"
     )
     return picture(key, figure, title, caption)
 

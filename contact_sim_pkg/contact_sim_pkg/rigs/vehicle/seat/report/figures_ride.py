@@ -21,6 +21,8 @@ from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals
 TRUSTED_COHERENCE = 0.9
 DRIVEN_SHARE = 1e-3
 """Share of the floor's largest density below which its leakage, not its motion, is measured."""
+PROMINENCE = 0.05
+"""Share of a peak by which the lines on either side of it must fall before one of them is not trusted."""
 FLOOR_OF_POWER = 1e-9
 """Share of the largest density below which a spectrum is rounding and not drawn."""
 
@@ -74,6 +76,31 @@ def trusted_part(result: Transmissibility, source: NDArray[np.float64], sample_r
     return found
 
 
+def peak_of(result: Transmissibility, trusted: NDArray[np.bool_]) -> tuple[float, float] | None:
+    """Magnitude of the peak and its frequency [Hz]: the largest line of those ``trusted``
+    [frequencies], from which trusted neighbours fall by `PROMINENCE` on either side; None where the
+    peak may lie beside the trusted lines, or all are about equal.
+    """
+    if not trusted.any():
+        return None
+    place = int(np.flatnonzero(trusted)[result.magnitude[trusted].argmax()])
+    magnitude = float(result.magnitude[place])
+    for side in (slice(place, None), slice(place, None, -1)):
+        # Trusted lines without a gap.
+        run = result.magnitude[side][np.logical_and.accumulate(trusted[side])]
+        if run.min() > (1.0 - PROMINENCE) * magnitude:
+            return None
+    return magnitude, float(result.frequency[place])
+
+
+def peak_sentence(result: Transmissibility, trusted: NDArray[np.bool_]) -> str:
+    """The peak in words, or that there is none."""
+    peak = peak_of(result, trusted)
+    if peak is None:
+        return "No peak can be read from this record: none lies between trusted lines."
+    return f"Peak: {peak[0]:.3g} at {peak[1]:.3g} Hz."
+
+
 def response_figure(result: Transmissibility, trusted: NDArray[np.bool_], label: str) -> tuple[Figure, list[Axes]]:
     """Magnitude (``label``), phase and coherence of a response over frequency, blue where
     ``trusted`` [frequencies].
@@ -100,10 +127,9 @@ def _transmissibility_caption(result: Transmissibility, trusted: NDArray[np.bool
     text = f"Seat over floor, mean of {result.segments} segments. "
     if not trusted.any():
         return text + "Nowhere is it coherent with enough excitation: no resonance can be read from this record."
-    peak = int(np.flatnonzero(trusted)[result.magnitude[trusted].argmax()])
     return text + (
-        f"Blue where the coherence is at least {TRUSTED_COHERENCE} (dashed) and the floor moves enough; largest there: "
-        f"{result.magnitude[peak]:.3g} at {result.frequency[peak]:.3g} Hz. Where it is grey, neither magnitude nor "
+        f"Blue where the coherence is at least {TRUSTED_COHERENCE} (dashed) and the floor moves enough. "
+        f"{peak_sentence(result, trusted)} Where it is grey, neither magnitude nor "
         "phase should be read: little excitation, noise, or a non-linear seat."
     )
 

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from contact_sim_pkg.report.series import FloatArray, Recording
 from contact_sim_pkg.report.signal.spectrum import Transmissibility, transmissibility
 from contact_sim_pkg.rigs.vehicle.seat.occupants import H_POINT, OccupantModel
-from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import trusted_part
+from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import peak_of, trusted_part
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals, vibration_numbers
 
 SEAT = "seat"
@@ -63,14 +60,6 @@ def apparent_mass_of(signals: OccupantSignals) -> Transmissibility:
 def seat_to_head_of(signals: OccupantSignals) -> Transmissibility | None:
     """Head over seat; None without a head."""
     return None if signals.head is None else transmissibility(signals.seat, signals.head, signals.sample_rate)
-
-
-def peak_of(result: Transmissibility, trusted: NDArray[np.bool_]) -> tuple[float, float] | None:
-    """Largest trusted magnitude and its frequency [Hz]; None where nothing is trusted."""
-    if not trusted.any():
-        return None
-    place = int(np.flatnonzero(trusted)[result.magnitude[trusted].argmax()])
-    return float(result.magnitude[place]), float(result.frequency[place])
 
 
 def occupant_numbers(signals: OccupantSignals) -> dict[str, Any]:
