@@ -14,7 +14,7 @@ import numpy as np
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.report.energy import relative_residual, throughput
 from contact_sim_pkg.report.reading import read_recording
-from contact_sim_pkg.report.rig_reports import contact_numbers, summary_numbers
+from contact_sim_pkg.report.rig_reports import contact_numbers, rig_warnings, summary_numbers
 from contact_sim_pkg.report.series import ContactSeries, CostSeries, FieldSeries, LedgerSeries, Recording
 from contact_sim_pkg.report.signal.episodes import slap_numbers
 
@@ -30,8 +30,9 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
 
     Sections that the run does not have are absent: `slaps` without contact episodes, `energy`
-    without a ledger, `solver` without cost messages, the pressure of a contact without a field.
-    Rigs add sections and numbers of their contacts (`records.report`).
+    without a ledger, `solver` without cost messages, the pressure of a contact without a field,
+    `warnings` where there is nothing to warn of. Rigs add sections and numbers of their contacts
+    (`records.report`).
     """
     summary: dict[str, Any] = {
         "scene": recording.scene.get("name"),
@@ -50,6 +51,8 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     if recording.episodes is not None:
         summary["slaps"] = slap_numbers(recording.episodes)
     summary |= summary_numbers(recording)
+    if warnings := rig_warnings(recording):
+        summary["warnings"] = warnings
     if recording.ledger is not None:
         summary["energy"] = energy_numbers(recording.ledger)
     if recording.cost is not None:

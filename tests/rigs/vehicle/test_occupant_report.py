@@ -1,20 +1,26 @@
 """Apparent mass and seat-to-head transmissibility of a recorded ride, against those of the linear model."""
 
+from types import SimpleNamespace
+
 import numpy
 import pytest
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.cli.output.outcome import print_outcome
 from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.report import facts
 from contact_sim_pkg.report.drawing import style
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.signal.spectrum import Transmissibility
+from contact_sim_pkg.report.summary import summarise_recording
 from contact_sim_pkg.rigs.vehicle.seat.report.figures_occupant import occupant_pictures
 from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import peak_of, peak_sentence
 from contact_sim_pkg.rigs.vehicle.seat.report.occupant import occupant_signals, summary_numbers
 from contact_sim_pkg.rigs.vehicle.seat.report.section import ride_sections
 from contact_sim_pkg.run.offline import run_offline
 
+GIVEN = {"excitation": {}, "real_time_factor": None, "scene": "ride", "simulated_s": 2.0, "startup_s": 0.0, "bag": None}
 NOISE = "vibration={kind: noise, low: 0.5, high: 20, rms: 1.0}"
 LINEAR = (
     "effects.seat={normal_elastic: {coefficient: 5e4, exponent: 1}, "
@@ -94,6 +100,30 @@ def test_a_seat_at_rest_has_no_section_of_its_occupant(tmp_path):
     assert sorted(occupant) == ["h_point_over_cushion_m", "mass_kg", "model"]
     with style():
         assert occupant_pictures(occupant_signals(still)) == []
+
+
+def test_a_cushion_compressed_beyond_its_table_is_said_before_the_numbers_and_on_the_terminal(tmp_path, capsys):
+    scene = resolved("seat_ride", "vibration={kind: sine, frequency: 3, amplitude: 60}", "duration=2")
+    outcome = run_offline(scene, tmp_path / "bag")
+    found = read_recording(open_bag(tmp_path / "bag"))
+    summary = summarise_recording(found)
+    (sentence,) = summary["warnings"]
+    assert "beyond 0.85" in sentence
+    assert facts.warnings(found) == [sentence]
+
+    print_outcome({**GIVEN, "summary": summary}, SimpleNamespace(stopped=outcome.stopped))
+    assert f"  warning: {sentence}\n" in capsys.readouterr().out
+
+    # the H-point of an occupant in the air is that of nobody who sits
+    contact = found.contacts["seat"]
+    touching = contact.normal > 0.0
+    assert touching.mean() < 0.9
+    expected = 0.098 - contact.approach[touching].mean()
+    assert summary["occupant"]["h_point_over_cushion_m"] == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_ride_within_the_range_of_its_foam_has_no_warning(chain):
+    assert "warnings" not in summarise_recording(chain)
 
 
 def test_an_occupant_without_a_head_has_its_apparent_mass_alone(tmp_path):

@@ -113,7 +113,7 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
         click.echo(f"  {_slap_line(summary['slaps'])}")
     if "impacts" in summary:
         click.echo(f"  {_impact_line(summary['impacts'])}")
-    for warning in (*summary.get("warnings", []), *summary.get("roller", {}).get("warnings", [])):
+    for warning in summary.get("warnings", []):
         click.echo(f"  warning: {warning}")
     if "messages" in summary:
         click.echo(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")

@@ -6,14 +6,13 @@ from typing import Any
 
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.report.tiles import Tile, number
-from contact_sim_pkg.rigs.impact.report.series import ImpactSeries, impact_warnings, impacts_of
+from contact_sim_pkg.rigs.impact.report.series import ImpactSeries, impacts_of
 
 
 def summary_numbers(recording: Recording) -> dict[str, Any]:
-    """Sections `impacts`, of a run with impacts, and `warnings`, of a run that lacks some."""
-    impacts, missing = impacts_of(recording), impact_warnings(recording)
-    found: dict[str, Any] = {} if impacts is None else {"impacts": impact_numbers(impacts)}
-    return {**found, "warnings": missing} if missing else found
+    """Section `impacts` of a run with impacts."""
+    impacts = impacts_of(recording)
+    return {} if impacts is None else {"impacts": impact_numbers(impacts)}
 
 
 def impact_numbers(impacts: ImpactSeries) -> dict[str, Any]:

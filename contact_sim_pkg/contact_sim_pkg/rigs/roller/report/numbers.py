@@ -11,7 +11,6 @@ from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.rigs.roller.forecast import stability_facts
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries, roller_of
 from contact_sim_pkg.rigs.roller.report.tables import volume_facts
-from contact_sim_pkg.rigs.roller.report.warnings import warnings_of
 
 
 def summary_numbers(recording: Recording) -> dict[str, Any]:
@@ -36,8 +35,6 @@ def roller_numbers(roller: RollerSeries) -> dict[str, Any]:
         numbers["tracks"] = [_track_numbers([each for each in roller.tracks if each.body == body]) for body in bodies]
     if roller.volumes:
         numbers["dangerous_volumes"] = [volume_facts(each) for each in roller.volumes]
-    if warned := warnings_of(roller):
-        numbers["warnings"] = warned
     return numbers
 
 

@@ -64,12 +64,12 @@ def seat_to_head_of(signals: OccupantSignals) -> Transmissibility | None:
 
 def occupant_numbers(signals: OccupantSignals) -> dict[str, Any]:
     """Section `occupant` of the summary: masses [kg], peaks, height of the H-point over the unloaded
-    cushion, mean over the run.
+    cushion, mean over the time in contact.
     """
-    found: dict[str, Any] = {
-        "model": signals.name, "mass_kg": signals.model.mass,
-        "h_point_over_cushion_m": H_POINT - float(signals.approach.mean()),
-    }  # fmt: skip
+    found: dict[str, Any] = {"model": signals.name, "mass_kg": signals.model.mass}
+    touching = signals.force > 0.0
+    if touching.any():
+        found["h_point_over_cushion_m"] = H_POINT - float(signals.approach[touching].mean())
     responses = (("apparent_mass", "_kg", apparent_mass_of(signals)), ("seat_to_head", "", seat_to_head_of(signals)))
     for name, unit, result in responses:
         trusted = None if result is None else trusted_part(result, signals.seat, signals.sample_rate)
