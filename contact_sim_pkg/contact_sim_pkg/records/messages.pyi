@@ -45,6 +45,13 @@ class Clock(_Record):
     clock: Time
 
 @dataclass(frozen=True, kw_only=True)
+class AxleForce(_Record):
+    block: int
+    sample_period: float
+    longitudinal: NDArray[numpy.float64]
+    vertical: NDArray[numpy.float64]
+
+@dataclass(frozen=True, kw_only=True)
 class BenchProgress(_Record):
     IDLE: ClassVar[int]
     STARTING: ClassVar[int]

@@ -17,7 +17,13 @@ TIRE = Contact(
     section_help="quarter car and tire (rigs tire and car); defaults where absent",
     effects=TIRE_EFFECTS,
     rules=tuple(f"{__name__}.tire.schema_rules:{name}" for name in ("slip_breaches", "tire_effect_breaches")),
-    topics=(FORCE, WRENCH, PATCH, ContactTopic("shear", "contact_msgs_defs/msg/ContactShear", FIELD)),
+    topics=(
+        FORCE,
+        WRENCH,
+        PATCH,
+        ContactTopic("shear", "contact_msgs_defs/msg/ContactShear", FIELD),
+        ContactTopic("axle", "contact_msgs_defs/msg/AxleForce"),
+    ),
 )
 SEAT = Contact(
     name="seat",

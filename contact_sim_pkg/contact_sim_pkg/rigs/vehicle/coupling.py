@@ -30,7 +30,7 @@ from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
 from contact_sim_pkg.rigs.vehicle.bodies import Bodies, Corrections, CouplingStep, Sampled, Saved
 from contact_sim_pkg.rigs.vehicle.coupling_model import Allowance
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
-from contact_sim_pkg.rigs.vehicle.entries import FORCES
+from contact_sim_pkg.rigs.vehicle.entries import FORCES, TIRE_SLOPE
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord
@@ -78,6 +78,7 @@ class Coupling:
     def reset(self) -> None:
         """Reset all but the buffers."""
         self.bodies.reset()
+        self._slope = 0.0  # of the road under the tire, at the last solution of its field
         self._proposed = float(self.model.timing.segments)  # length of the next coupling step in segments
         for field in self.fields:
             field.reset()
@@ -90,6 +91,7 @@ class Coupling:
             self.tire.place(drive.road, float(drive.travel[0]))
             bodies.lift(bodies.tire_approach(0.0) - self.tire.stand(bodies.weight()))
         self.tire.begin(self._solve_tire(first, 0, 0))
+        self._slope = self.tire.effective_slope()
         self.seat.begin(self._solve_seat(0))
         bodies.start(first, self._corrections())
 
@@ -121,6 +123,22 @@ class Coupling:
             )  # fmt: skip
             if self._advance_step(step, record):
                 done += count
+
+    def _lay_slopes(self, step: CouplingStep) -> None:
+        """Write the effective slope of the road at the samples of a coupling step, linear between the
+        fields at its ends; without a field that of the effective height.
+        """
+        every, drive = self.model.timing.sample_every, step.drive
+        at = numpy.arange(-step.behind_sample % every, step.segments, every)
+        slopes = step.sampled[2][: len(at), TIRE_SLOPE]
+        if self.tire.grids is None:
+            way = numpy.gradient(drive.travel)[at]
+            slopes[:] = 0.0
+            numpy.divide(numpy.gradient(drive.smooth)[at], way, out=slopes, where=way != 0.0)
+            return
+        end = self.tire.effective_slope()
+        slopes[:] = self._slope + (end - self._slope) * at / step.segments
+        self._slope = end
 
     def _count(self, whole: BlockDrive, first: int, left: int) -> int:
         """Segments of the next coupling step from segment ``first`` on, at most ``left``."""
@@ -237,6 +255,7 @@ class Coupling:
         supplied.
         """
         self.tire.store()
+        self._lay_slopes(step)
         height, cushion = float(step.drive.smooth[-1]) + outcome.ends[0], outcome.ends[1]
         approaches = (self.bodies.tire_approach(height), self.bodies.seat_approach(cushion))
         pairs = zip(self.fields, approaches, outcome.ends, outcome.found, self._allowances, strict=True)

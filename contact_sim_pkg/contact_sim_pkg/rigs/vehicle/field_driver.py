@@ -197,7 +197,7 @@ class ContactField(ABC):
         level = self.level_height(field)
         if level is not None:  # the law is exact, the field its map
             force = float(elastic_force(self.contact.elastic, approach + level))
-            self.published = self.published._replace(pressure=field.pressure * (force / field.load))
+            self.published = self.published._replace(pressure=field.pressure * (force / field.load), is_level=True)
             return approach + level - geometric
         if field.load == 0.0:  # free: the nearest place may lie beyond the usual grid
             gap = self.gap(self.grids.wide.settings)

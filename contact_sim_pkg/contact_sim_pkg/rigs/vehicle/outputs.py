@@ -10,7 +10,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.block_encoder import Output
-from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactShear, EnergyLedger
+from contact_sim_pkg.records.messages import AxleForce, BodyMotion, ContactForce, ContactShear, EnergyLedger
 from contact_sim_pkg.rigs.vehicle import entries as columns
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
 from contact_sim_pkg.rigs.vehicle.model import Model
@@ -29,6 +29,7 @@ class FieldRecord(NamedTuple):
     origin_y: float  # [m]
     approach: float  # [m]
     travel: float  # [m] of the contact along the road
+    is_level: bool = False  # whether it rests on level road alone
 
 
 @dataclass
@@ -114,6 +115,7 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
             effective_height=forces[:, columns.TIRE_HEIGHT], **impulses,
         )  # fmt: skip
         outputs += contact_outputs("tire", stamps, force, record.friction[:, 1:])
+        outputs.append(Output("tire/axle", stamps.start, _axle_force(model, stamps, record)))
         outputs += _patches("tire", stamps, model.tire_field, record.tire_fields)
         outputs += _shears(stamps, model.tire_field, record)
     if model.rig.seat_contact is not None:
@@ -139,6 +141,20 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
         *outputs, Output("bench/motion", stamps.start, motion), Output("bench/energy", stamps.start, _ledger(record)),
         Output("bench/cost", stamps.start, cost),
     ]  # fmt: skip
+
+
+def _axle_force(model: Model, stamps: BlockStamps, record: BlockRecord) -> AxleForce:
+    """Force of the tire on the axle: across the rigid ring, where there is one."""
+    forces, ring, states = record.forces, model.rig.rigid_ring, record.states
+    contact = forces[:, columns.TIRE_NORMAL] + forces[:, columns.TIRE_PUSH]
+    vertical = contact
+    if ring is not None:
+        belt = ring.offset
+        vertical = ring.stiffness * (states[:, belt] - states[:, 0]) + ring.damping * (
+            states[:, belt + 1] - states[:, 2]
+        )
+    longitudinal = -forces[:, columns.TIRE_SLOPE] * forces[:, columns.TIRE_NORMAL]
+    return AxleForce(block=record.block, sample_period=stamps.period, longitudinal=longitudinal, vertical=vertical)
 
 
 def _patches(

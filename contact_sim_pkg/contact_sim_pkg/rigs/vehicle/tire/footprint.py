@@ -10,6 +10,7 @@ how the effective height changes with the travel; at the instants the pressure f
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy
 from numpy.typing import NDArray
@@ -128,6 +129,14 @@ def height_along(form: TireForm, x: float) -> float:
     if form.circular:
         return radius - math.sqrt(max(radius * radius - x * x, 0.0))
     return 0.5 * x * x / radius
+
+
+def slope_along(form: TireForm, x: NDArray[numpy.floating[Any]]) -> NDArray[numpy.float64]:
+    """Slope dz/dx [1] of the height of the tire at ``x`` [m] [points] before its lowest point."""
+    radius = form.radius_rolling
+    if form.circular:
+        return numpy.asarray(x / numpy.sqrt(numpy.maximum(radius**2 - x**2, 1e-6 * radius**2)), dtype=numpy.float64)
+    return numpy.asarray(x / radius, dtype=numpy.float64)
 
 
 @kernel

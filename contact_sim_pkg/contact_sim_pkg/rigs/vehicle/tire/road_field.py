@@ -11,7 +11,7 @@ from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, Gap
-from contact_sim_pkg.rigs.vehicle.tire.footprint import tire_gap, touches_beyond
+from contact_sim_pkg.rigs.vehicle.tire.footprint import slope_along, tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
 from contact_sim_pkg.run.errors import RunError
@@ -183,6 +183,20 @@ class RoadField(ContactField):
         under = self._road.height[max(top, 0) : bottom, max(left, 0) : right]
         level = float(under[0, 0])
         return level if (under == level).all() else None
+
+    def effective_slope(self) -> float:
+        """Slope [1] of the even ground with the same longitudinal force, of the last solution.
+
+        Rolling on by ds at the same approach changes the elastic energy by ``sum p z'(x) A ds``, z the
+        height of the unloaded tire over its lowest point: that is the force against the travel. On
+        level road it is 0 for an elastic tread.
+        """
+        found, geometry = self.published, self._geometry
+        if found is None or found.is_level or geometry is None or not found.pressure.any():
+            return 0.0
+        x = found.origin_x + numpy.arange(len(found.pressure)) * geometry.lattice.cell_x
+        lines = found.pressure.sum(axis=1)
+        return float(lines @ slope_along(geometry.form, x) / lines.sum())
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
         """See `ContactField`."""
