@@ -29,6 +29,14 @@ def test_the_page_in_the_project_has_every_published_figure():
         assert f"| {each.quantity} | {each.unit} | {each.value} |" in page
 
 
+def test_what_leaves_its_band_on_the_page_says_why():
+    page = PAGE.read_text(encoding="utf-8")
+    remarks = " ".join(page.split())
+    outside = [line.split(" | ")[0].removeprefix("| ") for line in page.splitlines() if "**outside**" in line]
+    assert outside
+    assert [quantity for quantity in outside if f"* {quantity}: " not in remarks] == []
+
+
 @pytest.fixture
 def _two(monkeypatch):
     monkeypatch.setattr(validation, "all_published", lambda: [INSIDE, OUTSIDE])

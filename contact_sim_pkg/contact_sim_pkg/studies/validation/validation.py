@@ -21,7 +21,9 @@ Published figures beside those of the bench. Made by
 `{_COMMAND}`.
 
 *Band*: values that agree with the publication, its scatter included. *Fitted*: a constant of the
-bench was chosen by this figure; all others were not used. What leaves its band says why.
+bench was chosen by this figure; all others were not used. What leaves its band says why. *Usual
+values* are ranges known in the trade that no publication was found to give: they tell a seat from
+something else, and no more.
 """
 
 
