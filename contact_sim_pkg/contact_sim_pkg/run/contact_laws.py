@@ -30,6 +30,7 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.schema.laws import (
+    THICKEST,
     CushionSection,
     Foam,
     FoamHysteresisSection,
@@ -190,13 +191,14 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
 def _refuse_load(contact: str, keys: CushionSection, table: ForceTable, load: float) -> None:
     """A load at rest beyond the range of the foam's law, or of the cells."""
     most = table.most_force
-    if load > most:
-        reason = (
-            table.end
-            or f"the strain under its lowest point reaches {VALID_STRAIN:g}, to which the law of the foam holds"
-        )
-        sentence = (
-            f"carries {most:.4g} N at most, the load at rest is {load:.4g} N: {reason}; take a thicker or harder "
-            f"cushion (thickness {keys.thickness:g} m) or a lighter body"
-        )
-        raise SceneError([Fault("scene", 0, 0, f"effects.{contact}.cushion", sentence)])
+    if load <= most:
+        return
+    if table.largest_strain.max() > VALID_STRAIN:
+        reason, thicker = f"its strain reaches {VALID_STRAIN:g}", keys.thickness < THICKEST
+    else:
+        reason, thicker = "under more the contact reaches its edge", False
+    cure = f"a harder cushion, one thicker than {keys.thickness:g} m," if thicker else "a harder cushion"
+    sentence = (
+        f"carries {most:.4g} N at most, the load at rest is {load:.4g} N: {reason}; take {cure} or a lighter body"
+    )
+    raise SceneError([Fault("scene", 0, 0, f"effects.{contact}.cushion", sentence)])

@@ -128,12 +128,26 @@ def test_the_energies_balance():
     assert numpy.ptp(held) <= 1e-6 * max(e.supplied for e in found)
 
 
-def test_a_cushion_that_does_not_carry_the_occupant_is_refused_with_what_it_carries():
-    scene = resolved("seat_ride", "effects.seat.cushion.thickness=0.02")
-    with pytest.raises(
-        SceneError, match=r"effects\.seat\.cushion: carries .* N at most, the load at rest is 498.* harder"
-    ):
-        build(scene)
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        (
+            ("effects.seat.cushion.thickness=0.02",),
+            r"the load at rest is 498.* N: its strain reaches 0\.75; take a harder cushion, one thicker than 0\.02 m, or",
+        ),
+        (
+            (
+                "effects.seat.cushion.thickness=0.2",
+                "effects.seat.cushion.hardness=1600",
+                "seat.occupant.percentile=95",
+            ),
+            r"the load at rest is 730.* N: under more the contact reaches its edge; take a harder cushion or a lighter body$",
+        ),
+    ],
+)
+def test_a_cushion_that_does_not_carry_the_occupant_is_refused_with_what_it_carries(values, sentence):
+    with pytest.raises(SceneError, match=r"effects\.seat\.cushion: carries .* N at most, " + sentence):
+        build(resolved("seat_ride", *values))
 
 
 def test_the_body_on_the_cushion_is_that_of_the_occupant():

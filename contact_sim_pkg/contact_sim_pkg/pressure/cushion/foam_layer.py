@@ -208,5 +208,5 @@ class FoamLayer:
             if free < EDGE - 1e-9:
                 raise CushionError(
                     f"cushion at {1e3 * approach:.4g} mm: the contact comes within {1e3 * free:.3g} mm of the edge of the "
-                    f"cells {name}; {1e3 * EDGE:.0f} mm must stay free; take more cells or a smaller load"
+                    f"cells {name}, where {1e3 * EDGE:.0f} mm must stay free"
                 )

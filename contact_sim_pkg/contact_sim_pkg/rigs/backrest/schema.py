@@ -9,6 +9,7 @@ from pydantic import Field
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.scene.schema.fields import Section, number
 from contact_sim_pkg.scene.schema.laws import (
+    THICKEST,
     USUAL_PERCENTILE,
     CushionSection,
     FrictionSection,
@@ -97,7 +98,7 @@ class BackCushion(CushionSection):
     and map from one table.
     """
 
-    thickness: float = number(0.02, 0.2, "m", "thickness of the unloaded foam", default=0.05)
+    thickness: float = number(0.02, THICKEST, "m", "thickness of the unloaded foam", default=0.05)
     modulus: float = number(
         100.0, 1e9, "Pa", "Young's modulus of the foam at first contact, above plateau; 20 to 100 kPa", default=3.0e4
     )

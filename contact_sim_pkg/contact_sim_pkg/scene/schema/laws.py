@@ -14,6 +14,9 @@ SMOOTHED_SPEED = 0.5
 
 USUAL_PERCENTILE = 50
 
+THICKEST = 0.2
+"""[m] of a cushion."""
+
 USUAL_REVERSAL = 1.0
 """[J] of a foam's hysteresis, where a scene names none."""
 
@@ -73,7 +76,7 @@ class CushionSection(Section):
         "body that presses into it: a woman of the 5th percentile, a man of the 50th or 95th; that of the occupant, or 50",
         default=None,
     )
-    thickness: float = number(0.02, 0.2, "m", "thickness of the unloaded foam", default=0.08)
+    thickness: float = number(0.02, THICKEST, "m", "thickness of the unloaded foam", default=0.08)
     modulus: float = number(
         100.0, 1e9, "Pa", "Young's modulus of the foam at first contact, above plateau; 20 to 100 kPa", default=4.5e4
     )
