@@ -3,7 +3,7 @@
 import pytest
 
 from contact_sim_pkg.scene.errors import SceneError
-from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.scene.resolve import load_resolved, read_resolved
 
 
 @pytest.mark.parametrize(
@@ -19,6 +19,8 @@ from contact_sim_pkg.scene.resolve import load_resolved
         ("seat_ride_full", "effects.backrest.friction={}", "effects.backrest.friction", "in the rig backrest"),
         ("seat_ride_full", "seat.pan_tilt=0", "seat.pan_tilt", "nothing presses the occupant"),
         ("seat_ride_full", "backrest.preload=1e4", "backrest.preload", "lift the occupant from the pan"),
+        ("seat_ride_full", "backrest.back.radius_up=1.2", "backrest.back.radius_up", "does not act on a cushion"),
+        ("seat_ride_full", "backrest.mat.rows=30", "backrest.mat.rows", "does not act on a cushion"),
         ("seat_ride", "seat.pan_tilt=0.1", "seat.pan_tilt", "in the rig occupant"),
         ("seat_slap", "backrest.angle=0.1", "backrest.angle", "in the rig occupant"),
     ],
@@ -29,6 +31,13 @@ def test_what_does_not_belong_to_one_trunk_is_refused(scene, value, where, sente
     (fault,) = caught.value.faults
     assert fault.where == where
     assert sentence in fault.sentence
+
+
+def test_what_a_cushion_does_not_use_may_stand_at_its_default():
+    resolved = load_resolved(
+        "seat_ride_full", "backrest.mat.rows=40", "seat.cushion_modulus=4e4", "seat.body.thigh_rise=0.02"
+    )
+    assert read_resolved(resolved.to_yaml()) == resolved
 
 
 def test_friction_on_a_tilted_pan_needs_a_frame_with_mass():

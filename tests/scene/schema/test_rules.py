@@ -6,6 +6,8 @@ BUMP = {"kind": "bump", "position": 1.0, "height": 0.1, "length": 0.5}
 CLEAT = {"kind": "cleat", "position": 1.0, "height": 0.01, "length": 0.05}
 ISO = {"kind": "iso8608", "roughness_class": "C"}
 OWN = {"model": "own", "frame_mass": 2.0, "masses": [5.0, 6.0], "stiffness": [1e4, 1e4], "damping": [9.0, 9.0]}
+RIGID = {"model": "inert_75"}
+CUSHION = "effects.seat"
 SWEEP = {"kind": "sweep", "start_frequency": 1.0, "end_frequency": 20.0, "amplitude": 1.0}
 SHOCK = {"kind": "half_sine", "amplitude": 10.0, "duration": 0.05}
 LOSS = "effects.seat.normal_dissipative"
@@ -134,6 +136,37 @@ BREACHES = [
     ("seat", {LOSS: {"damping": 1.0, "restitution": 0.5, "reference_speed": 1.0}}, f"{LOSS}.restitution", "both given"),
     ("seat", {LOSS: {"restitution": 0.5}}, f"{LOSS}.reference_speed", "holds at one impact speed"),
     ("seat", {LOSS: {"reference_speed": 0.5}}, f"{LOSS}.reference_speed", "no meaning without restitution"),
+    (
+        "seat",
+        {CUSHION: {"cushion": {}}, "seat": {"cushion_modulus": 3e4}},
+        "seat.cushion_modulus",
+        "acts in half_space_field",
+    ),
+    (
+        "seat",
+        {CUSHION: {"cushion": {}}, "seat": {"cushion_poisson": 0.2}},
+        "seat.cushion_poisson",
+        "acts in half_space_field",
+    ),
+    (
+        "seat",
+        {CUSHION: {"cushion": {}}, "seat": {"body": {"thigh_rise": 0.03}}},
+        "seat.body.thigh_rise",
+        "the cushion has a foam and a body of its own",
+    ),
+    ("seat", {"seat": {"occupant": {**RIGID, "posture": 1.2}}}, "seat.occupant.posture", "inert_75 has none"),
+    (
+        "seat",
+        {"seat": {"occupant": RIGID}, "effects.seat.softening": {}},
+        "effects.seat.softening",
+        "the occupant (inert_75) has none",
+    ),
+    (
+        "seat",
+        {"seat": {"occupant": {**OWN, "masses": [], "stiffness": [], "damping": []}}, "effects.seat.softening": {}},
+        "effects.seat.softening",
+        "the occupant (own) has none",
+    ),
 ]
 
 

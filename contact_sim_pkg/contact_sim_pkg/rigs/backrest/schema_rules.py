@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from contact_sim_pkg.rigs.backrest.schema import BackFriction, BackrestSection, ContactSearchSection, ShellModesSection
+from contact_sim_pkg.rigs.backrest.schema import (
+    BackCushion,
+    BackFriction,
+    BackrestSection,
+    ContactSearchSection,
+    ShellModesSection,
+)
 from contact_sim_pkg.rigs.backrest.shell import MODE_COUNTS, STEEPEST, THICKEST
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
+from contact_sim_pkg.scene.schema.law_rules import unused
 from contact_sim_pkg.scene.schema.scene import Scene
 
 MOST_SEARCHED = 9
@@ -18,7 +25,7 @@ balances (0.6 % seen).
 
 def backrest_breaches(scene: Scene) -> Iterator[Breach]:
     """A shell that is not thin or not shallow, modes that are not offered, sliding without
-    friction.
+    friction, the shape of a back beside a cushion.
     """
     backrest = scene.section(BackrestSection)
     if backrest.sliding.amplitude > 0.0 and scene.effect("backrest", BackFriction) is None:
@@ -28,6 +35,10 @@ def backrest_breaches(scene: Scene) -> Iterator[Breach]:
         yield Breach("backrest.angle", "acts where a pan carries the occupant too, in the rig occupant", ("rig",))
     if scene.rig == "backrest" and getattr(scene.vibration, "axis", "x") != "x":
         yield Breach("vibration.axis", "a seat back is shaken forward; set axis: x", ("rig",))
+    if scene.effect("backrest", BackCushion) is not None:
+        sentence = "does not act on a cushion, which has the back of its percentile and cells of its own; remove it"
+        for name, section in (("back", backrest.back), ("mat", backrest.mat)):
+            yield from unused(f"backrest.{name}", section, sentence, ("effects.backrest.cushion",))
     # Limits of the shell: number of modes, thickness, curvature.
     shell = scene.effect("backrest", ShellModesSection)
     if shell is None:

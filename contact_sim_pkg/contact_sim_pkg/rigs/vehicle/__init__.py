@@ -31,7 +31,10 @@ SEAT = Contact(
     section=f"{__name__}.seat.schema:SeatSection",
     section_help="occupant and cushion (rigs seat and car); defaults where absent",
     effects=SEAT_EFFECTS,
-    rules=tuple(f"{__name__}.seat.schema_rules:{name}" for name in ("occupant_breaches", "response_breaches")),
+    rules=tuple(
+        f"{__name__}.seat.schema_rules:{name}"
+        for name in ("occupant_breaches", "cushion_breaches", "response_breaches")
+    ),
     topics=(
         FORCE,
         WRENCH,

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contact_sim_pkg.records.registry import contacts
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
+from contact_sim_pkg.scene.schema.fields import Section
 from contact_sim_pkg.scene.schema.laws import CushionSection, Foam, FrictionSection, GeneralDissipation, HuntCrossley
 from contact_sim_pkg.scene.schema.scene import Scene
 
@@ -28,6 +29,15 @@ def law_breaches(scene: Scene) -> Iterator[Breach]:
             kinetic, static = show(friction.coefficient_kinetic), show(friction.coefficient_static)
             sentence = f"{kinetic} is above coefficient_static ({static})"
             yield Breach(f"{where}.friction.coefficient_kinetic", sentence, (f"{where}.friction.coefficient_static",))
+
+
+def unused(where: str, section: Section, sentence: str, uses: tuple[str, ...]) -> Iterator[Breach]:
+    """A breach for each value of the ``section`` at ``where`` that differs from its default, where
+    nothing uses it.
+    """
+    for name, default in type(section)():
+        if getattr(section, name) != default:
+            yield Breach(f"{where}.{name}", sentence, uses)
 
 
 def _hunt_crossley(where: str, dissipative: HuntCrossley) -> Iterator[Breach]:

@@ -5,9 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from contact_sim_pkg.rigs.vehicle.seat.schema import OWN, OccupantSection, SeatSection, SofteningSection, segment_range
+from contact_sim_pkg.rigs.vehicle.seat.schema import (
+    OWN,
+    OccupantSection,
+    SeatCushion,
+    SeatSection,
+    SofteningSection,
+    segment_range,
+)
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
+from contact_sim_pkg.scene.schema.law_rules import unused
 from contact_sim_pkg.scene.schema.scene import Scene
 
 LIGHTEST = 0.1  # [kg] of a frame that is not massless: a lighter one swings faster than the rest by far
@@ -22,9 +30,23 @@ def occupant_breaches(scene: Scene) -> Iterator[Breach]:
     found = list(_choice_breaches(section)) or list(_link_breaches(section)) or list(_frame_breaches(section))
     yield from found
     softening = scene.effect("seat", SofteningSection)
+    if not found and not section.model_of().links:
+        yield from _linkless_breaches(section, softening)
     if softening is not None and softening.least >= softening.most:
         sentence = f"{show(softening.least)} m/s^2 is not below most ({show(softening.most)} m/s^2)"
         yield Breach("effects.seat.softening.least", sentence)
+
+
+def cushion_breaches(scene: Scene) -> Iterator[Breach]:
+    """Values of the half-space beside a cushion, which has a foam and a body of its own."""
+    if scene.effect("seat", SeatCushion) is None:
+        return
+    seat, uses = scene.section(SeatSection), ("effects.seat.cushion",)
+    sentence = "acts in half_space_field; the cushion has a foam and a body of its own; remove it"
+    yield from unused("seat.body", seat.body, sentence, uses)
+    for name in ("cushion_modulus", "cushion_poisson"):
+        if getattr(seat, name) != SeatSection.model_fields[name].default:
+            yield Breach(f"seat.{name}", sentence, uses)
 
 
 def response_breaches(scene: Scene) -> Iterator[Breach]:
@@ -63,6 +85,15 @@ def _choice_breaches(section: OccupantSection) -> Iterator[Breach]:
             if value != follows.get(name):
                 sentence = f"follows from {scalings[0]} as {_shown(follows.get(name))}; leave one of them out"
                 yield Breach(f"seat.occupant.{name}", sentence, (f"seat.occupant.{scalings[0]}",))
+
+
+def _linkless_breaches(section: OccupantSection, softening: SofteningSection | None) -> Iterator[Breach]:
+    """What acts on links, where the occupant has none."""
+    if section.posture != 1.0:
+        yield Breach("seat.occupant.posture", f"stiffens links, and {section.model} has none; remove it")
+    if softening is not None:
+        sentence = f"softens links, and the occupant ({section.model}) has none; remove it"
+        yield Breach("effects.seat.softening", sentence, ("seat.occupant",))
 
 
 def _link_breaches(section: OccupantSection) -> Iterator[Breach]:
