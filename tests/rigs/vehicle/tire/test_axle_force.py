@@ -6,7 +6,13 @@ from tests.rigs.vehicle.test_simulation import messages_of
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.records.messages import AxleForce, BodyMotion, ContactForce, ContactPatch
+from contact_sim_pkg.report.drawing import style
+from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import axle_of
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, along_the_road, road_sections
+from contact_sim_pkg.run.offline import run_offline
 
 WEIGHT = 340.0 * 9.81
 SPEED = 5.0
@@ -80,3 +86,16 @@ def test_the_axle_moves_as_its_forces_say(ring):
     mass = 33.0 if ring else 40.0
     vertical = joined(found, "tire/axle", AxleForce, "vertical")
     assert vertical == pytest.approx(mass * (acceleration[wheel] + 9.81) + suspension, abs=1e-6 * WEIGHT)
+
+
+def test_the_report_draws_it_over_the_road(tmp_path):
+    run_offline(resolved("tire_bump", *CLEAT), tmp_path / "bag")
+    recording = read_recording(open_bag(tmp_path / "bag"))
+    axle = axle_of(recording)
+    recorded = [decode(AxleForce, each.data).longitudinal for each in open_bag(tmp_path / "bag").messages("tire/axle")]
+    assert numpy.array_equal(axle.longitudinal, numpy.concatenate(recorded))
+    assert axle.time[[0, -1]] == pytest.approx([0.0, 0.599])
+    rolling = Rolling(recording.contacts["tire"], None, recording.series["road"], None, axle)
+    with style():
+        drawn = along_the_road("rolling", "tire", rolling, road_sections(rolling)[0])
+    assert "force of the road along the travel" in drawn.caption

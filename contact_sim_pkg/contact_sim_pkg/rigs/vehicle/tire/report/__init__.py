@@ -11,6 +11,9 @@ TIRE_REPORT = ContactReport(
             name="road", types=("contact_msgs_defs/msg/RoadPatch",), reader=f"{__name__}.road_series:RoadReader"
         ),
         SeriesReader(
+            name="axle", types=("contact_msgs_defs/msg/AxleForce",), reader=f"{__name__}.axle_series:AxleReader"
+        ),
+        SeriesReader(
             name="shear", types=("contact_msgs_defs/msg/ContactShear",), reader=f"{__name__}.shear_series:ShearReader"
         ),
     ),

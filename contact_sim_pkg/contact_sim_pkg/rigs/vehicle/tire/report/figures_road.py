@@ -26,6 +26,7 @@ from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.report.signal.lift_off import lifted_intervals
 from contact_sim_pkg.report.signal.low_pass import low_pass
+from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import AxleSeries
 from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import TireReference
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import RoadSeries
 
@@ -51,6 +52,7 @@ class Rolling(NamedTuple):
     field: FieldSeries | None
     road: RoadSeries
     reference: TireReference | None
+    axle: AxleSeries | None = None
 
 
 def road_sections(rolling: Rolling) -> list[RoadSection]:
@@ -83,12 +85,13 @@ def along_the_road(key: str, name: str, rolling: Rolling, section: RoadSection) 
     """Normal force raw and filtered, the footprint's line load, and the road below, on one axis of
     distance.
     """
-    with_field = rolling.field is not None
-    ratios = [3, 2.2, 2] if with_field else [3, 2]
-    figure, axes = new_figure(5.4 if with_field else 4.0, len(ratios), sharex=True, height_ratios=ratios)
+    ratios = [3.0, *([1.6] if rolling.axle is not None else []), *([2.2] if rolling.field is not None else []), 2.0]
+    figure, axes = new_figure(0.5 + 0.7 * sum(ratios), len(ratios), sharex=True, height_ratios=ratios)
     band = _draw_force(axes[0], rolling, section)
+    if rolling.axle is not None:
+        _draw_longitudinal(axes[1], rolling.axle, rolling.road, section)
     if rolling.field is not None:
-        _draw_line_load(figure, axes[1], rolling.field, rolling.road, section)
+        _draw_line_load(figure, axes[-2], rolling.field, rolling.road, section)
     _draw_road(axes[-1], rolling, section)
     axes[-1].set_xlim(section.start, section.end)
     axes[-1].set_xlabel("distance travelled, m")
@@ -127,6 +130,19 @@ def _draw_force(axes: Axes, rolling: Rolling, section: RoadSection) -> str:
     axes.set_ylabel("normal force, kN")
     axes.legend(loc="upper right", ncols=4)
     return band
+
+
+def _draw_longitudinal(axes: Axes, axle: AxleSeries, road: RoadSeries, section: RoadSection) -> None:
+    """Force along the road on the axle, through the same filter as the normal force."""
+    distance = road.travel.at(axle.time)
+    inside = _inside(distance, section)
+    filtered = low_pass(axle.longitudinal, 1.0 / axle.sample_period)
+    if filtered is not None:
+        draw_series(axes, distance[inside], axle.longitudinal[inside], color=MUTED, linewidth=0.8)
+    shown = axle.longitudinal if filtered is None else filtered
+    draw_series(axes, distance[inside], shown[inside], color=ACCENT, linewidth=1.2)
+    axes.axhline(0.0, color=INK, linewidth=0.8, linestyle=(0, (4, 3)))
+    axes.set_ylabel("force along,\nN")
 
 
 def _draw_line_load(figure: Figure, axes: Axes, field: FieldSeries, road: RoadSeries, section: RoadSection) -> None:
@@ -193,6 +209,9 @@ def _caption(rolling: Rolling, section: RoadSection) -> str:
         f"{contact.normal[place]:.5g} N at {distance[place]:.3f} m. "
     )
     text += f"Without load (shaded) for {lifted:.2%} of the time. " if lifted else "The contact never opens here. "
+    if rolling.axle is not None:
+        along = rolling.axle.longitudinal[_inside(travel.at(rolling.axle.time), section)]
+        text += f"Below it: force of the road along the travel, forward positive, from {along.min():.4g} to {along.max():.4g} N. "
     # The pressure history is drawn across the footprint; its scale follows from Hertz at rest.
     if rolling.field is not None:
         group = rolling.field.history_group

@@ -8,6 +8,7 @@ from contact_sim_pkg.report.figures.peaks import peak_curves
 from contact_sim_pkg.report.page import Section
 from contact_sim_pkg.report.series import FieldSeries, Recording
 from contact_sim_pkg.report.signal.peaks import filtered_signals, peak_rows
+from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import axle_of
 from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import TireReference, tire_reference
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_field import (
     displacement_picture,
@@ -42,7 +43,7 @@ def _rolling_section(recording: Recording) -> Section:
     signals = filtered_signals(contact, recording.motion)
     pictures: list[Picture] = []
     if road is not None:
-        rolling = Rolling(contact, field, road, reference)
+        rolling = Rolling(contact, field, road, reference, axle_of(recording))
         pictures += [along_the_road(KEY, TIRE, rolling, section) for section in road_sections(rolling)]
     if signals:
         pictures.append(peak_curves(KEY, TIRE, signals))
