@@ -154,7 +154,8 @@ def foam_of(keys: CushionSection) -> parameters.FoamElastic:
 
 def layer_under(keys: CushionSection, body: PressingBody) -> FoamLayer:
     """Foam layer of a cushion under a body."""
-    grid = FoamGrid(len(body.x), len(body.y), keys.cell, keys.cell)
+    cell = given(keys.cell)
+    grid = FoamGrid(len(body.x), len(body.y), cell, cell)
     return FoamLayer(
         grid, foam_of(keys), body.gap(body.x, body.y), keys.shear_share, inextensible=keys.cover == "inextensible"
     )
@@ -166,8 +167,8 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
     load: [N] at rest. Raises SceneError where the cushion does not carry it within its range.
     """
     spacing = min(MOST_SPACING, keys.thickness / LEAST_NODES)
-    place = float(body.x[0]), float(body.y[0])
-    grid = len(body.x), len(body.y), keys.cell, place
+    place, cell = (float(body.x[0]), float(body.y[0])), given(keys.cell)
+    grid = len(body.x), len(body.y), cell, place
     description = repr((foam_of(keys), grid, keys.shear_share, keys.cover, spacing, REACH, body.sizes))
 
     def compute() -> ForceTable:
@@ -185,7 +186,7 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
 
     table = kept_table(description, compute)
     _refuse_load(contact, keys, table, load)
-    return Cushion(table, table.law(), (keys.cell, keys.cell, *place))
+    return Cushion(table, table.law(), (cell, cell, *place))
 
 
 def _refuse_load(contact: str, keys: CushionSection, table: ForceTable, load: float) -> None:

@@ -14,6 +14,7 @@ from contact_sim_pkg.rigs.vehicle.studies.accuracy_cushion import cushion_rows
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.scene.resolve import read_resolved
 
 KINDS = {
     "seat/force": ContactForce,
@@ -196,11 +197,37 @@ def test_the_transmissibility_peaks_near_two_at_four_hertz(rms, lowest, highest)
     assert (way.magnitude[(way.frequency > 6.5) & (way.frequency < 15.0)] < 1.0).all()
 
 
+@pytest.mark.parametrize(
+    ("accuracy", "cell"),
+    [("realtime", 0.01), ("0.1", 0.01), ("1e-2", 0.01), ("9e-3", 0.0075), ("1e-3", 0.0075), ("9e-4", 0.005)],
+)
+def test_the_cells_follow_from_the_accuracy(accuracy, cell):
+    effects = resolved("seat_ride_full", f"accuracy={accuracy}").data["effects"]
+    assert [effects[contact]["cushion"]["cell"] for contact in ("seat", "backrest")] == [cell, cell]
+
+
+def test_cells_that_a_scene_gives_stay():
+    given = resolved("seat_ride_full", "accuracy=1e-3", "effects.seat.cushion.cell=0.01")
+    assert read_resolved(given.to_yaml()).data["effects"]["seat"]["cushion"]["cell"] == 0.01
+
+
 def test_the_accuracy_study_finds_errors_that_fall_with_cells_and_spacing():
     rows = cushion_rows(resolved("seat_ride"), lambda _sentence: None)
-    for quantity in ("sink", "stiffness", "peak pressure", "force", "pressure (L2)"):
+    for quantity in ("force", "pressure (L2)"):
         errors = [row["error"] for row in rows if row["quantity"] == f"seat cushion {quantity}"]
-        assert len(errors) == (2 if quantity in ("sink", "stiffness", "peak pressure") else 4)
+        assert len(errors) == 4
         assert errors == sorted(errors, reverse=True)
         assert errors[-1] < (0.01 if quantity != "force" else 1e-3)
+    for quantity, finest in (("sink", 1e-4), ("stiffness", 3e-3), ("peak pressure", 2e-3)):
+        of_cells = [row for row in rows if row["quantity"] == f"seat cushion {quantity}"]
+        assert [(row["level"], row["tolerance"]) for row in of_cells] == [
+            ("", 0.02),
+            ("force", 0.01),
+            ("field", 0.0075),
+            ("reference", 0.005),
+        ]
+        errors = [row["error"] for row in of_cells]
+        assert errors[0] == max(errors)
+        assert errors[1] < 0.01
+        assert errors[-1] < finest
     assert cushion_rows(resolved("seat_ride", "effects.seat={normal_elastic: {}}"), lambda _sentence: None) == []

@@ -20,9 +20,10 @@ def build_back_cushion(scene: ResolvedScene, preload: float) -> Cushion | None:
     keys = scene.effect("backrest", BackCushion)
     if keys is None:
         return None
-    rows, cols = round((BELOW + ABOVE) / keys.cell), 2 * round(HALF_WIDTH / keys.cell)
-    x = (numpy.arange(rows, dtype=numpy.float64) + 0.5) * keys.cell - BELOW
-    y = (numpy.arange(cols, dtype=numpy.float64) - 0.5 * (cols - 1)) * keys.cell
+    cell = given(keys.cell)
+    rows, cols = round((BELOW + ABOVE) / cell), 2 * round(HALF_WIDTH / cell)
+    x = (numpy.arange(rows, dtype=numpy.float64) + 0.5) * cell - BELOW
+    y = (numpy.arange(cols, dtype=numpy.float64) - 0.5 * (cols - 1)) * cell
     sitter, support = PERCENTILES[given(keys.percentile)], LumbarSupport(keys.lumbar_support, keys.lumbar_height)
     body = PressingBody(x, y, (sitter, support), lambda x, y: back_gap(sitter, support, x, y))
     return build_cushion("backrest", keys, preload, body)

@@ -114,7 +114,8 @@ class BackCushion(CushionSection):
     def open_values(self, scene: Scene) -> dict[str, Any]:
         # The rig occupant has the person on its seat too.
         occupant = getattr(getattr(scene, "seat", None), "occupant", None)
-        return {"percentile": getattr(occupant, "percentile", None) or USUAL_PERCENTILE}
+        percentile = getattr(occupant, "percentile", None) or USUAL_PERCENTILE
+        return {**super().open_values(scene), "percentile": percentile}
 
 
 class BackLoss(HuntCrossley):

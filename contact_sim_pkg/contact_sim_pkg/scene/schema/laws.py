@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
+from contact_sim_pkg.scene.schema.accuracy import level_of
 from contact_sim_pkg.scene.schema.fields import Section, choice, number
 
 if TYPE_CHECKING:
@@ -95,10 +96,15 @@ class CushionSection(Section):
     cover: Literal["sliding", "inextensible"] = choice(
         "top of the foam: it moves sideways freely, or a taut cover holds it", default="sliding"
     )
-    cell: float = number(0.005, 0.02, "m", "side of the square cells of the map", default=0.01)
+    cell: float | None = number(
+        0.005, 0.02, "m", "side of the square cells of the map; taken from accuracy when absent", default=None
+    )
+
+    cells: ClassVar[tuple[float, ...]] = (0.01, 0.0075, 0.005)
+    """[m] of a cell for each of `accuracy.LEVELS`."""
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
-        return {"percentile": USUAL_PERCENTILE}
+        return {"percentile": USUAL_PERCENTILE, "cell": self.cells[level_of(scene.accuracy)]}
 
 
 class FoamHysteresisSection(Section):

@@ -48,8 +48,9 @@ def pan_layer(keys: SeatCushion) -> FoamLayer:
 
 def _body(keys: SeatCushion) -> PressingBody:
     # A row of cells lies under the tuberosities, the middle between two columns.
-    rows, cols = round((BEHIND + AHEAD) / keys.cell), 2 * round(HALF_WIDTH / keys.cell)
-    x = (numpy.arange(rows, dtype=numpy.float64) - round(BEHIND / keys.cell)) * keys.cell
-    y = (numpy.arange(cols, dtype=numpy.float64) - 0.5 * (cols - 1)) * keys.cell
+    cell = given(keys.cell)
+    rows, cols = round((BEHIND + AHEAD) / cell), 2 * round(HALF_WIDTH / cell)
+    x = (numpy.arange(rows, dtype=numpy.float64) - round(BEHIND / cell)) * cell
+    y = (numpy.arange(cols, dtype=numpy.float64) - 0.5 * (cols - 1)) * cell
     sitter, tilt = PERCENTILES[given(keys.percentile)], keys.thigh_tilt
     return PressingBody(x, y, (sitter, tilt), lambda x, y: pan_gap(sitter, x, y, tilt))

@@ -241,7 +241,8 @@ class SeatCushion(CushionSection):
     )
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
-        return {"percentile": scene.section(SeatSection).occupant.percentile or USUAL_PERCENTILE}
+        percentile = scene.section(SeatSection).occupant.percentile or USUAL_PERCENTILE
+        return {**super().open_values(scene), "percentile": percentile}
 
 
 class SeatHysteresis(FoamHysteresisSection):

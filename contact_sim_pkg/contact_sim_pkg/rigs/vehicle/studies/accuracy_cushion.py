@@ -1,7 +1,7 @@
 """Accuracy and cost of a cushion: its cells, and the spacing of its table.
 
-*cells*: sink, stiffness, peak pressure and area under the load at rest, against cells of half the
-finest side. *table*: force and map between the nodes of tables of several spacings, against the
+*cells*: sink, stiffness, peak pressure and area under the load at rest with the cells of each level,
+against cells of half the finest side. *table*: force and map between the nodes of tables of several spacings, against the
 layer itself. Errors are relative; of a map that of its L2 norm. The cost is that of the maps at the
 field rate; the table is made once.
 """
@@ -22,10 +22,11 @@ from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass
 from contact_sim_pkg.rigs.vehicle.seat.cushion import pan_layer
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion, SeatSection
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.accuracy import LEVELS
 
 __all__ = ["cushion_rows"]
 
-CELLS, FINEST = (0.02, 0.01), 0.005  # [m]
+COARSEST, FINEST = 0.02, 0.0025  # [m] of a cell, beside those of the levels
 SPACINGS = (4e-3, 2e-3, 1e-3, 5e-4)  # [m]
 COARSE = 2e-3  # [m] of the table from which the load at rest is sought
 SENSITIVITY = 500.0  # [Pa] above which a cell counts as loaded
@@ -41,11 +42,15 @@ def cushion_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[di
     notify("seat cushion: reference cells")
     exact = _figures(pan_layer(keys.model_copy(update={"cell": FINEST})), load)
     rows = []
-    for cell in CELLS:
+    levels = [("", COARSEST), *zip((level.name for level in LEVELS), keys.cells, strict=True)]
+    for level, cell in levels:
         notify(f"seat cushion: cells of {1e3 * cell:g} mm")
         layer = pan_layer(keys.model_copy(update={"cell": cell}))
         found = _figures(layer, load)
-        head = _head(layer, 0.0, _map_cost(layer, load), scene, f"own code, cells of {1e3 * FINEST:g} mm")
+        head = {
+            **_head(layer, 0.0, _map_cost(layer, load), scene, f"own code, cells of {1e3 * FINEST:g} mm"),
+            "level": level,
+        }
         rows += [
             {**head, "quantity": f"seat cushion {name}", "error": abs(value / exact[name] - 1.0)}
             for name, value in found.items()
