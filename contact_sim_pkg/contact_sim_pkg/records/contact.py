@@ -50,8 +50,11 @@ class Contact:
         """Effects that an effect needs and that are not among the ``named`` ones; any that carries
         the load stands for the usual one.
         """
-        enough = {name: self.carriers if name == self.carriers[0] else (name,) for name in effect.needs}
-        return [name for name, others in enough.items() if not any(each in named for each in others)]
+        return [name for name in effect.needs if not any(each in named for each in self.enough(name))]
+
+    def enough(self, needed: str) -> tuple[str, ...]:
+        """Effects any of which meets the need for one: for the usual carrier all that carry the load."""
+        return self.carriers if needed == self.carriers[0] else (needed,)
 
     def published(self, scene: Mapping[str, Any]) -> list[str]:
         """Whole names of the topics that the plain data of a resolved scene calls for."""

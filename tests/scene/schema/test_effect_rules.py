@@ -105,10 +105,32 @@ def test_every_set_of_effects_is_allowed_or_refused_as_tabled(maker, contact):
         assert (faults == []) == allowed(contact, named), named
 
 
+@pytest.mark.parametrize(
+    ("name", "needed"),
+    [("envelopment", "contact_field"), ("brush", "contact_field"), ("tread_viscoelasticity", "contact_field")],
+)
+def test_an_effect_without_what_it_needs_names_both(maker, name, needed):
+    (fault,) = maker.faults("tire", {"effects.tire": {"normal_elastic": {}, name: {}}})
+    assert fault.startswith(f"effects.tire.{name}: {name} needs {needed}")
+
+
 @pytest.mark.parametrize("name", ["normal_dissipative", "general_dissipative", "friction", "half_space_field"])
-def test_an_effect_without_what_it_needs_names_both(maker, name):
-    faults = maker.faults("seat", {"effects.seat": {name: {}}})
-    assert any(fault.startswith(f"effects.seat.{name}: {name} needs normal_elastic") for fault in faults)
+def test_without_an_effect_that_carries_the_load_that_alone_is_said(maker, name):
+    (fault,) = maker.faults("seat", {"effects.seat": {name: {}}})
+    assert fault.startswith(
+        "effects.seat.normal_elastic: is missing: the contact seat carries no load without it or cushion"
+    )
+
+
+@pytest.mark.parametrize("value", [True, [], {"thicknes": 0.08}])
+def test_an_effect_that_carries_the_load_but_is_faulty_is_not_missing(maker, value):
+    (fault,) = maker.faults("seat", {"effects.seat": {"cushion": value, "foam_hysteresis": {}, "friction": {}}})
+    assert fault.startswith("effects.seat.cushion")
+
+
+def test_what_is_needed_but_faulty_is_not_missing(maker):
+    (fault,) = maker.faults("tire", {"effects.tire": {"normal_elastic": {}, "contact_field": True, "brush": {}}})
+    assert fault.startswith("effects.tire.contact_field")
 
 
 def test_friction_at_the_tire_is_refused_as_an_effect_not_as_a_misspelling(maker):

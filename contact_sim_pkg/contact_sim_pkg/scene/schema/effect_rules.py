@@ -30,7 +30,7 @@ def effect_breaches(scene: Scene) -> Iterator[Breach]:
         if not set(contact.carriers) & set(named):
             instead = "".join(f" or {each}" for each in others)
             sentence = f"is missing: the contact {name} carries no load without it{instead}; write {{}}"
-            yield Breach(f"{where}.{usual}", sentence, ("rig",))
+            yield Breach(f"{where}.{usual}", sentence, ("rig", *(f"{where}.{each}" for each in contact.carriers)))
         yield from _between(where, contact, named)
 
 
@@ -38,9 +38,11 @@ def _between(where: str, contact: Contact, named: list[str]) -> Iterator[Breach]
     records = [effect for effect in contact.effects if effect.name in named]
     for effect in records:
         for needed in contact.missing(effect, named):
+            # Not where what it needs is there but faulty, or was just reported as missing.
             yield Breach(
                 f"{where}.{effect.name}",
                 f"{effect.name} needs {needed}, which the scene does not name; add it or remove {effect.name}",
+                tuple(f"{where}.{each}" for each in contact.enough(needed)),
             )
     for one, other in combinations(records, 2):
         if other.name in one.excludes or one.name in other.excludes:

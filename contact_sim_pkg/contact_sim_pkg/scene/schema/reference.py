@@ -7,10 +7,12 @@ of that file.
 from __future__ import annotations
 
 import sys
+import textwrap
+from collections.abc import Mapping
 from itertools import groupby
 from pathlib import Path
 
-from contact_sim_pkg.records.contact import LOOSEST_INTEGRATION
+from contact_sim_pkg.records.contact import LOOSEST_INTEGRATION, Contact
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.registry import contacts, effects
 from contact_sim_pkg.records.rig import load
@@ -92,17 +94,37 @@ def _default(entry: Entry) -> str:
 
 
 def _effects() -> str:
-    head = "### which effects go together\n\n| effect | contacts | needs | excludes |\n|---|---|---|---|"
-    rows = [
-        f"| `{name}` | {', '.join(records)} | {_named(records, 'needs')} | {_named(records, 'excludes')} |"
-        for name, records in effects().items()
-    ]
+    carried = _by_contact({name: [" or ".join(contact.carriers)] for name, contact in contacts().items()}, "; ")
+    head = f"### which effects go together\n\n{textwrap.fill(f'The load is carried by {carried}.', 100)}\n\n"
+    head += "| effect | contacts | needs | excludes |\n|---|---|---|---|"
+    rows = []
+    for name, records in effects().items():
+        needs = _by_contact({contact: _needed(contacts()[contact], each) for contact, each in records.items()})
+        excludes = _by_contact({contact: _excluded(contacts()[contact], each) for contact, each in records.items()})
+        rows.append(f"| `{name}` | {', '.join(records)} | {needs} | {excludes} |")
     return "\n".join([head, *rows])
 
 
-def _named(records: dict[str, Effect], field: str) -> str:
-    """What the effect needs or excludes at any of its contacts."""
-    return ", ".join(dict.fromkeys(name for record in records.values() for name in getattr(record, field)))
+def _by_contact(said: Mapping[str, list[str]], between: str = ", ") -> str:
+    """What is said of contacts, each with the contacts that it holds at, unless at all."""
+    found: dict[str, list[str]] = {}
+    for contact, phrases in said.items():
+        for phrase in phrases:
+            found.setdefault(phrase, []).append(contact)
+    return between.join(
+        phrase if len(where) == len(said) else f"{phrase} ({', '.join(where)})" for phrase, where in found.items()
+    )
+
+
+def _needed(contact: Contact, effect: Effect) -> list[str]:
+    """What the effect needs at a contact: each need with all that meet it beside the effect."""
+    excluded = _excluded(contact, effect)
+    return [" or ".join(name for name in contact.enough(needed) if name not in excluded) for needed in effect.needs]
+
+
+def _excluded(contact: Contact, effect: Effect) -> list[str]:
+    """Effects of a contact beside which the effect cannot act, whichever of the two says so."""
+    return [each.name for each in contact.effects if each.name in effect.excludes or effect.name in each.excludes]
 
 
 def _accuracy() -> str:
