@@ -2,8 +2,9 @@
 
 Every model is linear and vertical. Node 0 is the seat interface, which moves with the surface of
 the cushion; it may be massless. The others hang on it, or on each other, by springs and dampers:
-side by side, as a chain, or with closed loops. Constants are those of the cited source, fitted to
-people on a rigid seat without backrest; between subjects they scatter by about 15 %.
+side by side, as a chain, or with closed loops. Constants are those of the cited source as reviews
+quote them, not read in the source itself. They were fitted to people on a rigid seat without
+backrest; between subjects they scatter by about 15 %.
 """
 
 from __future__ import annotations

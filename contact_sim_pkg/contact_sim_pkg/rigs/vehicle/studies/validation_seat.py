@@ -14,11 +14,13 @@ from scipy.optimize import brentq
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_energy, elastic_force
 from contact_sim_pkg.laws.parameters import FoamElastic
 from contact_sim_pkg.pressure.cushion.foam_layer import Compression, FoamGrid, FoamLayer
-from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, pan_gap, pan_weight
+from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, pan_gap
+from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.published import Published
 from contact_sim_pkg.report.signal.metrics import seat_factor, weighted_rms
 from contact_sim_pkg.report.signal.spectrum import CrossDensity, Welch
 from contact_sim_pkg.rigs.vehicle.model import build
+from contact_sim_pkg.rigs.vehicle.seat.occupants import SEATED_MASS
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion, SeatHysteresis
 from contact_sim_pkg.run.contact_laws import foam_of
 from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
@@ -221,7 +223,7 @@ def _published(machine: str, source: str, quantity: str, unit: str, value: str, 
 
 def _by_percentile(percentile: int) -> Iterator[Published]:
     """Area and pressure of a small, medium or large person on the default cushion."""
-    load = pan_weight(PERCENTILES[percentile])
+    load = SEATED_MASS[percentile] * GRAVITY
     who = f"{_PERSONS[percentile]}, {load:.0f} N"
     yield _published("cushion", _ADULTS, f"loaded area, {who}", "cm²", "1000 to 1500", (1000.0, 1500.0),
                      lambda: _sitting(load, percentile).area, note=_SMALL if percentile == 5 else "")  # fmt: skip
