@@ -1,11 +1,15 @@
 """Scenes by name or path, and the shipped ones."""
 
+import shlex
+from itertools import pairwise
+
 import pytest
 
 from contact_sim_pkg.records.registry import rigs as known_rigs
 from contact_sim_pkg.records.registry import shipped_scenes
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.load import find_scene, list_scenes, load_scene, shipped_names
+from contact_sim_pkg.scene.overrides import set_value
 
 
 def test_the_shipped_scenes_are_listed_smallest_first():
@@ -24,6 +28,21 @@ def test_every_shipped_scene_starts_with_a_comment_and_needs_nothing_outside_the
     assert text.startswith("# ")
     assert "shared" not in text
     assert load_scene(name).name == name
+
+
+TRIED = [
+    (name, line)
+    for name in shipped_names()
+    for line in shipped_scenes()[name].read_text(encoding="utf-8").splitlines()
+    if line.startswith("#   bench run")
+]
+
+
+@pytest.mark.parametrize(("name", "line"), TRIED, ids=[line[14:60] for _name, line in TRIED])
+def test_what_a_scene_says_to_try_is_a_valid_scene(name, line):
+    words = shlex.split(line.lstrip("# ").partition("   ")[0])
+    given = [set_value(value) for option, value in pairwise(words) if option == "--set"]
+    assert load_scene(words[2], given).name == words[2]
 
 
 def test_a_scene_without_name_is_called_like_its_file(maker):
