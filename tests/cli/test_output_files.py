@@ -17,7 +17,7 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("run", "out"): ["seat_ride", "--offline", "--out", "FILE"],
     ("recover", "target"): ["BAG", "FILE"],
 }
-INPUTS = {"impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag"}
+INPUTS = {"impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag", "file"}
 
 
 @pytest.fixture(scope="module")

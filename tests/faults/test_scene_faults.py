@@ -299,9 +299,9 @@ def test_c5_a_block_length_that_cannot_be_is_refused_with_the_allowed_values(tmp
 
 
 def test_a9_an_effect_without_what_it_needs_names_both_and_the_cure(tmp_path):
-    text = GOOD.replace("normal_elastic: {}", "friction: {}")
-    sentences = [fault.sentence for fault in refusal(written(tmp_path, text)).faults]
-    assert "friction needs normal_elastic, which the scene does not name; add it or remove friction" in sentences
+    text = BUMP.replace("NUMBER", "0.03").replace("normal_elastic: {}", "normal_elastic: {}, brush: {}")
+    (fault,) = refusal(written(tmp_path, text)).faults
+    assert fault.sentence == "brush needs contact_field, which the scene does not name; add it or remove brush"
 
 
 def test_a10_settings_that_contradict_each_other_are_refused_not_mended(tmp_path):
