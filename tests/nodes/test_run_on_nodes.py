@@ -65,9 +65,17 @@ def test_the_full_bench_on_five_processes_under_load_records_the_same_bits_as_of
     assert kept[0]["scene"] == kept[1]["scene"]
 
 
-def test_a_tire_with_every_effect_records_the_same_bits_as_offline(tmp_path):
-    effects = ("tread_viscoelasticity", "asperity_impulses")
-    values = ("duration=0.2", "pace=max", *(f"effects.tire.{name}={{}}" for name in effects))
+@pytest.mark.parametrize("carried", ["{inflation: {}", "{normal_elastic: {}, envelopment: {}"])
+def test_a_tire_with_every_effect_records_the_same_bits_as_offline(tmp_path, carried):
+    effects = [
+        "normal_dissipative",
+        "contact_field",
+        "rigid_ring",
+        "brush",
+        "tread_viscoelasticity",
+        "asperity_impulses",
+    ]
+    values = ("duration=0.2", "pace=max", f"effects.tire={carried}, {', '.join(f'{name}: {{}}' for name in effects)}}}")
     options = [part for value in values for part in ("--set", value)]
     ended = bench("run", "tire_braking", *options, "--out", tmp_path / "nodes")
     assert ended.returncode == 0, ended.stderr

@@ -151,13 +151,14 @@ def test_the_rate_of_the_forces_does_not_set_their_peak(loss):
     assert peaks[0] == pytest.approx(peaks[2], rel=0.035)  # a sample a millisecond need not meet the peak
 
 
+@pytest.mark.parametrize(("scene", "extent"), [("tire_half_space", r"0\.56"), ("tire_bump", r"0\.54")])
 @pytest.mark.parametrize("position", [0.275, 0.29])
-def test_a_wall_beyond_both_grids_is_refused_by_name(position):
-    """The paraboloid of the tire is 0.14 m high at 0.29 m: a wall of 0.3 m stands in it."""
+def test_a_wall_beyond_both_grids_is_refused_by_name(position, scene, extent):
+    """The tire is 0.14 m high or more at 0.29 m: a wall of 0.3 m stands in it."""
     with pytest.raises(
-        RunError, match=r"beyond its pressure grid of 0\.56 m, .* enlarge effects\.tire\.contact_field\.length"
+        RunError, match=rf"beyond its pressure grid of {extent} m, .* enlarge effects\.tire\.contact_field\.length"
     ):
-        run("travel={speed: 0.0}", f"road={{kind: step, position: {position}, height: 0.3}}", scene="tire_half_space")
+        run("travel={speed: 0.0}", f"road={{kind: step, position: {position}, height: 0.3}}", scene=scene)
 
 
 def test_a_belt_that_yields_beside_the_footprint_keeps_the_usual_grid():

@@ -19,7 +19,7 @@ def test_a_high_bump_is_run_on_two_grids_and_summarised(tmp_path):
     outcome = run_offline(resolved("tire_bump", "road.height=0.1", "duration=1.2"), tmp_path / "bag")
     assert outcome.failure == ""
     fields = [decode(ContactPatch, m.data) for m in open_bag(tmp_path / "bag").messages() if m.topic == "/tire/patch"]
-    assert {field.pressure.shape for field in fields} == {(64, 48), (128, 96)}
+    assert {field.pressure.shape for field in fields} == {(72, 48), (144, 96)}
     for field in fields:
         assert float(field.pressure.sum()) * field.cell_x * field.cell_y == pytest.approx(
             field.load, rel=1e-6, abs=1e-9

@@ -34,6 +34,17 @@ def test_a_tire_on_a_flat_road_stands_still_under_its_weight(effects):
     assert max(abs(block.velocity).max() for block in motion) < 3e-3
 
 
+HALF_SPACE = [("effects.tire.envelopment={}",), (*ALL, "effects.tire.envelopment={}")]
+
+
+@pytest.mark.parametrize("effects", HALF_SPACE, ids=lambda chosen: "+".join(chosen))
+def test_a_half_space_tire_on_a_flat_road_stands_still_under_its_weight(effects):
+    found = messages_of(resolved("tire_half_space", *FLAT, "travel.speed=0", "accuracy=1e-3", *effects))
+    assert forces(found) == pytest.approx(WEIGHT, rel=2e-3)
+    motion = [decode(BodyMotion, data) for data in found["bench/motion"]]
+    assert max(abs(block.velocity).max() for block in motion) < 3e-3
+
+
 def test_the_belt_stands_between_road_and_wheel_as_two_springs_in_series():
     scene = resolved("tire_bump", *FLAT, "effects.tire.rigid_ring={stiffness: 250000, belt_mass: 10}")
     motion = decode(BodyMotion, messages_of(scene, 1)["bench/motion"][0])

@@ -27,7 +27,7 @@ __all__ = ["TireTable", "gap_over_level_road", "tire_table"]
 Field = NDArray[numpy.float64]
 SPACING = 5e-4  # [m] between two approaches
 DEEPEST = 0.06  # [m]; beyond it the law is a straight line
-ROWS, COLS = 96, 72  # cells of the body's extent; the table's grid is half as long again
+ROWS, COLS = 108, 72  # cells of the body's extent; the table's grid is half as long again
 TOLERANCE, ITERATIONS = 1e-7, 400
 MAP_EVERY = 4  # approaches from one kept footprint to the next
 

@@ -8,7 +8,7 @@ import numpy
 
 from contact_sim_pkg.laws.parameters import Contact, TabulatedElastic
 from contact_sim_pkg.pressure.field.instant import grown_window
-from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, Gap
 from contact_sim_pkg.rigs.vehicle.tire.footprint import slope_along, tire_gap, touches_beyond
@@ -113,7 +113,9 @@ class RoadField(ContactField):
         """See `ContactField`."""
         if not self._touches(grids.usual, approach):
             return False
-        return grids.usual.settings.belt is None or self._touches_with_belt(grids, approach)
+        if grids.usual.settings.belt is None or self._touches_with_belt(grids, approach):
+            return True
+        return self._beyond_both(grids, approach)
 
     def _touches_with_belt(self, grids: FieldGrids, approach: float) -> bool:
         """The same where a belt yields further than the half-space: by its displacements on the
@@ -130,11 +132,17 @@ class RoadField(ContactField):
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:
         """See `ContactField`."""
         wide = grids.wide.settings
-        if wide.belt is None and self._touches(grids.wide, approach):
+        if self._beyond_both(grids, approach):
             raise RunError(
                 f"block {block}: tire: the road touches it beyond its pressure grid of {wide.rows * wide.cell_x:.4g} m, at "
                 f"{self.travel:.6g} m; enlarge effects.tire.contact_field.length and rows"
             )
+
+    def _beyond_both(self, grids: FieldGrids, approach: float) -> bool:
+        """Whether the road touches the tire outside the wide grid; not said of a string of a belt,
+        which may yield as far as that.
+        """
+        return not isinstance(grids.wide.settings.belt, BeltSettings) and self._touches(grids.wide, approach)
 
     def _touches(self, field: PressureField, approach: float) -> bool:
         """Whether the road touches the tire outside a field's grid, as far as a tire reaches."""

@@ -108,13 +108,13 @@ class TireField(PressureFieldSection):
     """Pressure field of the tire; it is the contact, its integral drives the wheel."""
 
     # The residual is over all that yields; of a belt and a ring that is ten times the tread
-    levels = (GridSection(64, 48, 1e-3, 1), GridSection(96, 72, 1e-4, 2), GridSection(192, 144, 1e-7, 4))
+    levels = (GridSection(72, 48, 1e-3, 1), GridSection(108, 72, 1e-4, 2), GridSection(216, 144, 1e-7, 4))
     half_space_levels: ClassVar = (
         GridSection(48, 64, 1e-2, 1), GridSection(96, 128, 1e-3, 2), GridSection(192, 256, 1e-6, 4),
     )  # fmt: skip
 
     length: float | None = number(
-        0.01, 2.0, "m", "extent along the road (forward); 0.24 by default, 0.28 with normal_elastic", default=None
+        0.01, 2.0, "m", "extent along the road (forward); 0.27 by default, 0.28 with normal_elastic", default=None
     )
     width: float | None = number(
         0.01, 2.0, "m", "extent across the track (left); 0.18 by default, 0.44 with normal_elastic", default=None

@@ -44,10 +44,11 @@ class TireSize(NamedTuple):
 
     @property
     def grid(self) -> tuple[float, float]:
-        """Extent [m] of a pressure field along and across: 0.24 by 0.18 m for 205/55 R16, which holds
-        the contact under two and a half times its usual load.
+        """Extent [m] of a pressure field along and across: 0.27 by 0.18 m for 205/55 R16, which holds
+        the contact under two and a half times its usual load; twice it holds all that is lower than
+        half the radius.
         """
-        return round(0.76 * self.radius, 3), round(0.878 * self.width, 3)
+        return round(0.855 * self.radius, 3), round(0.878 * self.width, 3)
 
 
 def read_size(text: str) -> TireSize:
