@@ -27,7 +27,7 @@ ROADS = {
 
 @cache
 def run(*sets, scene="tire_bump"):
-    """Normal force of the tire at 1 kHz, and stretches, of 0.6 s of a scene with other values."""
+    """Normal force of the tire at 1 kHz, and costs, of 0.6 s of a scene with other values."""
     scene = resolved(scene, "duration=0.6", *sets)
     simulation, sources = Simulation(scene), make_sources(scene)
     simulation.prepare()

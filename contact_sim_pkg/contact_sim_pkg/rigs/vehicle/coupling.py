@@ -128,6 +128,8 @@ class Coupling:
         """Write the effective slope of the road at the samples of a coupling step, linear between the
         fields at its ends; without a field that of the effective height.
         """
+        if self.model.tire_geometry is None:
+            return
         every, drive = self.model.timing.sample_every, step.drive
         at = numpy.arange(-step.behind_sample % every, step.segments, every)
         slopes = step.sampled[2][: len(at), TIRE_SLOPE]
