@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 from contact_sim_pkg.bag.block_encoder import Output
+from contact_sim_pkg.run.block_simulation import BlockSimulation
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_duration, set_value
 from contact_sim_pkg.scene.resolve import resolve
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["outputs_of", "records_of"]
+__all__ = ["outputs_of", "outputs_with", "records_of"]
 
 
 def outputs_of(scene_name: str, duration: float, *values: str) -> list[Output]:
@@ -20,7 +22,12 @@ def outputs_of(scene_name: str, duration: float, *values: str) -> list[Output]:
     """
     overrides = [set_duration(duration), *(set_value(value) for value in values)]
     scene = resolve(load_scene(scene_name, overrides))
-    simulation, sources = make_simulation(scene), make_sources(scene)
+    return outputs_with(scene, make_simulation(scene))
+
+
+def outputs_with(scene: ResolvedScene, simulation: BlockSimulation) -> list[Output]:
+    """The same of a `simulation` of a resolved scene."""
+    sources = make_sources(scene)
     simulation.prepare()
     found: list[Output] = []
     for block in range(simulation.blocks):

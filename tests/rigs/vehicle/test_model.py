@@ -56,10 +56,10 @@ def test_the_numbers_of_belt_brush_tread_and_asperities_arrive():
     )
     settings = made.tire_field.usual.settings
     assert settings.belt == BeltSettings(5000.0, 2e6)
-    assert made.rolling_friction.brush == Brush(1e8, 6e7, 1.2, 0.75)
-    assert made.rolling_friction.slips_at(1.0) == pytest.approx((-0.2, 0.05))
-    assert made.rolling_friction.slips_at(9.0) == pytest.approx((-0.4, 0.1))
-    assert made.tread.relaxed_modulus == pytest.approx(4e6)
+    assert made.rolling_friction.brush == Brush(1e8, 7.1e7, 1.2, 0.8, 4.0)
+    assert made.rolling_friction.slips.at(1.0) == pytest.approx((-0.2, 0.05))
+    assert made.rolling_friction.slips.at(9.0) == pytest.approx((-0.4, 0.1))
+    assert made.tread.relaxed.modulus == pytest.approx(4e6)
     step = made.tread.step
     assert 0.01 / step == pytest.approx(round(0.01 / step))  # a field every 0.01 s is one of its instants
     assert (

@@ -10,12 +10,15 @@ from contact_sim_pkg.records.registry import contacts, effects
 EFFECTS = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
     "cushion", "half_space_field", "softening", "shell_modes", "contact_search", "rigid_ring", "envelopment",
-    "tread_viscoelasticity", "brush", "asperity_impulses", "inflation",
+    "tread_viscoelasticity", "brush", "sidewall_compliance", "wheel_spin", "asperity_impulses", "inflation",
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
     "rigid_contact", "compliant_contact",
     "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
 )  # fmt: skip
-TIRE_ONLY = {"inflation", "rigid_ring", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
+TIRE_ONLY = {
+    "inflation", "rigid_ring", "envelopment", "tread_viscoelasticity", "brush", "sidewall_compliance", "wheel_spin",
+    "asperity_impulses",
+}  # fmt: skip
 OF_THE_ROLLER = (
     "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
 )  # fmt: skip
@@ -90,6 +93,10 @@ def allowed(contact, named):
     if "contact_search" in named and "shell_modes" not in named:
         return False
     if named >= {"normal_dissipative", "general_dissipative"}:
+        return False
+    if ("sidewall_compliance" in named and "brush" not in named) or (
+        "wheel_spin" in named and "sidewall_compliance" not in named
+    ):
         return False
     return "contact_field" in named or not named & IN_THE_FIELD
 

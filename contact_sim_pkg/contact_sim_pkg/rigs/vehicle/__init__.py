@@ -76,7 +76,7 @@ RIGS = (
             for name in ("elliptic", "force", "smooth", "rough", "area", "exponent", "road")
         ),
         hard_cases=tuple(
-            f"{__name__}.studies.hard_cases_{name}" for name in ("tire", "inflation", "scenes", "occupant")
+            f"{__name__}.studies.hard_cases_{name}" for name in ("tire", "inflation", "rolling", "scenes", "occupant")
         ),
         validation=(f"{__name__}.studies.validation_tire",),
     ),

@@ -149,6 +149,13 @@ class Bodies:
             return 0.0
         return height - float(self.state[0 if rig.rigid_ring is None else rig.rigid_ring.offset])
 
+    def tread_rate(self) -> float:
+        """Vertical speed [m/s] of tire or belt; 0 without a tire."""
+        rig = self.model.rig
+        if rig.tire is None:
+            return 0.0
+        return float(self.state[2 if rig.rigid_ring is None else rig.rigid_ring.offset + 1])
+
     def seat_approach(self, cushion: float) -> float:
         """Approach in [m] of the occupant to a cushion of height ``cushion`` [m]; 0 without
         a seat.

@@ -30,10 +30,11 @@ from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
 from contact_sim_pkg.rigs.vehicle.bodies import Bodies, Corrections, CouplingStep, Sampled, Saved
 from contact_sim_pkg.rigs.vehicle.coupling_model import Allowance
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
-from contact_sim_pkg.rigs.vehicle.entries import FORCES, TIRE_SLOPE
+from contact_sim_pkg.rigs.vehicle.entries import FORCES, TIRE_SHEAR, TIRE_SLOPE
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, Stretch
 from contact_sim_pkg.rigs.vehicle.tire.road_field import RoadField
 from contact_sim_pkg.run.errors import RunError
 
@@ -65,6 +66,8 @@ class Coupling:
         self.tire = RoadField(model.tire_field, rig.tire_contact, model.tire_geometry, model.tread)
         self.seat = CushionField(model.seat_field, rig.seat_contact, model.seat_shape)
         self.fields: tuple[ContactField, ContactField] = (self.tire, self.seat)
+        friction, grids = model.rolling_friction, model.tire_field
+        self.shear = None if friction is None or grids is None else RollingShear(friction, grids.wide.settings)
         samples, states = timing.segments // timing.sample_every, model.states
         self.sampled: Sampled = (
             numpy.zeros((samples, states)), numpy.zeros((samples, states)), numpy.zeros((samples, FORCES))
@@ -82,6 +85,8 @@ class Coupling:
         self._proposed = float(self.model.timing.segments)  # length of the next coupling step in segments
         for field in self.fields:
             field.reset()
+        if self.shear is not None:
+            self.shear.reset()
 
     def start(self, drive: BlockDrive) -> None:
         """Set the rig in equilibrium on the road at the start of a run, with its fields."""
@@ -92,6 +97,11 @@ class Coupling:
             bodies.lift(bodies.tire_approach(0.0) - self.tire.stand(bodies.weight()))
         self.tire.begin(self._solve_tire(first, 0, 0))
         self._slope = self.tire.effective_slope()
+        if self.shear is not None and self.tire.published is not None:
+            found = self.tire.published
+            load = float(found.pressure.sum()) * self.tire.cell_area
+            origin = (found.origin_x, found.origin_y)
+            self.shear.start(found.pressure, origin, found.travel, self.tire.slope_force(load))
         self.seat.begin(self._solve_seat(0))
         bodies.start(first, self._corrections())
 
@@ -141,6 +151,28 @@ class Coupling:
         end = self.tire.effective_slope()
         slopes[:] = self._slope + (end - self._slope) * at / step.segments
         self._slope = end
+
+    def _roll(self, step: CouplingStep, risen: float) -> None:
+        """Roll bristles and belt on to the field at the end of a coupling step, over which the
+        correction has ``risen`` by so much [m]; their samples go into their columns.
+        """
+        found = self.tire.published
+        if self.shear is None or found is None:
+            return
+        # The pressure with its loss, by the approach and its rate at the end.
+        heights = step.drive.smooth
+        rate = float(heights[-1] - heights[-2]) / step.segment_length + risen / step.duration - self.bodies.tread_rate()
+        approach = self.bodies.tire_approach(float(heights[-1]) + self.tire.correction + risen)
+        pressure = self.tire.with_loss(found, approach, rate).pressure
+        load = float(pressure.sum()) * self.tire.cell_area
+        every = self.model.timing.sample_every
+        stretch = Stretch(
+            step.start, step.segment_length, step.segments, float(step.drive.travel[-1]), self.tire.slope_force(load),
+            self.tire.rolling_force(), every, step.behind_sample,
+        )  # fmt: skip
+        samples = self.shear.roll(stretch, pressure, (found.origin_x, found.origin_y))
+        count = len(range(-step.behind_sample % every, step.segments, every))
+        step.sampled[2][:count, TIRE_SHEAR:] = samples[:count]
 
     def _count(self, whole: BlockDrive, first: int, left: int) -> int:
         """Segments of the next coupling step from segment ``first`` on, at most ``left``."""
@@ -256,6 +288,7 @@ class Coupling:
         """Accept the fields and their corrections; the energy of the remaining jump counts as
         supplied.
         """
+        self._roll(step, outcome.ends[0] - self.tire.correction)
         self.tire.store()
         self._lay_slopes(step)
         height, cushion = float(step.drive.smooth[-1]) + outcome.ends[0], outcome.ends[1]

@@ -67,6 +67,12 @@ class ContactField(ABC):
         for field in () if self.grids is None else self.grids.both():
             field.reset()
 
+    @property
+    def cell_area(self) -> float:
+        """Area of a cell [m^2]."""
+        assert self.grids is not None
+        return self.grids.usual.settings.cell_x * self.grids.usual.settings.cell_y
+
     def begin(self, correction: float) -> None:
         """Start a run with ``correction`` [m]."""
         self.correction = self._solved = correction

@@ -41,7 +41,6 @@ class BlockRecord:
     rates: Array  # [samples, states]
     forces: Array  # [samples, columns of rigs/vehicle/entries.py]
     floor: Array  # [samples, 2], [m/s^2] floor acceleration x, z
-    friction: Array  # [samples, 3], Fx [N], Fy [N], Mz [N m] of the tire
     energy: Array = field(default_factory=lambda: numpy.zeros(5))
     start_energy: Array = field(default_factory=lambda: numpy.zeros(5))
     tire_fields: list[tuple[int, FieldRecord]] = field(default_factory=list)  # sample, field
@@ -68,7 +67,6 @@ class BlockRecord:
             numpy.zeros((samples, model.states)),
             numpy.zeros((samples, columns.FORCES)),
             numpy.zeros((samples, 2)),
-            numpy.zeros((samples, 3)),
         )
 
     def store_samples(
@@ -95,12 +93,6 @@ class BlockRecord:
             self.start_energy[:] = energy if start_energy is None else start_energy
         return first
 
-    def store_shear(self, sample: int, found: FieldRecord, rolled: Sheared) -> None:
-        """Store the shear under a field; its resultants are constant until the next."""
-        result = rolled.result
-        self.shears.append((sample, found, rolled))
-        self.friction[sample:] = (result.force_x, result.force_y, result.moment_z)
-
 
 def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[Output]:
     """Outputs of a block, computed in ``wall_time`` [s]."""
@@ -108,13 +100,14 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
     outputs: list[Output] = []
     # contacts: force and wrenches of the resultant, then the fields under it
     if model.rig.tire_contact is not None:
+        shear = forces[:, columns.TIRE_SHEAR : columns.TIRE_SHEAR + 3]
         impulses = {} if model.asperities is None else {"impulses": forces[:, columns.TIRE_PUSH]}
         force = ContactForce(
             block=record.block, sample_period=stamps.period, normal=forces[:, columns.TIRE_NORMAL],
-            tangential=record.friction[:, 0], approach=forces[:, columns.TIRE_APPROACH],
+            tangential=shear[:, 0], approach=forces[:, columns.TIRE_APPROACH],
             effective_height=forces[:, columns.TIRE_HEIGHT], **impulses,
         )  # fmt: skip
-        outputs += contact_outputs("tire", stamps, force, record.friction[:, 1:])
+        outputs += contact_outputs("tire", stamps, force, shear[:, 1:])
         outputs.append(Output("tire/axle", stamps.start, _axle_force(model, stamps, record)))
         outputs += _patches("tire", stamps, model.tire_field, record.tire_fields)
         outputs += _shears(stamps, model.tire_field, record)
@@ -153,8 +146,11 @@ def _axle_force(model: Model, stamps: BlockStamps, record: BlockRecord) -> AxleF
         vertical = ring.stiffness * (states[:, belt] - states[:, 0]) + ring.damping * (
             states[:, belt + 1] - states[:, 2]
         )
-    longitudinal = -forces[:, columns.TIRE_SLOPE] * forces[:, columns.TIRE_NORMAL]
-    return AxleForce(block=record.block, sample_period=stamps.period, longitudinal=longitudinal, vertical=vertical)
+    on_axle = {"longitudinal": -forces[:, columns.TIRE_SLOPE] * forces[:, columns.TIRE_NORMAL]}
+    if model.rolling_friction is not None:
+        names = ("longitudinal", "lateral", "moment_y", "moment_z", "spin")
+        on_axle = dict(zip(names, forces[:, columns.TIRE_SHEAR + 3 :].T, strict=True))
+    return AxleForce(block=record.block, sample_period=stamps.period, vertical=vertical, **on_axle)
 
 
 def _patches(

@@ -18,9 +18,8 @@ from contact_sim_pkg.rigs.vehicle.model import Model, build
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord, block_outputs
 from contact_sim_pkg.rigs.vehicle.seat.response import RunningResponse
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
-from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear
 from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
-from contact_sim_pkg.run.outputs import NANOSECONDS, BlockStamps, largest
+from contact_sim_pkg.run.outputs import BlockStamps, largest
 from contact_sim_pkg.run.sources import make_travel
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -41,8 +40,6 @@ class Simulation:
         self.inputs = tuple(inputs)
         self._travel = make_travel(scene) if self.model.tire_geometry is not None else None
         self._coupling = Coupling(self.model)
-        friction, field = self.model.rolling_friction, self.model.tire_field
-        self._shear = None if friction is None or field is None else RollingShear(friction, field.wide.settings)
         self._next_block = 0
         self._reset()
 
@@ -73,8 +70,6 @@ class Simulation:
         self._reset()
         self._next_block = 0
         self._coupling.reset()
-        if self._shear is not None:
-            self._shear.reset()
 
     def _flat_patch(self) -> RoadPatch:
         geometry, travel = self.model.tire_geometry, self._travel
@@ -137,26 +132,22 @@ class Simulation:
         energy = self._coupling.energies(float(drive.smooth[0]))
         if self._start_energy is None:
             self._start_energy = energy
-        fields = self._coupling.copy_published()
+        fields, shear = self._coupling.copy_published(), self._coupling.shear
+        rolled = None if shear is None or fields[0] is None else shear.publish(fields[0].pressure)
         self._coupling.advance(block, interval, whole, record)
         accelerations = drive.acceleration_x, drive.acceleration_z
         first = record.store_samples(interval, self._coupling.sampled, energy, self._start_energy, *accelerations)
         self._publish(first, fields, record)
+        if rolled is not None:
+            record.shears.append((first, record.tire_fields[-1][1], rolled))
 
     def _publish(self, sample: int, fields: tuple[FieldRecord | None, FieldRecord | None], record: BlockRecord) -> None:
-        """Take the elastic fields of an instant with the loss of their contacts, and roll the tire
-        on to it.
-        """
+        """Take the elastic fields of an instant with the loss of their contacts."""
         tire, seat = fields
         forces = record.forces[sample]
         if tire is not None:
             approach, rate = float(forces[columns.TIRE_APPROACH]), float(forces[columns.TIRE_RATE])
-            tire = self._coupling.tire.with_loss(tire, approach, rate)
-            record.tire_fields.append((sample, tire))
-            if self._shear is not None:
-                time = BlockStamps(record.block, self.model.timing).at(sample) / NANOSECONDS
-                rolled = self._shear.advance(tire.pressure, tire.origin_x, tire.origin_y, tire.travel, time)
-                record.store_shear(sample, tire, rolled)
+            record.tire_fields.append((sample, self._coupling.tire.with_loss(tire, approach, rate)))
         if seat is not None:
             approach, rate = float(forces[columns.SEAT_APPROACH]), float(forces[columns.SEAT_RATE])
             record.seat_fields.append((sample, self._coupling.seat.with_loss(seat, approach, rate)))

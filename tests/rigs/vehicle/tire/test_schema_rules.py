@@ -9,11 +9,24 @@ def faults(maker, effects, **keys):
     return maker.faults("tire", {"effects.tire": {**FIELD, **effects}, **keys})
 
 
+BELT = {"brush": {}, "sidewall_compliance": {}, "contact_field": {}}
+SPIN = BELT | {"wheel_spin": {}}
+
+
 @pytest.mark.parametrize(
     ("effects", "sentence"),
     [
         ({"rigid_ring": {"belt_mass": 40}}, "belt_mass: 40 kg is not below tire.wheel_mass (40 kg)"),
-        ({"brush": {"coefficient_static": 0.5}}, "coefficient_kinetic: 0.75 is above coefficient_static (0.5)"),
+        ({"brush": {"coefficient_static": 0.5}}, "coefficient_kinetic: 0.8 is above coefficient_static (0.5)"),
+        (SPIN | {"wheel_spin": {"points": [[0, 0, -1]]}}, "wheel_spin.points.0.2: -1 N m is outside 0 to 100000 N m"),
+        (
+            SPIN | {"wheel_spin": {"points": [[0, 0, 0]], "brake": 1}},
+            "wheel_spin.brake: brake and points are both given",
+        ),
+        (
+            BELT | {"sidewall_compliance": {"yaw": 1e8}},
+            "yaw: the belt swings on it with 2906 Hz; it must be at most 1000 Hz",
+        ),
         ({"tread_viscoelasticity": {"branches": [[0.1, 0.0]]}}, "branches.0.1: 0 s is outside 1e-06 to 10000 s"),
         ({"tread_viscoelasticity": {"branches": [[0.1, 1.0], [-1, 1.0]]}}, "branches.1.0: -1 is outside 0 to 100"),
     ],
@@ -46,3 +59,8 @@ def test_a_slip_that_nothing_uses_is_refused(maker):
 def test_a_seat_has_no_slip(maker):
     (fault,) = maker.faults("seat", {"slip": {"angle": 0.1}})
     assert "the rig seat has no slip" in fault
+
+
+def test_a_wheel_that_spins_takes_no_slip(maker):
+    (fault,) = faults(maker, SPIN, slip={"longitudinal": -0.1})
+    assert "the rim turns by effects.tire.wheel_spin; give its drive and brake" in fault

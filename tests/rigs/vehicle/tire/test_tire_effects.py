@@ -20,6 +20,7 @@ WEIGHT = 340.0 * GRAVITY  # wheel and body of the shipped tire scenes
 FLAT = ("road={kind: flat}", "duration=0.2")
 EFFECTS = ("rigid_ring", "tread_viscoelasticity")
 ALL = tuple(f"effects.tire.{name}={{}}" for name in EFFECTS)
+COULOMB = "effects.tire.brush={coefficient_static: 1, coefficient_kinetic: 0.75, sliding_speed: 0}"
 
 
 def forces(found, field="normal"):
@@ -107,9 +108,7 @@ def test_a_viscoelastic_tread_drags_and_an_elastic_one_does_not():
 
 
 def test_a_flat_road_in_a_steady_turn_gives_what_the_brush_gives_and_the_forces_carry_it():
-    found = messages_of(
-        resolved("tire_bump", *FLAT, "effects.tire.brush={}", "slip={longitudinal: -0.01, angle: 0.02}")
-    )
+    found = messages_of(resolved("tire_bump", *FLAT, COULOMB, "slip={longitudinal: -0.01, angle: 0.02}"))
     shears = [decode(ContactShear, data) for data in found["tire/shear"]]
     patch, shear = decode(ContactPatch, found["tire/patch"][-1]), shears[-1]
     cell = shear.cell_x * shear.cell_y
@@ -123,13 +122,16 @@ def test_a_flat_road_in_a_steady_turn_gives_what_the_brush_gives_and_the_forces_
     assert (size <= 1.0 * patch.pressure * (1.0 + 1e-5)).all()
     assert size[shear.state == 2] == pytest.approx(0.75 * patch.pressure[shear.state == 2], rel=1e-5)
     block = decode(ContactForce, found["tire/force"][-1])
-    assert block.tangential[-1] == shear.force_x
+    at_field = len(block.tangential) // (len(found["tire/shear"]) // len(found["tire/force"]))
+    assert block.tangential[-at_field] == shear.force_x
     wrench = decode(WrenchStamped, found["tire/wrench"][-1]).wrench
-    assert (wrench.force.x, wrench.force.y, wrench.torque.z) == (shear.force_x, shear.force_y, shear.moment_z)
+    assert wrench.force.x in block.tangential
+    assert wrench.force.y == pytest.approx(shear.force_y, rel=0.05)  # cells that enter and leave
+    assert wrench.torque.z == pytest.approx(shear.moment_z, rel=0.05)
 
 
 def test_a_locked_wheel_slides_everywhere():
-    found = messages_of(resolved("tire_bump", *FLAT, "effects.tire.brush={}", "slip={longitudinal: -1}"))
+    found = messages_of(resolved("tire_bump", *FLAT, COULOMB, "slip={longitudinal: -1}"))
     shear = decode(ContactShear, found["tire/shear"][-1])
     assert shear.sliding_share == 1.0
     assert shear.force_x == pytest.approx(-0.75 * WEIGHT, rel=5e-3)

@@ -8,7 +8,7 @@ the brush for slip.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy
 
@@ -59,11 +59,35 @@ def _rigid_ring(scene: ResolvedScene, observed: Observed) -> Verdict:
 
 
 def _brush(scene: ResolvedScene, _observed: Observed) -> Verdict:
+    if _spin_of(scene) is not None:
+        return True, "a wheel that spins is held by the bristles alone"
     slip = scene.slip
     constant = [0.0, 0.0, 0.0] if slip is None else [0.0, slip.longitudinal or 0.0, slip.angle or 0.0]
     points = [constant] if slip is None else slip.points or [constant]
     largest = max(abs(value) for point in points for value in point[1:])
     return largest > 0.0, f"largest slip of the scene: {largest:g}"
+
+
+def _sidewall_compliance(scene: ResolvedScene, _observed: Observed) -> Verdict:
+    slip, spins = scene.slip, _spin_of(scene) is not None
+    changes = slip is not None and slip.points is not None and len({tuple(point[1:]) for point in slip.points}) > 1
+    short, why = _short_waves(scene, SHORT_WAVE, "three patch lengths")
+    if changes or spins:
+        return True, "the slip changes: its forces follow over a relaxation length"
+    return short, f"{why}; the force along the axle rings behind an obstacle" if short else f"constant slip; {why}"
+
+
+def _spin_of(scene: ResolvedScene) -> dict[str, Any] | None:
+    """Keys of the wheel's spin; None where the scene does not call for it."""
+    keys: dict[str, Any] | None = scene.data["effects"]["tire"].get("wheel_spin")
+    return keys
+
+
+def _wheel_spin(scene: ResolvedScene, _observed: Observed) -> Verdict:
+    wheel = _spin_of(scene) or {}
+    turned = any(wheel.get(key) for key in ("points", "drive", "brake"))
+    short, why = _short_waves(scene, SHORT_WAVE, "three patch lengths")
+    return turned or short, "the rim is driven or braked" if turned else f"{why}; a free wheel swings at about 33 Hz"
 
 
 _SCHEMA = f"{__package__}.schema"
@@ -105,6 +129,16 @@ TIRE_EFFECTS = (
         name="brush", section=f"{_SCHEMA}:BrushSection", help="brush friction of a rolling tire, stick and slip of each cell",
         source="Pacejka, Tire and Vehicle Dynamics, 3", needs=("contact_field",), publishes="shear",
         feeds=("shear", "force", "wrench"), inputs=("slip",), called_for=_brush,
+    ),
+    Effect(
+        name="sidewall_compliance", section=f"{_SCHEMA}:SidewallComplianceSection",
+        help="belt that yields along, across, in rotation and in yaw", source="Pacejka, Tire and Vehicle Dynamics, 9",
+        needs=("brush",), feeds=("shear", "force", "wrench"), inputs=("slip",), called_for=_sidewall_compliance,
+    ),
+    Effect(
+        name="wheel_spin", section=f"{_SCHEMA}:WheelSpinSection", help="rotation of the wheel under drive and brake",
+        source="Pacejka, Tire and Vehicle Dynamics, 9", needs=("sidewall_compliance",), feeds=("shear", "force", "wrench"),
+        called_for=_wheel_spin,
     ),
     Effect(
         name="asperity_impulses", section=f"{_SCHEMA}:AsperityImpulsesSection", help="impulses of road asperities",

@@ -92,6 +92,16 @@ def make_belt(
     )  # fmt: skip
 
 
+def stiffened(belt: InflatedBelt, factor: float) -> InflatedBelt:
+    """The belt with all but the rigid ring stiffer by a ``factor``: its displacement is divided by
+    it.
+    """
+    return belt._replace(
+        tension=factor * belt.tension, foundation=factor * belt.foundation, tangential=factor * belt.tangential,
+        bending=factor * belt.bending,
+    )  # fmt: skip
+
+
 def inflated_influence(
     belt: InflatedBelt, rows: int, cols: int, cell_x: float, cell_y: float
 ) -> NDArray[numpy.float64]:

@@ -4,6 +4,7 @@ for is ``None``.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy
@@ -11,9 +12,10 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.excitation.blocks import RoadLattice
+from contact_sim_pkg.laws.elastic_law import approach_of_force
 from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, NormalElastic
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, power_law
-from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
 from contact_sim_pkg.rigs.vehicle.coupling_model import coupled_timing, uniform_segments
@@ -24,11 +26,15 @@ from contact_sim_pkg.rigs.vehicle.tire import schema
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm, body_of
 from contact_sim_pkg.rigs.vehicle.tire.footprint import hertz_weights
 from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, gap_over_level_road, tire_table
-from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, TreadViscoelasticity
+from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import stiffened
+from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, Sidewalls, TreadViscoelasticity, WheelSpin
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import stiffening
 from contact_sim_pkg.run.contact_laws import normal_loss
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
+
+LONGEST_STEP = 5e-4  # [s] of belt and bristles; with the usual values their fastest mode lies near 130 Hz
+PART_OF_SWING = 0.5  # omega h; the frequency is 1 % off
 
 
 @dataclass(frozen=True)
@@ -47,7 +53,8 @@ class Tread:
     """What a pressure field of a rubber with memory needs beside its grids."""
 
     viscoelasticity: TreadViscoelasticity
-    relaxed_modulus: float  # [Pa] contact modulus at long times
+    relaxed: TireBody  # at long times
+    belt: TreadViscoelasticity | None  # memory of an inflated belt; None: elastic
     step: float  # [s] from one solution of the field to the next
 
 
@@ -63,20 +70,36 @@ class Asperities:
 
 
 @dataclass(frozen=True)
+class Programme:
+    """Two values over time, straight between the points."""
+
+    times: Vector  # [s]
+    first: Vector
+    second: Vector
+
+    @classmethod
+    def of(cls, points: list[list[float]]) -> Programme:
+        """Through triples of a time [s] and the two values."""
+        return cls(*numpy.array(points, dtype=numpy.float64).T.copy())
+
+    def at(self, time: float) -> tuple[float, float]:
+        """Both values at a ``time`` [s]."""
+        return (
+            float(numpy.interp(time, self.times, self.first)),
+            float(numpy.interp(time, self.times, self.second)),
+        )
+
+
+@dataclass(frozen=True)
 class RollingFriction:
-    """Brush of the tire and its slip programme, straight between the points."""
+    """Bristles of the tire, the belt on its sidewalls, and what turns and steers the wheel."""
 
     brush: Brush
-    times: Vector  # [s]
-    longitudinal: Vector
-    angles: Vector  # [rad]
-
-    def slips_at(self, time: float) -> tuple[float, float]:
-        """Longitudinal slip and slip angle [rad] at a time [s]."""
-        return (
-            float(numpy.interp(time, self.times, self.longitudinal)),
-            float(numpy.interp(time, self.times, self.angles)),
-        )
+    radius: float  # [m] effective rolling radius at the standing load
+    slips: Programme  # longitudinal slip and slip angle [rad]
+    sidewalls: Sidewalls | None
+    torques: Programme  # drive and brake [N m] on a wheel that spins
+    longest_step: float  # [s] of belt and bristles
 
 
 @dataclass(frozen=True)
@@ -111,6 +134,7 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None) -> TirePa
     law, length, field = _elastic(scene, body, table, load, geometry, tread)
     contact = Contact(law, normal_loss(scene, "tire", law, load / GRAVITY), None)
     asperities = _asperities(scene, geometry, load)
+    deflection = float(approach_of_force(law, load)) + (0.0 if rigid_ring is None else load / rigid_ring.stiffness)
     return TireParts(
         tire=tire,
         rigid_ring=rigid_ring,
@@ -119,7 +143,7 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None) -> TirePa
         footprint_length=length,
         field=field,
         tread=tread,
-        rolling_friction=_rolling_friction(scene),
+        rolling_friction=_rolling_friction(scene, deflection, body.form.radius_rolling, geometry),
         asperities=asperities,
     )
 
@@ -133,8 +157,7 @@ def _elastic(
     tread with memory is stiffer at once than for long, and its footprint, which sets its step, is that
     for long.
     """
-    raised = 1.0 if tread is None else stiffening(tread.viscoelasticity, tread.step)
-    settings = _field_settings(scene, body._replace(modulus=body.modulus * raised))
+    settings = _field_settings(scene, body if tread is None else _at_once(body, tread))
     field = None if settings is None else make_grids(settings, "tire")
     if field is None and table is not None:
         return table.law(), geometry.footprint_length, None
@@ -162,21 +185,73 @@ def _tread(scene: ResolvedScene, body: TireBody, geometry: TireGeometry) -> Trea
     memory = scene.effect("tire", schema.TreadViscoelasticitySection)
     if memory is None:
         return None
-    pairs = numpy.array(memory.branches, dtype=numpy.float64).reshape(-1, 2)
-    tread = TreadViscoelasticity(memory.retardation_time, pairs[:, 0].copy(), pairs[:, 1].copy())
+    ratios, times = numpy.array(given(memory.branches), dtype=numpy.float64).reshape(-1, 2).T.copy()
     timing = coupled_timing(scene, True, geometry.footprint_length)
     step = uniform_segments(scene, geometry.footprint_length, timing) * timing.segment_length
-    return Tread(tread, body.modulus, step)
+    belt = None
+    if isinstance(body.belt, InflatedBelt) and memory.belt > 0.0:
+        belt = TreadViscoelasticity(memory.belt * memory.retardation_time, memory.belt * ratios, times)
+    return Tread(TreadViscoelasticity(memory.retardation_time, ratios, times), body, belt, step)
 
 
-def _rolling_friction(scene: ResolvedScene) -> RollingFriction | None:
+def _at_once(body: TireBody, tread: Tread) -> TireBody:
+    """The tire as stiff as over one step of its ``tread``."""
+    belt = body.belt
+    if tread.belt is not None and isinstance(belt, InflatedBelt):
+        belt = stiffened(belt, stiffening(tread.belt, tread.step))
+    return body._replace(modulus=body.modulus * stiffening(tread.viscoelasticity, tread.step), belt=belt)
+
+
+def _rolling_friction(
+    scene: ResolvedScene, deflection: float, unloaded: float, geometry: TireGeometry
+) -> RollingFriction | None:
+    """``deflection`` [m] at the axle of the standing load; ``unloaded`` radius [m]."""
     law, slip = scene.effect("tire", schema.BrushSection), scene.slip
     if law is None:
         return None
-    points = [[0.0, 0.0, 0.0]] if slip is None else slip.points or [[0.0, slip.longitudinal or 0.0, slip.angle or 0.0]]
-    times, longitudinal, angles = numpy.array(points, dtype=numpy.float64).T.copy()
-    brush = Brush(law.stiffness_x, law.stiffness_y, law.coefficient_static, law.coefficient_kinetic)
-    return RollingFriction(brush, times, longitudinal, angles)
+    slips = [[0.0, 0.0, 0.0]] if slip is None else slip.points or [[0.0, slip.longitudinal or 0.0, slip.angle or 0.0]]
+    spin = scene.effect("tire", schema.WheelSpinSection)
+    torques = [[0.0, 0.0, 0.0]] if spin is None else spin.points or [[0.0, spin.drive or 0.0, spin.brake or 0.0]]
+    brush = Brush(
+        law.stiffness_x, law.stiffness_y, law.coefficient_static, law.coefficient_kinetic, law.sliding_speed
+    )  # fmt: skip
+    radius = unloaded - deflection / 3.0  # Pacejka, 8.3: between the loaded and the unloaded one
+    area = 2.0 * geometry.half_width * geometry.footprint_length
+    sidewalls = _sidewalls(scene, radius, None if spin is None else WheelSpin(spin.inertia))
+    step = LONGEST_STEP if sidewalls is None else min(LONGEST_STEP, PART_OF_SWING / fastest(sidewalls, brush, area))
+    return RollingFriction(brush, radius, Programme.of(slips), sidewalls, Programme.of(torques), step)
+
+
+def fastest(sidewalls: Sidewalls, brush: Brush, area: float) -> float:
+    """Highest angular frequency [rad/s] of a belt whose bristles stick over an ``area`` [m^2], from
+    above.
+    """
+    rim = math.inf if sidewalls.wheel is None else sidewalls.wheel.inertia
+    along, across = brush.stiffness_x * area, brush.stiffness_y * area
+    return math.sqrt(
+        max(
+            (sidewalls.stiffness_x + along) / sidewalls.mass
+            + sidewalls.stiffness_twist * (1.0 / sidewalls.inertia + 1.0 / rim)
+            + along * sidewalls.radius**2 / sidewalls.inertia,
+            (sidewalls.stiffness_y + across) / sidewalls.mass + sidewalls.stiffness_yaw / sidewalls.yaw_inertia,
+        )
+    )  # fmt: skip
+
+
+def _sidewalls(scene: ResolvedScene, radius: float, wheel: WheelSpin | None) -> Sidewalls | None:
+    keys = scene.effect("tire", schema.SidewallComplianceSection)
+    if keys is None:
+        return None
+    mass, along, yaw_inertia = given(keys.belt_mass), given(keys.longitudinal), 0.5 * keys.belt_inertia
+
+    def damping(stiffness: float, inertia: float) -> float:
+        return 2.0 * keys.damping_ratio * math.sqrt(stiffness * inertia)
+
+    return Sidewalls(
+        radius, mass, keys.belt_inertia, yaw_inertia, along, keys.lateral, keys.rotational, keys.yaw,
+        damping(along, mass), damping(keys.lateral, mass), damping(keys.rotational, keys.belt_inertia),
+        damping(keys.yaw, yaw_inertia), wheel,
+    )  # fmt: skip
 
 
 def _asperities(scene: ResolvedScene, geometry: TireGeometry, load: float) -> Asperities | None:
@@ -209,5 +284,5 @@ def _crown(form: TireForm, grid: FieldSettings) -> NDArray[numpy.float64]:
 
 def relaxed_grids(grids: FieldGrids, tread: Tread) -> FieldGrids:
     """The same grids for a tread that has stood for long."""
-    settings = grids.usual.settings._replace(modulus=tread.relaxed_modulus)
+    settings = grids.usual.settings._replace(modulus=tread.relaxed.modulus, belt=tread.relaxed.belt)
     return make_grids(settings, grids.usual.contact)

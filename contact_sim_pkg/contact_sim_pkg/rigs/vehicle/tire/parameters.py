@@ -1,4 +1,4 @@
-"""Parameter tuples of the effects of the tread, in SI units."""
+"""Parameter tuples of the effects of tread and belt, in SI units."""
 
 from __future__ import annotations
 
@@ -10,12 +10,41 @@ from contact_sim_pkg.compiled.arrays import Vector
 class Brush(NamedTuple):
     """Bristles of a rolling tread, one a cell of its pressure field, with a Coulomb limit of their
     own.
+
+    The sliding coefficient falls with the slip speed v: ``mu_k + (mu_s - mu_k) exp(-v / speed)``.
     """
 
     stiffness_x: float  # [N/m^3] shear stress per deflection, along the travel, > 0
     stiffness_y: float  # [N/m^3] sideways, > 0
     coefficient_static: float  # ratio of shear stress to pressure at which sticking ends, > 0
-    coefficient_kinetic: float  # ratio while sliding, > 0, <= coefficient_static
+    coefficient_kinetic: float  # ratio while sliding fast, > 0, <= coefficient_static
+    speed: float = 0.0  # [m/s] of that fall, >= 0; 0: kinetic at any speed
+
+
+class WheelSpin(NamedTuple):
+    """Rotation of the rim as a state."""
+
+    inertia: float  # [kg m^2] of rim, hub and what turns with them
+
+
+class Sidewalls(NamedTuple):
+    """Belt as a rigid body in the plane of the road and in rotation, on springs and dampers between
+    it and the rim.
+    """
+
+    radius: float  # [m] effective rolling radius: slip and lever of the friction
+    mass: float  # [kg] of the belt
+    inertia: float  # [kg m^2] about the axle
+    yaw_inertia: float  # [kg m^2] about the vertical
+    stiffness_x: float  # [N/m]
+    stiffness_y: float  # [N/m]
+    stiffness_twist: float  # [N m/rad] belt against rim about the axle
+    stiffness_yaw: float  # [N m/rad]
+    damping_x: float  # [N s/m]
+    damping_y: float  # [N s/m]
+    damping_twist: float  # [N m s/rad]
+    damping_yaw: float  # [N m s/rad]
+    wheel: WheelSpin | None  # None: the slip programme turns the rim
 
 
 class TreadViscoelasticity(NamedTuple):

@@ -8,7 +8,7 @@ import numpy
 
 from contact_sim_pkg.laws.parameters import Contact, TabulatedElastic
 from contact_sim_pkg.pressure.field.instant import grown_window
-from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings
+from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, Gap
 from contact_sim_pkg.rigs.vehicle.tire.footprint import slope_along, tire_gap, touches_beyond
@@ -35,7 +35,9 @@ class RoadField(ContactField):
         self._tread_state: TreadState | None = None
         if tread is not None and grids is not None:
             wide = grids.wide.settings
-            self._tread_state = TreadState(wide, tread.relaxed_modulus, tread.viscoelasticity, tread.step)
+            belt = tread.relaxed.belt
+            bends = (belt, tread.belt) if isinstance(belt, InflatedBelt) and tread.belt is not None else None
+            self._tread_state = TreadState(wide, tread.relaxed.modulus, tread.viscoelasticity, tread.step, bends)
             self._pressed = numpy.zeros((wide.rows, wide.cols))
             self.is_viscoelastic = True
 
@@ -205,6 +207,26 @@ class RoadField(ContactField):
         x = found.origin_x + numpy.arange(len(found.pressure)) * geometry.lattice.cell_x
         lines = found.pressure.sum(axis=1)
         return float(lines @ slope_along(geometry.form, x) / lines.sum())
+
+    def rolling_force(self) -> float:
+        """Moment of rolling resistance over the radius in [N], of the last solution: what a tread
+        with memory takes from the rotation, ``-sum p g'(x) A``, g the gap that its memory adds; 0 for
+        an elastic tread.
+        """
+        found, geometry = self.published, self._geometry
+        if self._tread_state is None or found is None or geometry is None:
+            return 0.0
+        rows, cols = found.pressure.shape
+        whole = self._tread_state.gap
+        row, col = whole.shape[0] // 2 - rows // 2, (whole.shape[1] - cols) // 2
+        climb = numpy.gradient(whole[row : row + rows, col : col + cols], axis=0)
+        return float(-(found.pressure * climb).sum() * geometry.lattice.cell_y)
+
+    def slope_force(self, load: float) -> float:
+        """Force [N] of the last solution's pressure, of resultant ``load`` [N], on slopes of the
+        road.
+        """
+        return self.rolling_force() - self.effective_slope() * load
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
         """See `ContactField`."""

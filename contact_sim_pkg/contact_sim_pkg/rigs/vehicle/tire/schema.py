@@ -20,7 +20,11 @@ if TYPE_CHECKING:
 RING_DAMPING = 0.045
 """Damping ratio of the belt on its sidewalls."""
 
+BELT_MEMORY = 0.2
+"""Of the tread's: inflation stores without loss, rubber and cord do not."""
+
 Branch: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
+TorquePoint: TypeAlias = Annotated[list[float], Field(min_length=3, max_length=3)]
 
 
 class TireSection(Section):
@@ -170,21 +174,30 @@ class Envelopment(Section):
 
 
 class TreadViscoelasticitySection(Section):
-    """Memory of the tread rubber: a Kelvin-Voigt element and Maxwell branches beside the modulus of
-    `tire`, cell by cell.
+    """Memory of the tread rubber, and of an inflated belt with its sidewalls: a Kelvin-Voigt element
+    and Maxwell branches beside the modulus at long times. The tire's rolling resistance.
     """
 
     retardation_time: float = number(
         0.0, 10.0, "s", "viscosity over the long-time modulus (Kelvin-Voigt); 0: none", default=0.0
     )
-    branches: list[Branch] = numbers(
+    branches: list[Branch] | None = numbers(
         "",
-        "Maxwell branches: [modulus over the long-time modulus, relaxation time in s] each",
+        "Maxwell branches: [modulus over the long-time modulus, relaxation time in s] each; by default 0.29 at 0.1, "
+        "0.01 and 0.001 s with inflation (a loss factor of about 0.15), 0.15 with normal_elastic",
         "0 to 8 pairs [ratio from 0 to 100, time from 1e-6 to 1e4 s]",
-        default=[[0.15, 0.1], [0.15, 0.01], [0.15, 0.001]],
+        default=None,
         shortest=0,
         longest=8,
     )
+    belt: float = number(
+        0.0, 10.0, "", "the same of an inflated belt, over that of the tread; fitted to the rolling resistance",
+        default=BELT_MEMORY,
+    )  # fmt: skip
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        ratio = 0.15 if scene.effect("tire", Inflation) is None else 0.29
+        return {"branches": [[ratio, 0.1], [ratio, 0.01], [ratio, 0.001]]}
 
 
 class BrushSection(Section):
@@ -193,15 +206,61 @@ class BrushSection(Section):
     """
 
     stiffness_x: float = number(
-        1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (choice)", default=6e7
+        1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (fitted)", default=7.1e7
     )
-    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; less work where equal", default=6e7)
+    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; less work where equal", default=7.1e7)
     coefficient_static: float = number(
-        0.0, 5.0, "", "static friction; dry asphalt 0.9 to 1.1", above=True,
-        default=1.0,
-    )  # fmt: skip
+        0.0, 5.0, "", "static friction; the peak of a dry road, 0.9 to 1.1, lies below it", above=True, default=1.15
+    )
     coefficient_kinetic: float = number(
-        0.0, 5.0, "", "kinetic friction, at most coefficient_static; dry asphalt 0.7 to 0.8", above=True, default=0.75
+        0.0, 5.0, "", "sliding fast, at most coefficient_static; dry asphalt 0.7 to 0.8", above=True, default=0.8
+    )
+    sliding_speed: float = number(
+        0.0, 1e3, "m/s", "of the fall from static to kinetic, exp(-v / sliding_speed); 0: at once", default=4.0
+    )
+
+
+class SidewallComplianceSection(Section):
+    """Belt that yields on the sidewalls along, across, in rotation and in yaw: relaxation of the slip
+    forces, force over a cleat with its modes at 33 and 80 Hz.
+    """
+
+    longitudinal: float | None = number(
+        1e3, 1e9, "N/m", "belt against rim along the road; that of rigid_ring by default", default=None
+    )
+    lateral: float = number(
+        1e3, 1e9, "N/m", "across; with the bristles in series 158 kN/m, a standing tire's", default=1.8e5
+    )
+    rotational: float = number(10.0, 1e8, "N m/rad", "about the axle", default=8.2e4)
+    yaw: float = number(10.0, 1e8, "N m/rad", "about the vertical", default=5000.0)
+    damping_ratio: float = number(0.0, 1.0, "", "of critical, of each motion alone", default=0.045)
+    belt_mass: float | None = number(
+        0.1, 1000.0, "kg", "belt and tread; that of rigid_ring by default, 7 without", default=None
+    )
+    belt_inertia: float = number(1e-4, 1e4, "kg m^2", "about the axle; half of it about the vertical", default=0.6)
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        ring = scene.effect("tire", RigidRingSection)
+        found = (ring or RigidRingSection()).open_values(scene)
+        stiffness = ring.stiffness if ring is not None and ring.stiffness is not None else found["stiffness"]
+        return {"longitudinal": stiffness, "belt_mass": (ring or RigidRingSection()).belt_mass}
+
+
+class WheelSpinSection(Section):
+    """Rotation of the wheel as a state: free rolling, or `drive` and `brake` on the rim, constant or
+    as `points` straight between them.
+    """
+
+    inertia: float = number(1e-3, 1e4, "kg m^2", "rim, hub and what turns with them; 0.4 to 0.9", default=0.5)
+    drive: float | None = number(-1e5, 1e5, "N m", "moment that drives the rim forward; 0 if absent", default=None)
+    brake: float | None = number(0.0, 1e5, "N m", "moment against its rotation; 0 if absent", default=None)
+    points: list[TorquePoint] | None = numbers(
+        "s, N m, N m",
+        "drive and brake over time, constant after the last point",
+        "triples [time, drive, brake], first time 0, times increasing to at most 3600 s, moments as above",
+        default=None,
+        shortest=1,
+        longest=1000,
     )
 
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from itertools import pairwise
 
 from contact_sim_pkg.rigs.vehicle.tire.schema import (
     BrushSection,
     RigidRingSection,
+    SidewallComplianceSection,
     TireSection,
     TreadViscoelasticitySection,
+    WheelSpinSection,
 )
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
@@ -17,6 +20,9 @@ from contact_sim_pkg.scene.schema.scene import Scene
 
 LOWEST_SLIP, HIGHEST_SLIP, LARGEST_ANGLE = -1.0, 10.0, 1.5
 LONGEST_TIME = 3600.0  # [s]
+LARGEST_TORQUE = 1e5  # [N m]
+FASTEST = 1000.0  # [Hz] of a belt on its sidewalls
+USUAL_AREA = 0.02  # [m^2] of bristles
 
 
 def slip_breaches(scene: Scene) -> Iterator[Breach]:
@@ -26,31 +32,49 @@ def slip_breaches(scene: Scene) -> Iterator[Breach]:
         return
     if scene.effect("tire", BrushSection) is None:
         yield Breach("slip", "acts through the effect brush, which the scene does not name; add effects.tire.brush: {}")
-    if slip.points is None:
+    spins = scene.effect("tire", WheelSpinSection) is not None
+    turned = slip.longitudinal is not None or any(point[1] != 0.0 for point in slip.points or ())
+    if spins and turned:
+        where = "slip.points" if slip.longitudinal is None else "slip.longitudinal"
+        yield Breach(where, "the rim turns by effects.tire.wheel_spin; give its drive and brake, not the slip")
+    yield from _points_breaches(
+        "slip", slip.points, {"longitudinal": slip.longitudinal, "angle": slip.angle},
+        ((0.0, LONGEST_TIME, " s"), (LOWEST_SLIP, HIGHEST_SLIP, ""), (-LARGEST_ANGLE, LARGEST_ANGLE, " rad")),
+    )  # fmt: skip
+
+
+def _points_breaches(
+    where: str,
+    points: list[list[float]] | None,
+    constant: dict[str, float | None],
+    ranges: tuple[tuple[float, float, str], ...],
+) -> Iterator[Breach]:
+    """Values over time given twice, points out of order or out of their ``ranges``."""
+    if points is None:
         return
-    # Points replace the constant slips.
-    for key in ("longitudinal", "angle"):
-        if getattr(slip, key) is not None:
-            yield Breach(f"slip.{key}", f"{key} and points are both given; keep one", ("slip.points",))
-    if slip.points[0][0] != 0.0:
-        yield Breach(
-            "slip.points.0.0", f"the first time is {show(slip.points[0][0])} s; it must be 0", ("slip.points",)
-        )
-    for index, (before, after) in enumerate(pairwise(slip.points), start=1):
+    # Points replace the constant values.
+    for key, value in constant.items():
+        if value is not None:
+            yield Breach(f"{where}.{key}", f"{key} and points are both given; keep one", (f"{where}.points",))
+    if points[0][0] != 0.0:
+        sentence = f"the first time is {show(points[0][0])} s; it must be 0"
+        yield Breach(f"{where}.points.0.0", sentence, (f"{where}.points",))
+    for index, (before, after) in enumerate(pairwise(points), start=1):
         if not after[0] > before[0]:
             sentence = f"time {show(after[0])} s does not come after {show(before[0])} s; times must increase"
-            yield Breach(f"slip.points.{index}.0", sentence, ("slip.points",))
+            yield Breach(f"{where}.points.{index}.0", sentence, (f"{where}.points",))
     # Each column has its own range.
-    ranges = ((0.0, LONGEST_TIME, " s"), (LOWEST_SLIP, HIGHEST_SLIP, ""), (-LARGEST_ANGLE, LARGEST_ANGLE, " rad"))
-    for index, point in enumerate(slip.points):
+    for index, point in enumerate(points):
         for place, (value, (low, high, unit)) in enumerate(zip(point, ranges, strict=True)):
             if not low <= value <= high:
                 sentence = f"{show(value)}{unit} is outside {show(low)} to {show(high)}{unit}"
-                yield Breach(f"slip.points.{index}.{place}", sentence, ("slip.points",))
+                yield Breach(f"{where}.points.{index}.{place}", sentence, (f"{where}.points",))
 
 
 def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
-    """A belt heavier than its wheel, kinetic friction above static, branches out of range."""
+    """A belt heavier than its wheel, kinetic friction above static, torques and branches out of
+    range.
+    """
     where, wheel_mass, rigid_ring = (
         "effects.tire",
         scene.section(TireSection).wheel_mass,
@@ -65,11 +89,40 @@ def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
     if brush is not None and brush.coefficient_kinetic > brush.coefficient_static:
         sentence = f"{show(brush.coefficient_kinetic)} is above coefficient_static ({show(brush.coefficient_static)})"
         yield Breach(f"{where}.brush.coefficient_kinetic", sentence, (f"{where}.brush.coefficient_static",))
+    spin = scene.effect("tire", WheelSpinSection)
+    if spin is not None:
+        yield from _points_breaches(
+            f"{where}.wheel_spin", spin.points, {"drive": spin.drive, "brake": spin.brake},
+            ((0.0, LONGEST_TIME, " s"), (-LARGEST_TORQUE, LARGEST_TORQUE, " N m"), (0.0, LARGEST_TORQUE, " N m")),
+        )  # fmt: skip
+    yield from _belt_breaches(scene, f"{where}.sidewall_compliance")
     # The schema bounds the number of branches, not their values.
     tread = scene.effect("tire", TreadViscoelasticitySection)
-    for index, (ratio, time) in enumerate(() if tread is None else tread.branches):
+    for index, (ratio, time) in enumerate(() if tread is None else tread.branches or ()):
         place = f"{where}.tread_viscoelasticity.branches.{index}"
         if not 0.0 <= ratio <= 100.0:
             yield Breach(f"{place}.0", f"{show(ratio)} is outside 0 to 100")
         if not 1e-6 <= time <= 1e4:
             yield Breach(f"{place}.1", f"{show(time)} s is outside 1e-06 to 10000 s")
+
+
+def _belt_breaches(scene: Scene, where: str) -> Iterator[Breach]:
+    """A belt that swings faster than the steps of bristles and belt can follow."""
+    belt, brush = scene.effect("tire", SidewallComplianceSection), scene.effect("tire", BrushSection)
+    if belt is None or brush is None:
+        return
+    opened = belt.open_values(scene)
+    mass, along = belt.belt_mass or opened["belt_mass"], belt.longitudinal or opened["longitudinal"]
+    spin = scene.effect("tire", WheelSpinSection)
+    lightest = belt.belt_inertia if spin is None else min(belt.belt_inertia, spin.inertia)
+    swings = (
+        (f"{where}.longitudinal", along, mass), (f"{where}.lateral", belt.lateral, mass),
+        (f"{where}.rotational", belt.rotational, lightest), (f"{where}.yaw", belt.yaw, 0.5 * belt.belt_inertia),
+        ("effects.tire.brush.stiffness_x", brush.stiffness_x * USUAL_AREA, mass),
+        ("effects.tire.brush.stiffness_y", brush.stiffness_y * USUAL_AREA, mass),
+    )  # fmt: skip
+    for key, stiffness, inertia in swings:
+        frequency = math.sqrt(stiffness / inertia) / (2.0 * math.pi)
+        if frequency > FASTEST:
+            sentence = f"the belt swings on it with {show(round(frequency))} Hz; it must be at most {show(FASTEST)} Hz"
+            yield Breach(key, f"{sentence}: a rigid belt is written without sidewall_compliance", (where,))

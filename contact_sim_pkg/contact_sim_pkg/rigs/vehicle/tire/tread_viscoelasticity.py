@@ -17,6 +17,9 @@ an elastic contact with the modulus raised by s, and the gap raised by g. The co
 shrink and move. Material points of a rolling tread lie still against the road, so u and q are
 carried on the road's lattice; rows that enter are taken to be as the row beside them.
 
+The belt of an inflated tire yields with a memory of the same times: its displacement w(x) has its
+own s and g, and u is the sum of both. Both together are the rolling resistance.
+
 Sources: Lee and Radok (1960), J. Appl. Mech. 27, 438; Johnson, Contact Mechanics, 6.5; Taylor,
 Pister and Goudreau (1970), Int. J. Num. Meth. Eng. 2, 45 (exponential update).
 """
@@ -25,10 +28,12 @@ from __future__ import annotations
 
 import numpy
 from numpy.typing import NDArray
+from scipy.linalg import toeplitz
 
 from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.pressure.field.halfspace import displacement, make_buffers, make_half_space
-from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
+from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import inflated_influence
 from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
 
 __all__ = ["TreadState", "stiffening"]
@@ -50,63 +55,117 @@ def stiffening(tread: TreadViscoelasticity, step: float) -> float:
     return 1.0 + viscous + float(weights.sum())
 
 
-class TreadState:
-    """Displacement of the tread's surface and the branches' share of it on one grid, from field
-    instant to field instant.
-
-    `move_to` the row of the instant, solve with the gap raised by `gap`, then `keep` the pressure
-    that was found.
+class _Memory:
+    """A displacement [m] with its branches, from field instant to field instant: of the tread
+    [rows, cols], or of the belt [rows, 1].
     """
 
-    def __init__(self, settings: FieldSettings, relaxed: float, tread: TreadViscoelasticity, step: float) -> None:
-        """Grid of `settings`; `relaxed` [Pa]: its contact modulus at long times; `step` [s] between
-        two field instants.
-        """
-        size = (settings.rows, settings.cols, settings.cell_x, settings.cell_y)
-        self._relaxed = make_half_space(*size, relaxed)
+    def __init__(self, tread: TreadViscoelasticity, step: float, shape: tuple[int, int]) -> None:
         self._viscous, self._weights, self._decay = _weights(tread, step)
-        self._raised = make_half_space(*size, relaxed * stiffening(tread, step))
-        self._buffers = make_buffers(self._relaxed)
-        self._row = 0
-        shape = size[:2]
+        self._stiffening = stiffening(tread, step)
         self._displacement: Field = numpy.zeros(shape)
         self._branches: Field = numpy.zeros((len(self._weights), *shape))
-        self._pressed: Field = numpy.zeros(shape)
-        self.gap: Field = numpy.zeros(shape)  # [m] to be added to the gap at the present instant
+        self.gap: Field = numpy.zeros(shape)
 
-    def reset(self) -> None:
-        """Reset to an unloaded tread."""
-        for field in (self._displacement, self._branches, self.gap):
-            field.fill(0.0)
-
-    def settle(self, row: int, pressure: Field) -> None:
-        """The tread has stood under `pressure` [Pa] for long, with its first row at lattice row
-        `row`.
+    def settle(self, relaxed: Field) -> None:
+        """The pressure that displaces the surface by ``relaxed`` [m] at long times has stood for
+        long.
         """
-        self._row = row
-        displacement(self._relaxed, self._buffers, pressure, self._displacement)
+        self._displacement[:] = relaxed
         self._branches.fill(0.0)
         self._update_gap()
 
-    def move_to(self, row: int) -> None:
-        """The tread rolled on: its first row is lattice row `row` now."""
-        cells, self._row = row - self._row, row
-        if cells != 0:
-            shift_rows(self._displacement, cells)
-            for branch in self._branches:
-                shift_rows(branch, cells)
-            self._update_gap()
+    def move(self, cells: int) -> None:
+        """Roll on by so many rows."""
+        for field in (self._displacement, *self._branches):
+            shift_rows(field, cells)
+        self._update_gap()
 
-    def store(self, pressure: Field) -> None:
-        """Store the pressure [Pa] that was found with the present `gap`."""
-        displacement(self._raised, self._buffers, pressure, self._pressed)
-        update_branches(self._pressed, self.gap, self._weights, self._decay, self._displacement, self._branches)
+    def store(self, relaxed: Field) -> None:
+        """Store the pressure that would displace the surface by ``relaxed`` [m] at long times."""
+        pressed = relaxed / self._stiffening
+        update_branches(pressed, self.gap, self._weights, self._decay, self._displacement, self._branches)
         self._update_gap()
 
     def _update_gap(self) -> None:
         viscoelastic_gap(
             self._displacement, self._branches, self._viscous, self._weights, self._decay, self.gap
         )  # fmt: skip
+
+
+class TreadState:
+    """Displacement of tread and belt and the branches' share of it on one grid, from field instant to
+    field instant.
+
+    `move_to` the row of the instant, solve with the gap raised by `gap`, then `store` the pressure
+    that was found.
+    """
+
+    def __init__(
+        self, settings: FieldSettings, relaxed: float, tread: TreadViscoelasticity, step: float,
+        belt: tuple[InflatedBelt, TreadViscoelasticity] | None = None,
+    ) -> None:  # fmt: skip
+        """Grid of `settings`; `relaxed` [Pa]: its contact modulus at long times; `step` [s] between
+        two field instants; ``belt`` at long times with its memory, None for an elastic one.
+        """
+        shape = (settings.rows, settings.cols)
+        self._relaxed = make_half_space(*shape, settings.cell_x, settings.cell_y, relaxed)
+        self._buffers = make_buffers(self._relaxed)
+        self._tread = _Memory(tread, step, shape)
+        self._belt = None if belt is None else _Memory(belt[1], step, (settings.rows, 1))
+        self._along: Field = numpy.zeros((0, 0))
+        if belt is not None:  # the ring's translation has no memory
+            column = inflated_influence(
+                belt[0]._replace(ring_compliance=0.0), settings.rows, 1, settings.cell_x, settings.cell_y
+            )[:, 0]
+            self._along = toeplitz(column)
+        self._row = 0
+        self._displaced: Field = numpy.zeros(shape)
+        self.gap: Field = numpy.zeros(shape)  # [m] to be added to the gap at the present instant
+
+    def reset(self) -> None:
+        """Reset to an unloaded tread."""
+        self._tread.settle(numpy.zeros_like(self.gap))
+        if self._belt is not None:
+            self._belt.settle(numpy.zeros((len(self.gap), 1)))
+        self.gap.fill(0.0)
+
+    def settle(self, row: int, pressure: Field) -> None:
+        """The tread has stood under `pressure` [Pa] for long, with its first row at lattice row
+        `row`.
+        """
+        self._row = row
+        displacement(self._relaxed, self._buffers, pressure, self._displaced)
+        self._tread.settle(self._displaced)
+        if self._belt is not None:
+            self._belt.settle(self._bent(pressure))
+        self._add_up()
+
+    def move_to(self, row: int) -> None:
+        """The tread rolled on: its first row is lattice row `row` now."""
+        cells, self._row = row - self._row, row
+        if cells != 0:
+            self._tread.move(cells)
+            if self._belt is not None:
+                self._belt.move(cells)
+            self._add_up()
+
+    def store(self, pressure: Field) -> None:
+        """Store the pressure [Pa] that was found with the present `gap`."""
+        displacement(self._relaxed, self._buffers, pressure, self._displaced)
+        self._tread.store(self._displaced)
+        if self._belt is not None:
+            self._belt.store(self._bent(pressure))
+        self._add_up()
+
+    def _bent(self, pressure: Field) -> Field:
+        """Displacement of the belt at long times [rows, 1] [m]."""
+        return numpy.asarray(self._along @ pressure.sum(axis=1))[:, None]
+
+    def _add_up(self) -> None:
+        self.gap[:] = self._tread.gap
+        if self._belt is not None:
+            self.gap += self._belt.gap
 
 
 @entry

@@ -12,8 +12,9 @@ sideways with -v tan(alpha) (ISO 8855):
 
 A bristle stands in the belt, its tip on the road. While it sticks, its deflection u grows by the
 way of the road relative to the belt, `(kappa, -tan alpha) v dt`; the shear on the tire is `tau_i =
-k_i u_i`. It sticks up to `mu_s p`. Then the tip slides along tau with `|tau| = mu_k p`, until a
-trial stress falls below that. Bristles enter the contact, and leave it, unstrained.
+k_i u_i`. It sticks up to `mu_s p`. Then the tip slides along tau with `|tau| = mu p`, until a
+trial stress falls below that; mu falls with the slip speed v, `mu(v) = mu_k + (mu_s - mu_k)
+exp(-v/v_s)` (Polach). Bristles enter the contact, and leave it, unstrained.
 
 Normal and shear problem are not coupled: for a rigid road and an incompressible tread (nu = 1/2)
 Cerruti's normal displacement, with its factor 1 - 2 nu, is zero. The bristles do not influence each
@@ -26,7 +27,8 @@ still on a smooth road. So the result for a constant pressure does not depend on
 in contact up to its borders; there the bristles begin to grow.
 
 Source: Pacejka, Tire and Vehicle Dynamics, ch. 3; Kalker, A fast algorithm for the simplified
-theory of rolling contact (FASTSIM), Vehicle System Dynamics 11 (1982).
+theory of rolling contact (FASTSIM), Vehicle System Dynamics 11 (1982); Polach, Creep forces in
+simulations of traction vehicles running on adhesion limit, Wear 258 (2005).
 """
 
 from __future__ import annotations
@@ -45,6 +47,7 @@ from contact_sim_pkg.rigs.vehicle.tire.brush.steps import (
     Bristles,
     Field,
     LoadedWindow,
+    Slide,
     advance_bristles,
     next_segment,
 )
@@ -97,7 +100,9 @@ class RollingStep(NamedTuple):
 
     travel: float  # of the wheel centre, forward: v dt
     belt: float  # of the belt, backward: omega R_e dt
-    drift: float  # of the wheel, to the left: v tan(alpha) dt
+    drift: float  # of the belt over the road, to the left: v tan(alpha) dt
+    duration: float = 0.0  # [s]; 0: too short for any friction but the kinetic one
+    turn: float = 0.0  # [rad] yaw of the belt, to the left
 
 
 class BrushResult(NamedTuple):
@@ -157,9 +162,9 @@ def _arrays_of(state: BrushState) -> tuple[NDArray[Any], ...]:
     return bristles.deflection_x, bristles.deflection_y, bristles.sliding, state.before
 
 
-def rolling_step(travel: float, slip: float, slip_angle: float) -> RollingStep:
+def rolling_step(travel: float, slip: float, slip_angle: float, duration: float = 0.0) -> RollingStep:
     """Ways for a `travel` v dt [m] at the longitudinal slip kappa [1] and the slip angle alpha
-    [rad].
+    [rad], over a `duration` dt [s].
 
     Raises `ValueError` where a number is not finite or the slip angle is not within +-pi/2. A wheel
     that spins at standstill has no slip: give its ways to `RollingStep`.
@@ -169,7 +174,9 @@ def rolling_step(travel: float, slip: float, slip_angle: float) -> RollingStep:
             raise ValueError(f"brush: {name} is {value}, it must be a finite number")
     if not abs(slip_angle) < 0.5 * math.pi:
         raise ValueError(f"brush: slip angle is {slip_angle} rad, it must lie between -pi/2 and pi/2")
-    return RollingStep(float(travel), float((1.0 + slip) * travel), float(travel * math.tan(slip_angle)))
+    return RollingStep(
+        float(travel), float((1.0 + slip) * travel), float(travel * math.tan(slip_angle)), float(duration)
+    )
 
 
 @entry
@@ -190,51 +197,80 @@ def advance_brush(
     for field_rows, field_cols in (pressure.shape, shear_x.shape, shear_y.shape, mode.shape):
         if field_rows != rows or field_cols != cols:
             raise ValueError("brush: a field is not on the cells of the bristles; move them with brush_state_on")
-    # The bristles are kept on the lattice of the field: shift them from the last one to this.
+    for i in range(rows):
+        for j in range(cols):
+            shear_x[i, j], shear_y[i, j], mode[i, j] = 0.0, 0.0, APART
+    phase, window = move_onto(state, grid, pressure)
+    sliding = sliding_brush(brush, step)
+    phase, dissipated, released = advance_step(sliding, state, grid, pressure, window, phase, step, 0.0, 1.0)
+    settle_on(state, grid, pressure, phase)
+    force_x, force_y, moment_z, share = write_shear(
+        sliding, state.bristles, grid, window, phase, shear_x=shear_x, shear_y=shear_y, mode=mode
+    )
+    area = grid.cell_x * grid.cell_y
+    return BrushResult(force_x, force_y, moment_z, share, dissipated * area, released * area)
+
+
+@kernel
+def move_onto(state: BrushState, grid: PatchGrid, pressure: Field) -> tuple[float, LoadedWindow]:
+    """Shift the bristles onto the lattice of a field `pressure` [Pa]; returns the phase of the belt
+    on it and the window of what is loaded.
+    """
     first_field = state.place[2] == 0.0
     origin_before = grid.origin_x if first_field else state.place[1]
     phase = place_on(state.bristles, state.before, state.place[0], (grid.origin_x - origin_before) / grid.cell_x)
     if first_field:
         copy_field(pressure, state.before)
-    window = loaded_window(state.before, pressure)
-    phase, dissipated, released = advance_step(brush, state, pressure, window, phase, grid.cell_x, step)
+    return phase, loaded_window(state.before, pressure)
+
+
+@kernel
+def settle_on(state: BrushState, grid: PatchGrid, pressure: Field, phase: float) -> None:
+    """Store what the next step starts from: the field `pressure` [Pa], and the phase of the belt."""
     copy_field(pressure, state.before)
     state.place[0], state.place[1], state.place[2] = phase, grid.origin_x, 1.0
-    # Stresses per area become forces.
-    area = grid.cell_x * grid.cell_y
-    force_x, force_y, moment_z, share = write_shear(
-        brush, state.bristles, grid, pressure, phase, shear_x=shear_x, shear_y=shear_y, mode=mode
-    )
-    return BrushResult(force_x * area, force_y * area, moment_z * area, share, dissipated * area, released * area)
+
+
+@kernel
+def sliding_brush(brush: Brush, step: RollingStep) -> Brush:
+    """The brush with the sliding coefficient of the slip speed of `step` as its kinetic one."""
+    kinetic = brush.coefficient_kinetic
+    if brush.speed > 0.0 and step.duration > 0.0:
+        slip_speed = math.sqrt((step.belt - step.travel) ** 2 + step.drift**2) / step.duration
+        kinetic += (brush.coefficient_static - kinetic) * math.exp(-slip_speed / brush.speed)
+    return Brush(brush.stiffness_x, brush.stiffness_y, brush.coefficient_static, kinetic, brush.speed)
 
 
 @kernel
 def advance_step(
-    brush: Brush,
-    state: BrushState,
-    pressure: Field,
-    window: LoadedWindow,
-    phase: float,
-    cell_x: float,
-    step: RollingStep,
-) -> tuple[float, float, float]:
-    """Advance over the whole step, segment by segment; returns the new phase, work of friction and
-    released energy [J/m^2].
+    brush: Brush, state: BrushState, grid: PatchGrid, pressure: Field, window: LoadedWindow, phase: float,
+    step: RollingStep, start: float, end: float,
+) -> tuple[float, float, float]:  # fmt: skip
+    """Advance over a step, segment by segment, while the pressure goes from the part `start` to the
+    part `end` [1] of the way to the field `pressure` [Pa].
+
+    Returns the new phase, work of friction and released energy [J/m^2].
     """
     # Belt travel in cells; a standing belt slides over one segment without length.
-    cells = abs(step.belt) / cell_x
+    cells = abs(step.belt) / grid.cell_x
     if not LEAST_WAY <= cells < math.inf:
         cells = 0.0
     over = cells if cells > 0.0 else 1.0
-    slide_x, slide_y = (step.belt - step.travel) / over, -step.drift / over
+    turn = step.turn / over  # of the belt for each cell of way: its points move by -turn y, turn x
+    slide = Slide(
+        (step.belt - step.travel) / over + turn * grid.origin_y,
+        -step.drift / over - turn * (grid.origin_x - (PAD + phase) * grid.cell_x),
+        turn * grid.cell_y,
+        -turn * grid.cell_x,
+    )
     remaining = cells
     dissipated, released = 0.0, 0.0
     while True:
         # The pressure changes linearly over the step, the slide is the same in each segment.
         segment = next_segment(phase, remaining, step.belt < 0.0)
         remaining -= segment.length
-        blend(state.before, pressure, 1.0 - remaining / over, window, state.bristles.pressure)
-        work, energy = advance_bristles(brush, state.bristles, window, segment, slide_x, slide_y)
+        blend(state.before, pressure, end - (end - start) * remaining / over, window, state.bristles.pressure)
+        work, energy = advance_bristles(brush, state.bristles, window, segment, slide)
         dissipated += work
         released += energy
         phase = segment.end - segment.write
@@ -244,48 +280,51 @@ def advance_step(
 
 @kernel
 def write_shear(
-    brush: Brush, bristles: Bristles, grid: PatchGrid, pressure: Field, phase: float, shear_x: Field, shear_y: Field,
-    mode: NDArray[numpy.uint8],
+    brush: Brush, bristles: Bristles, grid: PatchGrid, window: LoadedWindow, phase: float, shear_x: Field,
+    shear_y: Field, mode: NDArray[numpy.uint8],
 ) -> tuple[float, float, float, float]:  # fmt: skip
-    """Write the shear [Pa] at the centres of the cells, [rows, cols].
+    """Write the shear [Pa] at the centres of the cells, [rows, cols], in the `window` of what is
+    loaded.
 
-    Returns its sums along x and y [Pa], their moment [Pa m] and the share of sliding cells [1]. A
+    Returns its sums along x and y [N], their moment [N m] and the share of sliding cells [1]. A
     centre lies between two bristles: deflections are interpolated, a bristle out of contact does
     not count; the nearer one decides whether the cell slides. The limit is that of the cell's own
     pressure.
     """
-    rows, cols = pressure.shape
     # The centre of a cell lies between the bristle near to it and the one beyond.
     near, far = (0, 1) if phase <= 0.5 else (1, 0)
     weight = min(phase, 1.0 - phase)
+    pressure, rows = bristles.pressure, shear_x.shape[0]
     sum_x, sum_y, moment, loaded, sliding = 0.0, 0.0, 0.0, 0, 0
-    for i in range(rows):
+    for m in range(max(window.first, PAD), min(window.last, rows + PAD)):
+        i = m - PAD
         x = grid.origin_x + i * grid.cell_x
-        beyond = i + far - near
-        for j in range(cols):
+        beyond = m + far - near
+        for j in range(window.left, window.right):
             shear_x[i, j], shear_y[i, j], mode[i, j] = 0.0, 0.0, APART
-            if not pressure[i, j] > 0.0:
+            if not pressure[m, j] > 0.0:
                 continue
             # Shear, and the sums of force and moment.
-            counts = weight if 0 <= beyond < rows and pressure[beyond, j] > 0.0 else 0.0
-            tau_x, tau_y = stress_between(brush, bristles, PAD + i + near, PAD + i + far, j, counts, pressure[i, j])
+            counts = weight if window.first - 1 <= beyond < window.last and pressure[beyond, j] > 0.0 else 0.0
+            tau_x, tau_y = stress_between(brush, bristles, m + near, m + far, j, counts, pressure[m, j])
             shear_x[i, j], shear_y[i, j] = tau_x, tau_y
             sum_x += tau_x
             sum_y += tau_y
             moment += x * tau_y - (grid.origin_y + j * grid.cell_y) * tau_x
             loaded += 1
             # The nearer bristle decides between stick and slip.
-            slips = bristles.sliding[PAD + i + near, j] != 0
+            slips = bristles.sliding[m + near, j] != 0
             mode[i, j] = SLIPS if slips else STICKS
             sliding += 1 if slips else 0
-    return sum_x, sum_y, moment, sliding / max(loaded, 1)
+    area = grid.cell_x * grid.cell_y
+    return sum_x * area, sum_y * area, moment * area, sliding / max(loaded, 1)
 
 
 @kernel
 def stress_between(
     brush: Brush, bristles: Bristles, near: int, far: int, j: int, weight: float, pressure: float
 ) -> tuple[float, float]:
-    """Stress [Pa] between two bristles, the far one with `weight`: `mu_k p` where the near one
+    """Stress [Pa] between two bristles, the far one with `weight`: `mu p` where the near one
     slides, else up to `mu_s p`.
     """
     x = bristles.deflection_x[near, j] + weight * (bristles.deflection_x[far, j] - bristles.deflection_x[near, j])

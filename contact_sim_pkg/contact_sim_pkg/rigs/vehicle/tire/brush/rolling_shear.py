@@ -1,27 +1,55 @@
-"""Shear of the rolling tire from published field to published field: the brush, fed with the slip
-programme of the scene.
+"""Shear of the rolling tire from one solution of the field to the next: bristles, and the belt on its
+sidewalls where the scene calls for it.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.rigs.vehicle.tire.brush.belt_motion import (
+    BELT_SAMPLES,
+    BELT_STATES,
+    RIM,
+    SPIN,
+    BeltDrive,
+    advance_belt,
+)
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import (
     BrushResult,
     PatchGrid,
+    RollingStep,
     advance_brush,
     make_brush_state,
     rolling_step,
 )
 from contact_sim_pkg.rigs.vehicle.tire.model import RollingFriction
 
-__all__ = ["RollingShear", "Sheared"]
+__all__ = ["RollingShear", "Sheared", "Stretch"]
 
 Field = NDArray[numpy.float64]
+
+
+class Stretch(NamedTuple):
+    """From one solution of the field to the next, in segments of the drive."""
+
+    start: float  # [s]
+    segment_length: float  # [s]
+    segments: int
+    travel: float  # [m] of the axle at the end
+    slopes: float  # [N] force of the pressure on slopes at the end
+    rolling: float  # [N] moment of the rolling resistance over the radius, at the end
+    sample_every: int  # segments
+    behind_sample: int  # segments since the last sample
+
+    @property
+    def duration(self) -> float:
+        """In [s]."""
+        return self.segments * self.segment_length
 
 
 class Sheared(NamedTuple):
@@ -29,14 +57,14 @@ class Sheared(NamedTuple):
 
     slip: float
     slip_angle: float  # [rad]
-    result: BrushResult
+    result: BrushResult  # its work since the instant before
     shear_x: Field  # [Pa]
     shear_y: Field  # [Pa]
     state: NDArray[numpy.uint8]
 
 
 class RollingShear:
-    """The bristles of one tire; ``advance`` at each field instant, in order."""
+    """Bristles and belt of one tire; ``start`` once, then ``roll`` from field to field, in order."""
 
     def __init__(self, friction: RollingFriction, wide: FieldSettings) -> None:
         """Bristles on the ``wide`` grid: smaller fields lie in its middle."""
@@ -51,34 +79,102 @@ class RollingShear:
     def reset(self) -> None:
         """Reset to a standing, unstrained tire."""
         self._bristles = make_brush_state(self._wide.rows, self._wide.cols)
-        self._time = 0.0
-        self._travel: float | None = None
+        self._belt = numpy.zeros(BELT_STATES)
+        self._time, self._travel, self._speed = 0.0, 0.0, math.nan
+        self._slopes, self._rolling = 0.0, 0.0
+        self._samples: Field = numpy.zeros((0, BELT_SAMPLES))
+        self._last: Field = numpy.zeros(BELT_SAMPLES)
+        self._result = BrushResult(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
-    def advance(self, pressure: Field, origin_x: float, origin_y: float, travel: float, time: float) -> Sheared:
-        """Roll on to ``travel`` [m] at ``time`` [s], where the field is ``pressure`` [Pa] with cell
-        (0, 0) at the origin [m].
+    def start(self, pressure: Field, origin: tuple[float, float], travel: float, slopes: float) -> None:
+        """Lay the bristles under the first field, which stands at ``travel`` [m]."""
+        self.reset()
+        self._travel, self._slopes = travel, slopes
+        step = rolling_step(0.0, *self._friction.slips.at(0.0))
+        self._result = self._advance_bristles(self._lay(pressure, origin), step)
+
+    def roll(self, stretch: Stretch, pressure: Field, origin: tuple[float, float]) -> Field:
+        """Roll on to a field ``pressure`` [Pa] with cell (0, 0) at the ``origin`` [m].
+
+        Returns the samples of `belt_motion.py` at the segments that hold one, [samples, 8]; good
+        until the next call.
         """
-        wide, friction = self._wide, self._friction
-        # Embed the field in the middle of the wide grid, on which the bristles live.
-        row = wide.rows // 2 - pressure.shape[0] // 2
-        col = (wide.cols - pressure.shape[1]) // 2
-        part = (slice(row, row + pressure.shape[0]), slice(col, col + pressure.shape[1]))
+        grid, sidewalls = self._lay(pressure, origin), self._friction.sidewalls
+        before, way = self._result, stretch.travel - self._travel
+        speed = way / stretch.duration
+        # The slips in the middle of the stretch act over all of it.
+        slip, angle = self._friction.slips.at(stretch.start + 0.5 * stretch.duration)
+        rim = (1.0 + slip) * speed / self._friction.radius
+        if math.isnan(self._speed):  # the first stretch: the wheel rolls already
+            self._speed, self._belt[SPIN], self._belt[RIM] = speed, rim, rim
+        if sidewalls is None:
+            found = self._advance_bristles(grid, rolling_step(way, slip, angle, stretch.duration))
+            samples = self._between(stretch, found, rim)
+        else:
+            parts = math.ceil(stretch.segment_length / self._friction.longest_step * (1.0 - 1e-9))
+            drive = BeltDrive(
+                stretch.duration, way, way * math.tan(angle), speed - self._speed, rim, (self._slopes, stretch.slopes),
+                (self._rolling * sidewalls.radius, stretch.rolling * sidewalls.radius),
+                *self._friction.torques.at(stretch.start + 0.5 * stretch.duration), stretch.segments * parts,
+                stretch.sample_every * parts, stretch.behind_sample * parts,
+            )  # fmt: skip
+            rows = stretch.segments // stretch.sample_every + 2
+            if len(self._samples) < rows:
+                self._samples = numpy.zeros((rows, BELT_SAMPLES))
+            found = advance_belt(
+                self._friction.brush, sidewalls, self._bristles, self._belt, grid, self._pressure, drive, self._shear_x,
+                self._shear_y, self._state, self._samples,
+            )  # fmt: skip
+            samples = self._samples
+        self._time, self._travel, self._speed = stretch.start + stretch.duration, stretch.travel, speed
+        self._slopes, self._rolling = stretch.slopes, stretch.rolling
+        dissipated, released = before.dissipated + found.dissipated, before.released + found.released
+        self._result = found._replace(dissipated=dissipated, released=released)
+        return samples
+
+    def publish(self, pressed: Field) -> Sheared:
+        """The present shear on the cells of the field ``pressed``."""
+        part, result = self._part(pressed), self._result
+        self._result = result._replace(dissipated=0.0, released=0.0)
+        slip, angle = self._friction.slips.at(self._time)
+        sidewalls = self._friction.sidewalls
+        if sidewalls is not None and sidewalls.wheel is not None:
+            way = 0.0 if math.isnan(self._speed) else self._speed
+            slip = 0.0 if way == 0.0 else float(self._belt[RIM]) * sidewalls.radius / way - 1.0
+        return Sheared(
+            slip, angle, result, self._shear_x[part].copy(), self._shear_y[part].copy(), self._state[part].copy()
+        )  # fmt: skip
+
+    def _part(self, pressed: Field) -> tuple[slice, slice]:
+        """The middle of the bristles' grid that a field covers."""
+        rows, cols = pressed.shape
+        row, col = self._wide.rows // 2 - rows // 2, (self._wide.cols - cols) // 2
+        return slice(row, row + rows), slice(col, col + cols)
+
+    def _lay(self, pressure: Field, origin: tuple[float, float]) -> PatchGrid:
+        """Lay a field in the middle of the bristles' grid; returns where that lies."""
+        part, wide = self._part(pressure), self._wide
         self._pressure.fill(0.0)
         self._pressure[part] = pressure
-        # The slips in the middle of the step act over all of it.
-        before = self._travel if self._travel is not None else travel
-        step = rolling_step(travel - before, *friction.slips_at(0.5 * (self._time + time)))
-        grid = PatchGrid(origin_x - row * wide.cell_x, origin_y - col * wide.cell_y, wide.cell_x, wide.cell_y)
-        result = advance_brush(
-            friction.brush,
-            self._bristles,
-            grid,
-            self._pressure,
-            step,
-            shear_x=self._shear_x,
-            shear_y=self._shear_y,
-            mode=self._state,
-        )
-        self._time, self._travel = time, travel
-        shear_x, shear_y = self._shear_x[part].copy(), self._shear_y[part].copy()
-        return Sheared(*friction.slips_at(time), result, shear_x, shear_y, self._state[part].copy())
+        x, y = origin[0] - part[0].start * wide.cell_x, origin[1] - part[1].start * wide.cell_y
+        return PatchGrid(x, y, wide.cell_x, wide.cell_y)
+
+    def _advance_bristles(self, grid: PatchGrid, step: RollingStep) -> BrushResult:
+        found: BrushResult = advance_brush(
+            self._friction.brush, self._bristles, grid, self._pressure, step, shear_x=self._shear_x,
+            shear_y=self._shear_y, mode=self._state,
+        )  # fmt: skip
+        return found
+
+    def _between(self, stretch: Stretch, found: BrushResult, rim: float) -> Field:
+        """Samples of a belt that is one with the rim, linear between the fields."""
+        radius, before = self._friction.radius, self._last
+        now: Field = numpy.array(
+            (
+                found.force_x, found.force_y, found.moment_z, stretch.slopes + found.force_x, found.force_y,
+                -radius * (found.force_x + stretch.rolling), found.moment_z, rim,
+            )
+        )  # fmt: skip
+        at = numpy.arange(-stretch.behind_sample % stretch.sample_every, stretch.segments, stretch.sample_every)
+        self._last = now
+        return numpy.asarray(before + (now - before) * (at / stretch.segments)[:, None])

@@ -24,6 +24,7 @@ __all__ = [
     "Field",
     "Flags",
     "LoadedWindow",
+    "Slide",
     "advance_bristles",
     "next_segment",
     "slide_onto",
@@ -84,6 +85,17 @@ class BeltSegment(NamedTuple):
     share_next: float  # [cells] the part in the cell m - 1
 
 
+class Slide(NamedTuple):
+    """Way of the road over the belt [m] for each cell of belt travel: of a bristle of label m in
+    column j ``x + j x_by_col`` and ``y + m y_by_label``, for a belt that yaws.
+    """
+
+    x: float
+    y: float
+    x_by_col: float
+    y_by_label: float
+
+
 @kernel
 def next_segment(phase: float, remaining: float, backward: bool) -> BeltSegment:
     """Belt travel to the next centre of a cell, or `remaining` [1] cells where that is less;
@@ -108,10 +120,9 @@ def next_segment(phase: float, remaining: float, backward: bool) -> BeltSegment:
 
 @kernel
 def advance_bristles(
-    brush: Brush, bristles: Bristles, window: LoadedWindow, segment: BeltSegment, slide_x: float, slide_y: float
+    brush: Brush, bristles: Bristles, window: LoadedWindow, segment: BeltSegment, slide: Slide
 ) -> tuple[float, float]:
-    """Carry every bristle of the window along one segment; the road slides `slide_x`, `slide_y` [m]
-    for each cell of way.
+    """Carry every bristle of the window along one segment, under a road that slides.
 
     Returns the work [J/m^2] of friction and the elastic energy [J/m^2] of the bristles that left
     the contact.
@@ -128,8 +139,9 @@ def advance_bristles(
             here, following = pressure[m, j], pressure[m - 1, j]
             if (following if segment.end > 0.5 else here) > 0.0:
                 x, y, slid, work = carry(
-                    brush, x, y, slid, here, following, segment=segment, slide_x=slide_x, slide_y=slide_y
-                )
+                    brush, x, y, slid, here, following, segment=segment, slide_x=slide.x + j * slide.x_by_col,
+                    slide_y=slide.y + m * slide.y_by_label,
+                )  # fmt: skip
                 dissipated += work
             else:
                 released += 0.5 * (brush.stiffness_x * x * x + brush.stiffness_y * y * y)

@@ -1,0 +1,59 @@
+"""A tire that rolls over an obstacle with its axle held in height, as on a test drum."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.rigs.vehicle.model import build
+from contact_sim_pkg.rigs.vehicle.simulation import Simulation
+from contact_sim_pkg.run.scene_outputs import outputs_with, records_of
+from contact_sim_pkg.scene.resolve import load_resolved
+
+__all__ = ["CLEAT", "OverCleat", "over_cleat"]
+
+SCENE = "tire_cleat"
+HEAVY = 1e7  # [kg] of a wheel that no tire moves; gravity gives it the load all the same
+CLEAT = 1.0  # [m] where the cleat begins
+BEHIND = 5.0  # [m] rolled behind it, at least
+Samples = NDArray[numpy.float64]
+
+
+class OverCleat(NamedTuple):
+    """Forces on the axle over the place of the wheel centre."""
+
+    time: Samples  # [s]
+    place: Samples  # [m]
+    longitudinal: Samples  # [N] forward
+    vertical: Samples  # [N] up
+    moment: Samples  # [N m] on the rim
+    spin: Samples  # [rad/s]
+
+
+def over_cleat(load: float, speed: float, *values: str) -> OverCleat:
+    """Roll ``tire_cleat`` with ``values`` set at a ``speed`` [m/s] over a cleat of 10 by 50 mm with
+    edges of 5 mm, its axle at the height where it stands under the ``load`` [N].
+    """
+    duration = round((CLEAT + BEHIND) / speed + 0.15, 1) + 0.1
+    scene = load_resolved(
+        SCENE, f"duration={duration}", f"travel={{speed: {speed}}}", "outputs.force_rate=2000",
+        f"road={{kind: cleat, position: {CLEAT}, height: 0.01, length: 0.05, edge: 0.005}}", "block_length=0.1", *values,
+    )  # fmt: skip
+    model = build(scene)
+    rig = model.rig
+    assert rig.tire is not None
+    carried = rig.tire.body_mass + (0.0 if rig.rigid_ring is None else rig.rigid_ring.belt_mass)
+    held = rig._replace(tire=rig.tire._replace(wheel_mass=HEAVY), gravity=load / (HEAVY + carried))
+    outputs = outputs_with(scene, Simulation(scene, replace(model, rig=held)))
+    records = records_of(outputs, "tire/axle")
+    time = numpy.arange(sum(len(record.vertical) for record in records)) * records[0].sample_period
+
+    def joined(name: str) -> Samples:
+        return numpy.concatenate([getattr(record, name) for record in records])
+
+    return OverCleat(
+        time, speed * time, joined("longitudinal"), joined("vertical"), joined("moment_y"), joined("spin")
+    )  # fmt: skip

@@ -1,0 +1,176 @@
+"""Belt of a rolling tire as a rigid body in the plane of the road, with the bristles under it.
+
+Frame of the axle: x forward, y left, z up; the axle travels with V along x and drifts with V
+tan(alpha) to the left. The belt has the place x, y against the axle, the yaw psi about z and the
+speed omega_b about y; the rim turns with omega_w, the twist theta is the angle between them:
+
+* ``m (x'' + V') = F_n + F_x - k_x x - c_x x'``
+* ``m y'' = F_y - k_y y - c_y y'``
+* ``I_b omega_b' = -R_e F_x - M_r - k_t theta - c_t theta'``, ``theta' = omega_b - omega_w``
+* ``I_z psi'' = M_z - k_p psi - c_p psi'``
+* ``I_w omega_w' = k_t theta + c_t theta' + M_drive - M_brake``; without the spin of the wheel
+  ``omega_w = (1 + kappa) V / R_e``
+
+F_n is the force of the pressure on slopes, M_r the moment of rolling resistance by a tread with
+memory, F_x, F_y, M_z those of the bristles. The road slides under the belt by ``(R_e omega_b - x' -
+V, R_e omega_b psi - V tan(alpha) - y' - psi' x) dt``. With the same R_e as lever and in the slip the
+power of the friction is what belt and axle lose. A brake holds a standing rim up to its moment.
+
+The yielding belt gives the slip forces their relaxation: no filter stands behind the bristles.
+
+Steps: velocity Verlet, bristles advanced with the places; error of the frequency ``(omega h)^2 /
+24``. Source: Pacejka, Tire and Vehicle Dynamics, ch. 9 (rigid ring); Zegelaar, The Dynamic Response
+of Tyres to Brake Torque Variations and Road Unevennesses, Delft 1998.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from numpy import uint8
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import (
+    BrushResult,
+    BrushState,
+    PatchGrid,
+    RollingStep,
+    advance_step,
+    move_onto,
+    settle_on,
+    sliding_brush,
+    write_shear,
+)
+from contact_sim_pkg.rigs.vehicle.tire.brush.steps import Field
+from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, Sidewalls
+
+__all__ = ["BELT_SAMPLES", "BELT_STATES", "RIM", "BeltDrive", "advance_belt"]
+
+X, Y, TWIST, YAW, X_RATE, Y_RATE, SPIN, YAW_RATE, RIM, FORCE_X, FORCE_Y, MOMENT_Z = range(12)
+BELT_STATES = 12
+"""The belt's state: places, speeds, spin of the rim [rad/s], and the force of the bristles."""
+
+BELT_SAMPLES = 8
+"""Columns of a sample: F_x, F_y [N], M_z [N m] of the bristles; force along and across [N], moment
+about y and z [N m] on the axle; spin of the rim [rad/s].
+"""
+
+
+class BeltDrive(NamedTuple):
+    """What moves a belt over a row of ``steps`` of one length; pairs are values at start and
+    end, linear between.
+    """
+
+    duration: float  # [s]
+    travel: float  # [m] of the axle, forward
+    drift: float  # [m] of the axle, to the left
+    speed_change: float  # [m/s] of the axle at the start
+    rim: float  # [rad/s] spin of the rim, where it is no state
+    slopes: tuple[float, float]  # [N] force of the pressure on slopes
+    rolling: tuple[float, float]  # [N m] moment of rolling resistance
+    drive: float  # [N m] on the rim, forward
+    brake: float  # [N m] on the rim, against its rotation, >= 0
+    steps: int
+    sample_every: int  # steps
+    behind_sample: int  # steps since the last sample
+
+
+@borrowing_kernel
+def _turn_rim(wheel, spin, torque, drive, brake, time):
+    """Spin of the rim after ``time`` [s] under a ``torque`` of the sidewalls [N m]; a brake stops it,
+    never turns it.
+    """
+    if wheel is None:
+        return spin
+    free = spin + time * (torque + drive) / wheel.inertia
+    stopped = time * brake / wheel.inertia
+    return 0.0 if abs(free) <= stopped else free - math.copysign(stopped, free)
+
+
+@borrowing_kernel
+def _accelerate(sidewalls, belt, drive, part, time):
+    """Change the speeds over ``time`` [s] by the forces when ``part`` [1] of the row is done."""
+    slopes = drive.slopes[0] + part * (drive.slopes[1] - drive.slopes[0])
+    rolling = drive.rolling[0] + part * (drive.rolling[1] - drive.rolling[0])
+    along, across, twist, yaw = _on_axle(sidewalls, belt)
+    belt[X_RATE] += time * (slopes + belt[FORCE_X] - along) / sidewalls.mass
+    belt[Y_RATE] += time * (belt[FORCE_Y] - across) / sidewalls.mass
+    belt[SPIN] -= time * (sidewalls.radius * belt[FORCE_X] + rolling + twist) / sidewalls.inertia
+    belt[YAW_RATE] += time * (belt[MOMENT_Z] - yaw) / sidewalls.yaw_inertia
+    belt[RIM] = _turn_rim(sidewalls.wheel, belt[RIM], twist, drive.drive, drive.brake, time)
+
+
+@borrowing_kernel
+def _on_axle(sidewalls, belt):
+    """Force along and across [N], moment about y and z [N m] of the sidewalls on the axle."""
+    return (
+        sidewalls.stiffness_x * belt[X] + sidewalls.damping_x * belt[X_RATE],
+        sidewalls.stiffness_y * belt[Y] + sidewalls.damping_y * belt[Y_RATE],
+        sidewalls.stiffness_twist * belt[TWIST] + sidewalls.damping_twist * (belt[SPIN] - belt[RIM]),
+        sidewalls.stiffness_yaw * belt[YAW] + sidewalls.damping_yaw * belt[YAW_RATE],
+    )
+
+
+@borrowing_kernel
+def _move(sidewalls, belt, drive):
+    """Move the belt by a step; returns the ways of belt and road."""
+    time = drive.duration / drive.steps
+    along, across, turn = time * belt[X_RATE], time * belt[Y_RATE], time * belt[YAW_RATE]
+    way = sidewalls.radius * belt[SPIN] * time
+    drift = drive.drift / drive.steps + across - way * (belt[YAW] + 0.5 * turn)
+    belt[X] += along
+    belt[Y] += across
+    belt[TWIST] += time * (belt[SPIN] - belt[RIM])
+    belt[YAW] += turn
+    return RollingStep(drive.travel / drive.steps, way - along, drift, time, turn)
+
+
+@borrowing_kernel
+def _sample(sidewalls, belt, out):
+    out[0], out[1], out[2] = belt[FORCE_X], belt[FORCE_Y], belt[MOMENT_Z]
+    out[3], out[4], out[5], out[6] = _on_axle(sidewalls, belt)
+    out[7] = belt[RIM]
+
+
+@entry
+def advance_belt(
+    brush: Brush, sidewalls: Sidewalls, state: BrushState, belt: Vector, grid: PatchGrid, pressure: Field, drive: BeltDrive,
+    shear_x: Field, shear_y: Field, mode: NDArray[uint8], sampled: Field,
+) -> BrushResult:  # fmt: skip
+    """Advance belt and bristles over a row of steps that ends with the field `pressure` [Pa], on the
+    cells of the bristles, [rows, cols], at `grid`.
+
+    belt: [BELT_STATES], see the module; written: it, the bristles, shear_x, shear_y [Pa] and mode
+    as in `advance_brush`, and sampled [samples, BELT_SAMPLES], at the start of every
+    ``sample_every``-th step. Returns the bristles' force at the end and the work of the whole row.
+    """
+    for i in range(pressure.shape[0]):
+        for j in range(pressure.shape[1]):
+            shear_x[i, j], shear_y[i, j], mode[i, j] = 0.0, 0.0, 0
+    time, area = drive.duration / drive.steps, grid.cell_x * grid.cell_y
+    belt[X_RATE] -= drive.speed_change
+    if sidewalls.wheel is None:
+        belt[RIM] = drive.rim
+    phase, window = move_onto(state, grid, pressure)
+    dissipated, released, share, row = 0.0, 0.0, 0.0, 0
+    for n in range(drive.steps):
+        if (n + drive.behind_sample) % drive.sample_every == 0:
+            _sample(sidewalls, belt, sampled[row])
+            row += 1
+        # Half of the forces, the places and with them the bristles, the other half.
+        start, end = n / drive.steps, (n + 1) / drive.steps
+        _accelerate(sidewalls, belt, drive, start, 0.5 * time)
+        step = _move(sidewalls, belt, drive)
+        sliding = sliding_brush(brush, step)
+        phase, work, energy = advance_step(sliding, state, grid, pressure, window, phase, step, start, end)
+        belt[FORCE_X], belt[FORCE_Y], belt[MOMENT_Z], share = write_shear(
+            sliding, state.bristles, grid, window, phase, shear_x, shear_y, mode
+        )
+        _accelerate(sidewalls, belt, drive, end, 0.5 * time)
+        dissipated += work * area
+        released += energy * area
+    settle_on(state, grid, pressure, phase)
+    return BrushResult(belt[FORCE_X], belt[FORCE_Y], belt[MOMENT_Z], share, dissipated, released)

@@ -1,0 +1,213 @@
+"""Belt and rim on their sidewalls: modes, friction, brake and power in closed form."""
+
+import math
+
+import numpy
+import pytest
+from scipy.linalg import eig
+from tests.rigs.vehicle.test_simulation import messages_of
+from tests.run.scenes import resolved
+
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import AxleForce, ContactForce, ContactShear
+from contact_sim_pkg.rigs.vehicle.studies.flat_track import flat_track
+from contact_sim_pkg.rigs.vehicle.studies.held_axle import CLEAT, over_cleat
+from contact_sim_pkg.rigs.vehicle.tire.brush.belt_motion import (
+    BELT_SAMPLES,
+    BELT_STATES,
+    SPIN,
+    X_RATE,
+    Y_RATE,
+    YAW_RATE,
+    BeltDrive,
+    advance_belt,
+)
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import PatchGrid, make_brush_state
+from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, Sidewalls, WheelSpin
+
+FREE = Sidewalls(0.3, 7.0, 0.6, 0.3, 1.4e6, 1.8e5, 8.2e4, 5e3, 0.0, 0.0, 0.0, 0.0, WheelSpin(0.5))
+STICKY = Brush(7e7, 7e7, 1e6, 1e6)
+CELL, ROWS, COLS = 0.005, 28, 24
+STEP = 2.5e-4
+NONE = BeltDrive(0.0, 0.0, 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0), 0.0, 0.0, 1, 1, 0)
+COMPLIANT, RIGID = "effects.tire.sidewall_compliance={}", "effects.tire.sidewall_compliance=null"
+SPINS = (COMPLIANT, "effects.tire.wheel_spin={}")
+
+
+class Belt:
+    """A belt over a contact of one pressure [Pa] everywhere."""
+
+    def __init__(self, sidewalls=FREE, brush=STICKY, pressure=0.0):
+        self.sidewalls, self.brush = sidewalls, brush
+        self.pressure = numpy.zeros((ROWS + 4, COLS))
+        self.pressure[2:-2] = pressure
+        self.state, self.belt = make_brush_state(*self.pressure.shape), numpy.zeros(BELT_STATES)
+        self.grid = PatchGrid(-0.5 * (ROWS + 3) * CELL, -0.5 * (COLS - 1) * CELL, CELL, CELL)
+
+    def advance(self, steps, **values):
+        sampled, shear = numpy.zeros((steps, BELT_SAMPLES)), numpy.zeros((2, *self.pressure.shape))
+        drive = NONE._replace(duration=steps * STEP, steps=steps, **values)
+        mode = numpy.zeros(self.pressure.shape, dtype=numpy.uint8)
+        self.result = advance_belt(
+            self.brush, self.sidewalls, self.state, self.belt, self.grid, self.pressure, drive, shear[0], shear[1], mode,
+            sampled,
+        )  # fmt: skip
+        return sampled
+
+
+def frequencies(signal):
+    """Frequencies [Hz] of the two highest lines of a signal, the lower first."""
+    power = abs(numpy.fft.rfft((signal - signal.mean()) * numpy.hanning(len(signal)), 16 * len(signal)))
+    peaks = [k for k in range(1, len(power) - 1) if power[k - 1] < power[k] > power[k + 1]]
+    highest = sorted(sorted(peaks, key=lambda k: power[k])[-2:])
+    return numpy.array(highest) / (16 * len(signal) * STEP)
+
+
+@pytest.mark.parametrize(
+    ("rate", "column", "stiffness", "inertia"),
+    [
+        (X_RATE, 3, 1.4e6, 7.0),
+        (Y_RATE, 4, 1.8e5, 7.0),
+        (SPIN, 5, 8.2e4, 0.6 * 0.5 / 1.1),
+        (YAW_RATE, 6, 5e3, 0.3),
+    ],
+)
+def test_a_free_belt_swings_on_its_sidewalls(rate, column, stiffness, inertia):
+    belt = Belt()
+    belt.belt[rate] = 0.1
+    force = belt.advance(4000)[:, column]
+    rising = numpy.flatnonzero((force[:-1] < 0.0) & (force[1:] >= 0.0))
+    found = (len(rising) - 1) / ((rising[-1] - rising[0]) * STEP)
+    assert found == pytest.approx(
+        math.sqrt(stiffness / inertia) / (2.0 * math.pi), rel=5e-3
+    )  # (omega h)^2 / 24, a step of count
+    assert abs(force[-400:]).max() == pytest.approx(abs(force[:400]).max(), rel=5e-3)  # nothing is lost
+
+
+def test_damping_is_that_of_one_mass():
+    belt = Belt(FREE._replace(damping_x=2.0 * 0.045 * math.sqrt(1.4e6 * 7.0)))
+    belt.belt[X_RATE] = 0.1
+    force = belt.advance(150)[:, 3]
+    omega, ratio = math.sqrt(1.4e6 / 7.0), 0.045
+    time = numpy.arange(150) * STEP
+    wave = math.sqrt(1.0 - ratio**2) * omega
+    place = 0.1 / wave * numpy.exp(-ratio * omega * time) * numpy.sin(wave * time)
+    speed = (
+        0.1
+        * numpy.exp(-ratio * omega * time)
+        * (numpy.cos(wave * time) - ratio * omega / wave * numpy.sin(wave * time))
+    )
+    expected = 1.4e6 * place + 2.0 * ratio * math.sqrt(1.4e6 * 7.0) * speed
+    assert force == pytest.approx(expected, abs=2e-2 * abs(expected).max())  # phase: omega t (omega h)^2 / 24
+
+
+def test_a_sticking_tread_couples_translation_and_rotation_of_a_standing_tire():
+    """x, theta_b, theta_w on the springs k_x, k_t and that of all bristles: eigenvalues by scipy."""
+    belt = Belt(pressure=2e5)
+    bristles = 7e7 * ROWS * COLS * CELL**2
+    radius = FREE.radius
+    stiffness = numpy.array(
+        [
+            [1.4e6 + bristles, -bristles * radius, 0.0],
+            [-bristles * radius, bristles * radius**2 + 8.2e4, -8.2e4],
+            [0.0, -8.2e4, 8.2e4],
+        ]
+    )
+    modes = numpy.sort(numpy.sqrt(eig(stiffness, numpy.diag([7.0, 0.6, 0.5]))[0].real)) / (2.0 * math.pi)
+    belt.belt[X_RATE] = 0.01
+    force = belt.advance(8000)[:, 3]
+    power = abs(numpy.fft.rfft(force * numpy.hanning(8000)))
+    lines = numpy.fft.rfftfreq(8000, STEP)
+    for mode in modes:
+        near = abs(lines - mode) < 0.01 * mode + 0.5
+        assert power[near].max() > 20.0 * numpy.median(power[abs(lines - mode) < 10.0])
+
+
+def test_a_drive_is_carried_by_friction():
+    """Free rolling under a moment M: F_x = M / R_e at the contact and on the axle."""
+    track = flat_track(4000.0, 10.0, 0.6, *SPINS, "effects.tire.wheel_spin.drive=200")
+    assert track.force[-400:, 0].mean() == pytest.approx(200.0 / track.radius, rel=2e-3)
+    assert track.axle[-400:, 0].mean() == pytest.approx(200.0 / track.radius, rel=2e-3)
+    assert track.axle[-400:, 2].mean() == pytest.approx(-200.0, rel=2e-3)
+
+
+def test_a_brake_locks_the_wheel_and_holds_it():
+    values = (*SPINS, "effects.tire.wheel_spin={brake: 3000}", "effects.tire.brush.sliding_speed=0")
+    track = flat_track(4000.0, 10.0, 0.4, *values)
+    assert track.spin[0] == pytest.approx(10.0 / track.radius)
+    assert (track.spin[-400:] == 0.0).all()
+    assert track.spin.min() == 0.0  # a brake never turns a wheel back
+    assert track.force[-1, 0] == pytest.approx(-0.8 * 4000.0, rel=1e-3)  # Coulomb
+    assert track.dissipated > 0.0
+
+
+def test_a_standing_braked_wheel_stays_at_rest():
+    track = flat_track(4000.0, 0.0, 0.1, *SPINS, "effects.tire.wheel_spin={brake: 100, drive: 50}")
+    assert not track.force.any()
+    assert not track.spin.any()
+
+
+@pytest.mark.parametrize("slip", [-0.05, -0.3])
+def test_the_power_of_axle_and_rim_is_that_of_friction(slip):
+    """F_x v + M_y omega against what the bristles dissipate and release; its error is that of the cells."""
+    errors = []
+    for rows in (72, 144):
+        grid = f"effects.tire.contact_field={{rows: {rows}, cols: {rows * 2 // 3}}}"
+        track = flat_track(4000.0, 16.7, 0.6, COMPLIANT, grid, f"slip={{longitudinal: {slip}}}")
+        long = flat_track(4000.0, 16.7, 1.2, COMPLIANT, grid, f"slip={{longitudinal: {slip}}}")
+        lost = (long.dissipated - track.dissipated) / 0.6
+        half = long.time >= 0.6
+        supplied = -(long.axle[half, 0] * 16.7 + long.axle[half, 2] * long.spin[half]).mean()
+        errors.append(abs(supplied / lost - 1.0))
+    assert errors[0] < 0.01
+    assert errors[1] < errors[0]
+
+
+def test_side_force_relaxes_over_stiffness_by_stiffness():
+    """63 % of a step of the slip angle after about K_alpha / C_y, C_y that of belt and bristles in series."""
+    track = flat_track(4000.0, 16.7, 0.5, COMPLIANT, "slip={angle: 0.005}", "effects.tire.sidewall_compliance.yaw=1e6")
+    rigid = flat_track(4000.0, 16.7, 0.3, RIGID, "slip={angle: 0.005}")
+    steady = track.axle[-1, 1]
+    assert steady == pytest.approx(rigid.force[-1, 1], rel=2e-3)  # a compliance delays, it takes nothing away
+    way = 16.7 * track.time[numpy.argmax(track.axle[:, 1] / steady > 1.0 - math.exp(-1.0))]
+    bristles = 7.1e7 * 0.0196
+    series = 1.0 / (1.0 / 1.8e5 + 1.0 / bristles)
+    assert way == pytest.approx(-steady / 0.005 / series, rel=0.1)
+
+
+def test_yaw_compliance_takes_from_the_slip_angle():
+    """K = K_0 / (1 + K_0 t / C), t the trail."""
+    rigid = flat_track(4000.0, 16.7, 0.3, RIGID, "slip={angle: 0.002}").force[-200:].mean(axis=0)
+    soft = flat_track(4000.0, 16.7, 0.8, COMPLIANT, "slip={angle: 0.002}").force[-200:].mean(axis=0)
+    trail, stiffness = -rigid[2] / rigid[1], -rigid[1] / 0.002
+    assert -soft[1] / 0.002 == pytest.approx(stiffness / (1.0 + stiffness * trail / 5000.0), rel=0.01)
+
+
+def test_over_a_cleat_the_axle_is_pushed_back_then_forward_and_rings_as_the_belt():
+    found = over_cleat(4000.0, 40.0 / 3.6, "effects.tire.brush={}", *SPINS)
+    before = found.place < CLEAT - 0.15
+    assert numpy.ptp(found.vertical[before]) < 1e-6
+    assert numpy.ptp(found.longitudinal[before]) < 1e-6
+    entry, leaving = found.place[found.longitudinal.argmin()], found.place[found.longitudinal.argmax()]
+    assert entry < leaving
+    assert abs(found.longitudinal.sum()) < 0.1 * abs(found.longitudinal).sum()
+    behind = found.place > CLEAT + 0.3
+    for force, low, high in ((found.vertical, 75.0, 90.0), (found.longitudinal, 30.0, 45.0)):
+        ringing = (force - force[0])[behind][:700]
+        power = abs(numpy.fft.rfft(ringing * numpy.hanning(len(ringing)), 16384))
+        lines = numpy.fft.rfftfreq(16384, found.time[1])
+        assert low < lines[10:][power[10:].argmax()] < high
+
+
+def test_a_run_publishes_what_acts_on_the_axle():
+    found = messages_of(
+        resolved("tire_braking", "duration=0.5", "slip={longitudinal: -0.05, angle: 0.02}", "road={kind: flat}")
+    )
+    axle, force = decode(AxleForce, found["tire/axle"][-1]), decode(ContactForce, found["tire/force"][-1])
+    shear = decode(ContactShear, found["tire/shear"][-1])
+    assert axle.longitudinal.mean() == pytest.approx(force.tangential.mean(), rel=0.02)
+    assert axle.lateral.mean() == pytest.approx(shear.force_y, rel=0.02)
+    assert axle.moment_z.mean() == pytest.approx(shear.moment_z, rel=0.05)
+    assert (axle.moment_y > 0.0).all()  # the road turns a braked wheel forward
+    plain = messages_of(resolved("tire_bump", "duration=0.1"))
+    assert len(decode(AxleForce, plain["tire/axle"][-1]).lateral) == 0

@@ -1,0 +1,86 @@
+"""Rolling resistance by the memory of tread and belt against its power in the frequency domain."""
+
+import math
+
+import numpy
+import pytest
+from tests.rigs.vehicle.test_simulation import messages_of
+from tests.run.scenes import resolved
+
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import AxleForce, ContactPatch
+from contact_sim_pkg.rigs.vehicle.tire.body import body_of
+
+SPEED = 16.7  # [m/s]
+LEVEL = ("duration=0.6", f"travel={{speed: {SPEED}}}", "road={kind: flat}", "effects.tire.rigid_ring=null")
+BRANCHES = ((0.29, 0.1), (0.29, 0.01), (0.29, 0.001))
+MODES = 200
+
+
+def rolled(*values):
+    scene = resolved("tire_cleat", *LEVEL, *values)
+    found = messages_of(scene)
+    axle = [decode(AxleForce, data) for data in found["tire/axle"]]
+    longitudinal = numpy.concatenate([block.longitudinal for block in axle])
+    return body_of(scene), longitudinal[len(longitudinal) // 2 :].mean(), decode(ContactPatch, found["tire/patch"][-1])
+
+
+def modulus(omega, share):
+    """Complex modulus over that at long times."""
+    return 1.0 + share * sum(ratio * 1j * omega * time / (1.0 + 1j * omega * time) for ratio, time in BRANCHES)
+
+
+def lost_per_metre(body, patch, share):
+    """Energy [J/m] that a pressure which moves over tread and belt leaves there: each wave k of it works at k V.
+
+    Tread: u = 2 p / (E q) of a wave of the half-space; belt: u_n = F_n / (pi R D_n) of a ring.
+    """
+    pressure = patch.pressure.astype(float)
+    rows, cols = 16 * pressure.shape[0], 16 * pressure.shape[1]
+    waves = numpy.fft.fft2(pressure, (rows, cols)) * patch.cell_x * patch.cell_y
+    along = 2.0 * math.pi * numpy.fft.fftfreq(rows, patch.cell_x)
+    across = 2.0 * math.pi * numpy.fft.fftfreq(cols, patch.cell_y)
+    size = numpy.hypot(along[:, None], across)
+    size[0, 0] = 1.0  # counts nothing: it does not move
+    compliance = 2.0 / (body.modulus * size * modulus(along * SPEED, 1.0)[:, None])
+    area = rows * patch.cell_x * cols * patch.cell_y
+    tread = -(along[:, None] * compliance.imag * abs(waves) ** 2).sum() / area
+    belt, n = body.belt, numpy.arange(2, MODES)
+    rigidity = (
+        belt.foundation + belt.tangential / n**2 + belt.tension * (n**2 - 1.0) / belt.radius**2
+        + belt.bending * (n**2 - 1.0) ** 2 / belt.radius**4
+    )  # fmt: skip
+    x = patch.origin_x + patch.cell_x * numpy.arange(len(pressure))
+    line = pressure.sum(axis=1) * patch.cell_x * patch.cell_y
+    force = abs(numpy.exp(-1j * numpy.outer(n / belt.radius, x)) @ line)
+    wave = n / belt.radius
+    ring = -(wave * (1.0 / modulus(wave * SPEED, share)).imag * force**2 / rigidity).sum() / (math.pi * belt.radius)
+    return tread + ring
+
+
+@pytest.mark.parametrize("share", [0.0, 0.2])
+def test_force_against_the_travel_is_the_energy_lost_per_metre(share):
+    """To 3 %: steps of an eighth of the footprint."""
+    body, force, patch = rolled(f"effects.tire.tread_viscoelasticity.belt={share}")
+    assert -force == pytest.approx(lost_per_metre(body, patch, share), rel=0.03)
+
+
+def test_the_usual_tire_has_a_resistance_of_one_per_cent():
+    _body, force, patch = rolled("effects.tire.tread_viscoelasticity={}")
+    load = patch.pressure.sum() * patch.cell_x * patch.cell_y
+    assert 0.007 < -force / load < 0.013
+
+
+def test_an_elastic_tire_has_none():
+    _body, force, patch = rolled()
+    assert abs(force) < 1e-9 * patch.pressure.sum() * patch.cell_x * patch.cell_y
+
+
+def test_a_free_wheel_is_pulled_by_what_its_tread_loses():
+    """With bristles and spin: the same force on the axle, and no moment about it."""
+    _body, plain, _patch = rolled(
+        "effects.tire.tread_viscoelasticity={}", "effects.tire.wheel_spin=null", "effects.tire.sidewall_compliance=null",
+        "effects.tire.brush=null",
+    )  # fmt: skip
+    _body, free, _patch = rolled("effects.tire.tread_viscoelasticity={}")
+    assert free == pytest.approx(plain, rel=2e-3)
