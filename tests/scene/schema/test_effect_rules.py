@@ -1,6 +1,6 @@
 """Which effects go together: all subsets, against a table that is written out here."""
 
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import pytest
 
@@ -65,6 +65,12 @@ SUBSETS = {
 }
 
 
+def stands_on_the_others(named):
+    """A wheel that spins needs a belt that yields, and that bristles."""
+    chain = ("brush", "sidewall_compliance", "wheel_spin")
+    return all(first in named or second not in named for first, second in pairwise(chain))
+
+
 def allowed(contact, named):
     """Whether these effects may stand together, written out once more."""
     refused = {
@@ -77,7 +83,7 @@ def allowed(contact, named):
         return False
     if len(named & {"normal_elastic", "cushion", "inflation"}) != 1 or named & refused:
         return False
-    if named >= {"inflation", "envelopment"}:
+    if named >= {"inflation", "envelopment"} or not stands_on_the_others(named):
         return False
     if "cushion" in named and named & {"foam", "shell_modes", "half_space_field"}:
         return False
@@ -90,13 +96,10 @@ def allowed(contact, named):
         return False
     if "damage" in named and not named >= {"track_waves", "subsurface"}:
         return False
-    if "contact_search" in named and "shell_modes" not in named:
-        return False
-    if named >= {"normal_dissipative", "general_dissipative"}:
-        return False
-    if ("sidewall_compliance" in named and "brush" not in named) or (
-        "wheel_spin" in named and "sidewall_compliance" not in named
-    ):
+    if ("contact_search" in named and "shell_modes" not in named) or named >= {
+        "normal_dissipative",
+        "general_dissipative",
+    }:
         return False
     return "contact_field" in named or not named & IN_THE_FIELD
 

@@ -156,6 +156,11 @@ class Bodies:
             return 0.0
         return float(self.state[2 if rig.rigid_ring is None else rig.rigid_ring.offset + 1])
 
+    def axle_deflection(self, approach: float) -> float:
+        """Deflection [m] of the axle at an ``approach`` [m] of tire or belt."""
+        ring = self.model.rig.rigid_ring
+        return approach if ring is None else approach + float(self.state[ring.offset] - self.state[0])
+
     def seat_approach(self, cushion: float) -> float:
         """Approach in [m] of the occupant to a cushion of height ``cushion`` [m]; 0 without
         a seat.

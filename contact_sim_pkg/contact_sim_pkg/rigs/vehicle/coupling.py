@@ -168,7 +168,7 @@ class Coupling:
         every = self.model.timing.sample_every
         stretch = Stretch(
             step.start, step.segment_length, step.segments, float(step.drive.travel[-1]), self.tire.slope_force(load),
-            self.tire.rolling_force(), every, step.behind_sample,
+            self.tire.rolling_force(), self.bodies.axle_deflection(approach), every, step.behind_sample,
         )  # fmt: skip
         samples = self.shear.roll(stretch, pressure, (found.origin_x, found.origin_y))
         count = len(range(-step.behind_sample % every, step.segments, every))

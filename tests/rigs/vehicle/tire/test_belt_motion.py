@@ -25,11 +25,12 @@ from contact_sim_pkg.rigs.vehicle.tire.brush.belt_motion import (
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import PatchGrid, make_brush_state
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, Sidewalls, WheelSpin
 
-FREE = Sidewalls(0.3, 7.0, 0.6, 0.3, 1.4e6, 1.8e5, 8.2e4, 5e3, 0.0, 0.0, 0.0, 0.0, WheelSpin(0.5))
+RADIUS = 0.3
+FREE = Sidewalls(7.0, 0.6, 0.3, 1.4e6, 1.8e5, 8.2e4, 5e3, 0.0, 0.0, 0.0, 0.0, WheelSpin(0.5))
 STICKY = Brush(7e7, 7e7, 1e6, 1e6)
 CELL, ROWS, COLS = 0.005, 28, 24
 STEP = 2.5e-4
-NONE = BeltDrive(0.0, 0.0, 0.0, 0.0, 0.0, (0.0, 0.0), (0.0, 0.0), 0.0, 0.0, 1, 1, 0)
+NONE = BeltDrive(0.0, 0.0, 0.0, 0.0, 0.0, (RADIUS, RADIUS), (0.0, 0.0), (0.0, 0.0), 0.0, 0.0, 1, 1, 0)
 COMPLIANT, RIGID = "effects.tire.sidewall_compliance={}", "effects.tire.sidewall_compliance=null"
 SPINS = (COMPLIANT, "effects.tire.wheel_spin={}")
 
@@ -105,11 +106,10 @@ def test_a_sticking_tread_couples_translation_and_rotation_of_a_standing_tire():
     """x, theta_b, theta_w on the springs k_x, k_t and that of all bristles: eigenvalues by scipy."""
     belt = Belt(pressure=2e5)
     bristles = 7e7 * ROWS * COLS * CELL**2
-    radius = FREE.radius
     stiffness = numpy.array(
         [
-            [1.4e6 + bristles, -bristles * radius, 0.0],
-            [-bristles * radius, bristles * radius**2 + 8.2e4, -8.2e4],
+            [1.4e6 + bristles, -bristles * RADIUS, 0.0],
+            [-bristles * RADIUS, bristles * RADIUS**2 + 8.2e4, -8.2e4],
             [0.0, -8.2e4, 8.2e4],
         ]
     )

@@ -83,4 +83,4 @@ def test_a_free_wheel_is_pulled_by_what_its_tread_loses():
         "effects.tire.brush=null",
     )  # fmt: skip
     _body, free, _patch = rolled("effects.tire.tread_viscoelasticity={}")
-    assert free == pytest.approx(plain, rel=2e-3)
+    assert free == pytest.approx(plain, rel=5e-3)  # the wheel still turns faster as it sinks

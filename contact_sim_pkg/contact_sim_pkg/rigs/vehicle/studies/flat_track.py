@@ -61,7 +61,8 @@ def flat_track(load: float, speed: float, duration: float, *values: str) -> Trac
     rows, count = [], round(duration / (SEGMENT * SEGMENTS))
     for n in range(1, count + 1):
         start = (n - 1) * SEGMENTS * SEGMENT
-        stretch = Stretch(start, SEGMENT, SEGMENTS, speed * (start + SEGMENTS * SEGMENT), 0.0, 0.0, 1, 0)
+        end = speed * (start + SEGMENTS * SEGMENT)
+        stretch = Stretch(start, SEGMENT, SEGMENTS, end, 0.0, 0.0, friction.deflection, 1, 0)
         rows.append(shear.roll(stretch, pressure, origin)[:SEGMENTS].copy())
     samples, result = numpy.concatenate(rows), shear.publish(pressure).result
     length = float(pressure.any(axis=1).sum()) * settings.cell_x

@@ -95,11 +95,21 @@ class RollingFriction:
     """Bristles of the tire, the belt on its sidewalls, and what turns and steers the wheel."""
 
     brush: Brush
-    radius: float  # [m] effective rolling radius at the standing load
+    unloaded: float  # [m] radius
+    deflection: float  # [m] of the axle at the standing load
     slips: Programme  # longitudinal slip and slip angle [rad]
     sidewalls: Sidewalls | None
     torques: Programme  # drive and brake [N m] on a wheel that spins
     longest_step: float  # [s] of belt and bristles
+
+    def radius_at(self, deflection: float) -> float:
+        """Effective rolling radius [m] at a ``deflection`` [m] of the axle: R - d/3 (Pacejka, 8.3)."""
+        return self.unloaded - max(deflection, 0.0) / 3.0
+
+    @property
+    def radius(self) -> float:
+        """That of the standing load [m]."""
+        return self.radius_at(self.deflection)
 
 
 @dataclass(frozen=True)
@@ -215,16 +225,19 @@ def _rolling_friction(
     brush = Brush(
         law.stiffness_x, law.stiffness_y, law.coefficient_static, law.coefficient_kinetic, law.sliding_speed
     )  # fmt: skip
-    radius = unloaded - deflection / 3.0  # Pacejka, 8.3: between the loaded and the unloaded one
     area = 2.0 * geometry.half_width * geometry.footprint_length
-    sidewalls = _sidewalls(scene, radius, None if spin is None else WheelSpin(spin.inertia))
-    step = LONGEST_STEP if sidewalls is None else min(LONGEST_STEP, PART_OF_SWING / fastest(sidewalls, brush, area))
-    return RollingFriction(brush, radius, Programme.of(slips), sidewalls, Programme.of(torques), step)
+    sidewalls = _sidewalls(scene, None if spin is None else WheelSpin(spin.inertia))
+    step = (
+        LONGEST_STEP
+        if sidewalls is None
+        else min(LONGEST_STEP, PART_OF_SWING / fastest(sidewalls, brush, unloaded, area))
+    )
+    return RollingFriction(brush, unloaded, deflection, Programme.of(slips), sidewalls, Programme.of(torques), step)
 
 
-def fastest(sidewalls: Sidewalls, brush: Brush, area: float) -> float:
-    """Highest angular frequency [rad/s] of a belt whose bristles stick over an ``area`` [m^2], from
-    above.
+def fastest(sidewalls: Sidewalls, brush: Brush, radius: float, area: float) -> float:
+    """Highest angular frequency [rad/s] of a belt whose bristles stick over an ``area`` [m^2] at a
+    ``radius`` [m], from above.
     """
     rim = math.inf if sidewalls.wheel is None else sidewalls.wheel.inertia
     along, across = brush.stiffness_x * area, brush.stiffness_y * area
@@ -232,13 +245,13 @@ def fastest(sidewalls: Sidewalls, brush: Brush, area: float) -> float:
         max(
             (sidewalls.stiffness_x + along) / sidewalls.mass
             + sidewalls.stiffness_twist * (1.0 / sidewalls.inertia + 1.0 / rim)
-            + along * sidewalls.radius**2 / sidewalls.inertia,
+            + along * radius**2 / sidewalls.inertia,
             (sidewalls.stiffness_y + across) / sidewalls.mass + sidewalls.stiffness_yaw / sidewalls.yaw_inertia,
         )
     )  # fmt: skip
 
 
-def _sidewalls(scene: ResolvedScene, radius: float, wheel: WheelSpin | None) -> Sidewalls | None:
+def _sidewalls(scene: ResolvedScene, wheel: WheelSpin | None) -> Sidewalls | None:
     keys = scene.effect("tire", schema.SidewallComplianceSection)
     if keys is None:
         return None
@@ -248,7 +261,7 @@ def _sidewalls(scene: ResolvedScene, radius: float, wheel: WheelSpin | None) -> 
         return 2.0 * keys.damping_ratio * math.sqrt(stiffness * inertia)
 
     return Sidewalls(
-        radius, mass, keys.belt_inertia, yaw_inertia, along, keys.lateral, keys.rotational, keys.yaw,
+        mass, keys.belt_inertia, yaw_inertia, along, keys.lateral, keys.rotational, keys.yaw,
         damping(along, mass), damping(keys.lateral, mass), damping(keys.rotational, keys.belt_inertia),
         damping(keys.yaw, yaw_inertia), wheel,
     )  # fmt: skip

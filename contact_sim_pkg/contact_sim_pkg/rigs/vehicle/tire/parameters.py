@@ -32,7 +32,6 @@ class Sidewalls(NamedTuple):
     it and the rim.
     """
 
-    radius: float  # [m] effective rolling radius: slip and lever of the friction
     mass: float  # [kg] of the belt
     inertia: float  # [kg m^2] about the axle
     yaw_inertia: float  # [kg m^2] about the vertical

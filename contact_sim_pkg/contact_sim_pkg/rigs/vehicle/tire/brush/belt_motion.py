@@ -11,7 +11,8 @@ speed omega_b about y; the rim turns with omega_w, the twist theta is the angle 
 * ``I_w omega_w' = k_t theta + c_t theta' + M_drive - M_brake``; without the spin of the wheel
   ``omega_w = (1 + kappa) V / R_e``
 
-F_n is the force of the pressure on slopes, M_r the moment of rolling resistance by a tread with
+R_e = R - d/3, d the deflection of the axle: under a cleat the wheel turns faster. F_n is the force of
+the pressure on slopes, M_r the moment of rolling resistance by a tread with
 memory, F_x, F_y, M_z those of the bristles. The road slides under the belt by ``(R_e omega_b - x' -
 V, R_e omega_b psi - V tan(alpha) - y' - psi' x) dt``. With the same R_e as lever and in the slip the
 power of the friction is what belt and axle lose. A brake holds a standing rim up to its moment.
@@ -69,6 +70,7 @@ class BeltDrive(NamedTuple):
     drift: float  # [m] of the axle, to the left
     speed_change: float  # [m/s] of the axle at the start
     rim: float  # [rad/s] spin of the rim, where it is no state
+    radii: tuple[float, float]  # [m] effective rolling radius: slip and lever of the friction
     slopes: tuple[float, float]  # [N] force of the pressure on slopes
     rolling: tuple[float, float]  # [N m] moment of rolling resistance
     drive: float  # [N m] on the rim, forward
@@ -95,10 +97,11 @@ def _accelerate(sidewalls, belt, drive, part, time):
     """Change the speeds over ``time`` [s] by the forces when ``part`` [1] of the row is done."""
     slopes = drive.slopes[0] + part * (drive.slopes[1] - drive.slopes[0])
     rolling = drive.rolling[0] + part * (drive.rolling[1] - drive.rolling[0])
+    radius = drive.radii[0] + part * (drive.radii[1] - drive.radii[0])
     along, across, twist, yaw = _on_axle(sidewalls, belt)
     belt[X_RATE] += time * (slopes + belt[FORCE_X] - along) / sidewalls.mass
     belt[Y_RATE] += time * (belt[FORCE_Y] - across) / sidewalls.mass
-    belt[SPIN] -= time * (sidewalls.radius * belt[FORCE_X] + rolling + twist) / sidewalls.inertia
+    belt[SPIN] -= time * (radius * belt[FORCE_X] + rolling + twist) / sidewalls.inertia
     belt[YAW_RATE] += time * (belt[MOMENT_Z] - yaw) / sidewalls.yaw_inertia
     belt[RIM] = _turn_rim(sidewalls.wheel, belt[RIM], twist, drive.drive, drive.brake, time)
 
@@ -115,11 +118,14 @@ def _on_axle(sidewalls, belt):
 
 
 @borrowing_kernel
-def _move(sidewalls, belt, drive):
-    """Move the belt by a step; returns the ways of belt and road."""
+def _move(belt, drive, middle):
+    """Move the belt by a step whose ``middle`` is that part of the row; returns the ways of belt and
+    road.
+    """
     time = drive.duration / drive.steps
+    radius = drive.radii[0] + middle * (drive.radii[1] - drive.radii[0])
     along, across, turn = time * belt[X_RATE], time * belt[Y_RATE], time * belt[YAW_RATE]
-    way = sidewalls.radius * belt[SPIN] * time
+    way = radius * belt[SPIN] * time
     drift = drive.drift / drive.steps + across - way * (belt[YAW] + 0.5 * turn)
     belt[X] += along
     belt[Y] += across
@@ -163,7 +169,7 @@ def advance_belt(
         # Half of the forces, the places and with them the bristles, the other half.
         start, end = n / drive.steps, (n + 1) / drive.steps
         _accelerate(sidewalls, belt, drive, start, 0.5 * time)
-        step = _move(sidewalls, belt, drive)
+        step = _move(belt, drive, 0.5 * (start + end))
         sliding = sliding_brush(brush, step)
         phase, work, energy = advance_step(sliding, state, grid, pressure, window, phase, step, start, end)
         belt[FORCE_X], belt[FORCE_Y], belt[MOMENT_Z], share = write_shear(

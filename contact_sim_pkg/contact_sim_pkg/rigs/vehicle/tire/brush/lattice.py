@@ -118,4 +118,4 @@ def blend(before: Field, pressure: Field, part: float, window: LoadedWindow, out
         inside = 0 <= i < pressure.shape[0]
         for j in range(window.left, window.right):
             now = pressure[i, j] if inside else 0.0
-            out[m, j] = before[m, j] + part * (now - before[m, j])
+            out[m, j] = (1.0 - part) * before[m, j] + part * now  # exact at both ends

@@ -42,7 +42,8 @@ class Stretch(NamedTuple):
     segments: int
     travel: float  # [m] of the axle at the end
     slopes: float  # [N] force of the pressure on slopes at the end
-    rolling: float  # [N] moment of the rolling resistance over the radius, at the end
+    rolling: float  # [N] moment of rolling resistance over the radius, at the end
+    deflection: float  # [m] of the axle, at the end
     sample_every: int  # segments
     behind_sample: int  # segments since the last sample
 
@@ -81,7 +82,7 @@ class RollingShear:
         self._bristles = make_brush_state(self._wide.rows, self._wide.cols)
         self._belt = numpy.zeros(BELT_STATES)
         self._time, self._travel, self._speed = 0.0, 0.0, math.nan
-        self._slopes, self._rolling = 0.0, 0.0
+        self._slopes, self._rolling, self._radius = 0.0, 0.0, self._friction.radius
         self._samples: Field = numpy.zeros((0, BELT_SAMPLES))
         self._last: Field = numpy.zeros(BELT_SAMPLES)
         self._result = BrushResult(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -104,8 +105,10 @@ class RollingShear:
         speed = way / stretch.duration
         # The slips in the middle of the stretch act over all of it.
         slip, angle = self._friction.slips.at(stretch.start + 0.5 * stretch.duration)
-        rim = (1.0 + slip) * speed / self._friction.radius
-        if math.isnan(self._speed):  # the first stretch: the wheel rolls already
+        first, radius = math.isnan(self._speed), self._friction.radius_at(stretch.deflection)
+        radii = radius if first else self._radius, radius
+        rim = (1.0 + slip) * speed / (0.5 * (radii[0] + radii[1]))
+        if first:  # the wheel rolls already
             self._speed, self._belt[SPIN], self._belt[RIM] = speed, rim, rim
         if sidewalls is None:
             found = self._advance_bristles(grid, rolling_step(way, slip, angle, stretch.duration))
@@ -113,8 +116,8 @@ class RollingShear:
         else:
             parts = math.ceil(stretch.segment_length / self._friction.longest_step * (1.0 - 1e-9))
             drive = BeltDrive(
-                stretch.duration, way, way * math.tan(angle), speed - self._speed, rim, (self._slopes, stretch.slopes),
-                (self._rolling * sidewalls.radius, stretch.rolling * sidewalls.radius),
+                stretch.duration, way, way * math.tan(angle), speed - self._speed, rim, radii,
+                (self._slopes, stretch.slopes), (self._rolling * radii[0], stretch.rolling * radii[1]),
                 *self._friction.torques.at(stretch.start + 0.5 * stretch.duration), stretch.segments * parts,
                 stretch.sample_every * parts, stretch.behind_sample * parts,
             )  # fmt: skip
@@ -127,7 +130,7 @@ class RollingShear:
             )  # fmt: skip
             samples = self._samples
         self._time, self._travel, self._speed = stretch.start + stretch.duration, stretch.travel, speed
-        self._slopes, self._rolling = stretch.slopes, stretch.rolling
+        self._slopes, self._rolling, self._radius = stretch.slopes, stretch.rolling, radii[1]
         dissipated, released = before.dissipated + found.dissipated, before.released + found.released
         self._result = found._replace(dissipated=dissipated, released=released)
         return samples
@@ -140,7 +143,7 @@ class RollingShear:
         sidewalls = self._friction.sidewalls
         if sidewalls is not None and sidewalls.wheel is not None:
             way = 0.0 if math.isnan(self._speed) else self._speed
-            slip = 0.0 if way == 0.0 else float(self._belt[RIM]) * sidewalls.radius / way - 1.0
+            slip = 0.0 if way == 0.0 else float(self._belt[RIM]) * self._radius / way - 1.0
         return Sheared(
             slip, angle, result, self._shear_x[part].copy(), self._shear_y[part].copy(), self._state[part].copy()
         )  # fmt: skip
@@ -168,7 +171,7 @@ class RollingShear:
 
     def _between(self, stretch: Stretch, found: BrushResult, rim: float) -> Field:
         """Samples of a belt that is one with the rim, linear between the fields."""
-        radius, before = self._friction.radius, self._last
+        radius, before = self._friction.radius_at(stretch.deflection), self._last
         now: Field = numpy.array(
             (
                 found.force_x, found.force_y, found.moment_z, stretch.slopes + found.force_x, found.force_y,
