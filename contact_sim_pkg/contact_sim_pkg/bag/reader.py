@@ -5,7 +5,8 @@ Types come from the definitions in the bag, not from those installed. Nothing is
 disk.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -201,14 +202,22 @@ class Bag:
         """Log time in [ns] and message object of each message of a topic, by the bag's own
         definition of its type.
         """
-        row = self.topic(topic)
-        store = self._types(row)
         for message in self.messages(topic):
-            try:
-                yield message.log_time, store.deserialize_cdr(message.data, row.type)
-            except (SerdeError, AssertionError) as error:
-                where = f"{self.path}: the message of {row.name} at {message.log_time / 1e9:.6f} s"
-                raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
+            yield message.log_time, self.decode(message)
+
+    def decode(self, message: BagMessage) -> Any:
+        """The object of a message, by the bag's own definition of its type; BagError where it does
+        not fit that.
+        """
+        return self._decode(self.topics[message.topic], message.log_time, message.data)
+
+    def _decode(self, row: RecordedTopic, log_time: int, data: bytes) -> Any:
+        try:
+            # A view: rosbags copies what it takes off the front
+            return self._types(row).deserialize_cdr(memoryview(data), row.type)
+        except (SerdeError, AssertionError) as error:
+            where = f"{self.path}: the message of {row.name} at {log_time / 1e9:.6f} s"
+            raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
 
     def columns(self, topic: str, fields: tuple[str, ...] | None = None) -> dict[str, Any]:
         """The fields of all messages of a topic as columns.
@@ -225,8 +234,14 @@ class Bag:
         Raises:
             BagError: no such topic or field, or a message does not fit its definition.
         """
+        return self.stacked(topic, ((each.log_time, each.data) for each in self.messages(topic)), fields)
+
+    def stacked(
+        self, topic: str, messages: Iterable[tuple[int, bytes]], fields: tuple[str, ...] | None = None
+    ) -> dict[str, Any]:
+        """Columns, as of `columns`, of some messages of a topic: log time in [ns], and bytes."""
         row = self.topic(topic)
-        return stacked(self.decoded(topic), self._types(row), row.type, fields)
+        return stacked(messages, self._types(row), row.type, fields, partial(self._decode, row))
 
     def _types(self, row: RecordedTopic) -> Typestore:
         if row.type not in self._stores:

@@ -54,15 +54,15 @@ class FieldReader:
         pressure = np.reshape(message.pressure, (message.rows, message.cols))
         # Sum over time, at the place of this grid in the widest one
         self._total[row : row + message.rows, col : col + message.cols] += pressure
-        size = _size(pressure, message)
+        size = _size(pressure != 0.0, message)
         self._first = self._first or (time, message)
         if self._touch is None and message.load > 0.0 and self._scalars and self._scalars[-1][1] <= 0.0:
             self._touch = time, message
         self._scalars.append((time, *(float(getattr(message, name)) for name in SCALARS), *size))
         # Line load along x for the space-time picture
-        line = np.zeros(self._widest.rows)
-        line[row : row + message.rows] = pressure.sum(axis=1, dtype=np.float64) * message.cell_y
-        self._history_time.add(np.array([time]))
+        line = np.zeros((1, self._widest.rows))
+        line[0, row : row + message.rows] = pressure.sum(axis=1, dtype=np.float64) * message.cell_y
+        self._history_time.add(np.array([[time]]))
         self._history.add(line)
         self._event.add(time, message)
         if self._highest is None or message.peak > self._highest.peak:
@@ -141,11 +141,11 @@ def _snapshot(time: float, message: Any) -> Snapshot:
     return Snapshot(time, float(message.load), pressure_map(message, message.pressure))
 
 
-def _size(pressure: Any, message: Any) -> tuple[float, float]:
+def _size(loaded: Any, message: Any) -> tuple[float, float]:
     """Length and width [m] between the outermost loaded cells, these included; zeros without
     load.
     """
-    rows, cols = (np.flatnonzero(pressure.any(axis=axis)) for axis in (1, 0))
+    rows, cols = (np.flatnonzero(loaded.any(axis=axis)) for axis in (1, 0))
     if not rows.size:
         return 0.0, 0.0
     return float(rows[-1] - rows[0] + 1) * message.cell_x, float(cols[-1] - cols[0] + 1) * message.cell_y

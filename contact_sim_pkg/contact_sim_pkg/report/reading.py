@@ -10,14 +10,10 @@ from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
-from rosbags.serde import SerdeError
-from rosbags.typesys.store import Typestore
 
-from contact_sim_pkg.bag.columns import stacked
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.texts import scene_of_text
-from contact_sim_pkg.bag.typestore import store_of_definition
 from contact_sim_pkg.records.messages import SolverCost
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.field_series import FieldReader
@@ -57,26 +53,19 @@ def read_recording(bag: Bag) -> Recording:
         BagError: a message does not fit its definition, or a chunk is damaged and bad chunks are
             not skipped.
     """
-    read = _read_types()
-    kinds = {row.type: row.definition for row in bag.topics.values() if row.type in read}
-    stores = {kind: store_of_definition(kind, definition) for kind, definition in kinds.items()}
-    decoded, fields, points, of_rigs = _decode(bag, stores)
+    raw, fields, points, of_rigs = _decode(bag)
 
-    def columns(topic: str, names: tuple[str, ...]) -> dict[str, Any]:
-        kind = bag.topics[topic].type
-        return stacked(decoded[topic], stores[kind], kind, names)
+    def columns(topic: str, names: tuple[str, ...] | None = None) -> dict[str, Any]:
+        return bag.stacked(topic, raw.pop(topic), names)
 
-    # Contacts of bags from before a column was added lack it
-    topics = {kind: [name for name in decoded if bag.topics[name].type == kind] for kind in SERIES_TYPES}
-    known = {name for name, _ in stores[FORCE].fielddefs[FORCE][1]} if topics[FORCE] else set()
-    contact_columns = (*CONTACT_COLUMNS, IMPULSES) if IMPULSES in known else CONTACT_COLUMNS
+    topics = {kind: [name for name in raw if bag.topics[name].type == kind] for kind in SERIES_TYPES}
     contact_of = _contact_names(bag)
-    contacts = {contact_of[name]: _contact(columns(name, contact_columns)) for name in topics[FORCE]}
+    contacts = {contact_of[name]: _contact(columns(name)) for name in topics[FORCE]}
     motion = next((_motion(columns(name, MOTION_COLUMNS)) for name in topics[MOTION]), None)
     ledger = next((LedgerSeries(**columns(name, LedgerSeries._fields)) for name in topics[ENERGY]), None)
     cost = next((_cost(columns(name, ("time", *SolverCost._fields))) for name in topics[COST]), None)
     listed = [name for name, row in bag.topics.items() if row.type == EPISODES]
-    episodes = next((_episodes(columns, name, name in decoded) for name in listed), None)
+    episodes = next((_episodes(columns, name, name in raw) for name in listed), None)
     scene = scene_of_text(bag.scene, f"scene of {bag.path}")
     return Recording(
         name=bag.path.parent.name,
@@ -121,11 +110,11 @@ def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
 
 
 class Decoded(NamedTuple):
-    """Messages of the series by topic; fields, points and what only one rig records are read one by
+    """Raw messages of the series by topic; fields, points and what only one rig records are read one by
     one, for they are large.
     """
 
-    series: dict[str, list[tuple[int, Any]]]
+    series: dict[str, list[tuple[int, bytes]]]
     fields: dict[str, FieldReader]
     points: dict[str, PointReader]
     of_rigs: dict[tuple[str, str], Any]
@@ -146,30 +135,23 @@ def _rig_series(readers: dict[tuple[str, str], Any]) -> dict[str, Any]:
     return found
 
 
-def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
+def _decode(bag: Bag) -> Decoded:
     decoded, readers = Decoded({}, {}, {}, {}), series_readers()
     for message in bag.messages():
-        if message.type not in stores:
-            continue
         seconds = message.log_time * 1e-9
-        try:
-            value = stores[message.type].deserialize_cdr(message.data, message.type)
-        except (SerdeError, AssertionError) as error:
-            where = f"{bag.path}: the message of {message.topic} at {seconds:.6f} s"
-            raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
         # Fields and points are reduced as they are read; they would not fit into memory
         if message.type == PATCH:
-            decoded.fields.setdefault(message.topic, FieldReader()).add(seconds, value)
+            decoded.fields.setdefault(message.topic, FieldReader()).add(seconds, bag.decode(message))
         elif message.type == POINTS:
-            decoded.points.setdefault(message.topic, PointReader()).add(seconds, value)
+            decoded.points.setdefault(message.topic, PointReader()).add(seconds, bag.decode(message))
         elif message.type in readers:
             reader = readers[message.type]
             place = reader.name, message.topic.rpartition("/")[0]
             if place not in decoded.of_rigs:
                 decoded.of_rigs[place] = load(reader.reader)()
-            decoded.of_rigs[place].add(seconds, message.type, value)
-        else:
-            decoded.series.setdefault(message.topic, []).append((message.log_time, value))
+            decoded.of_rigs[place].add(seconds, message.type, bag.decode(message))
+        elif message.type in SERIES_TYPES:
+            decoded.series.setdefault(message.topic, []).append((message.log_time, message.data))
     return decoded
 
 

@@ -8,6 +8,7 @@ below a limit, a chunk is unpacked when its checksum is right. The file is never
 import struct
 import zlib
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -18,7 +19,6 @@ from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
 from mcap.records import Channel, Chunk, ChunkIndex, McapRecord, Message, Metadata, MetadataIndex, Schema
-from mcap.stream_reader import breakup_chunk
 
 from contact_sim_pkg.bag.errors import BagError, CorruptChunkError
 from contact_sim_pkg.bag.mcap.chunks import LARGEST_RECORD, damaged, decompressed
@@ -26,6 +26,8 @@ from contact_sim_pkg.bag.metadata import CHECKSUM_KEY
 
 MAGIC = b"\x89MCAP0\r\n"
 _HEAD = 9  # opcode and length of a record
+_RECORD = struct.Struct("<BQ")  # that head
+_MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log and publish time
 _FAULTS = (McapError, struct.error, ValueError, OSError, IndexError, KeyError, OverflowError)
 
 
@@ -90,9 +92,30 @@ def chunk_records(file: IO[bytes], place: ChunkPlace, name: str) -> list[McapRec
         opcode, length = _head(file, place.offset)
         if opcode != Opcode.CHUNK or length != place.length - _HEAD or length > LARGEST_RECORD:
             raise ValueError(f"a chunk of {place.length} bytes should stand there")
-        return breakup_chunk(decompressed(Chunk.read(_stream(file, length))), validate_crc=True)
+        chunk = decompressed(Chunk.read(_stream(file, length)))
+        if chunk.uncompressed_crc not in (0, zlib.crc32(chunk.data)):  # 0: none stated
+            raise ValueError("its checksum is not that of its content")
+        return list(_records(chunk.data))
     except _FAULTS as error:
         raise damaged(name, place.offset, place.start, place.end, error) from None
+
+
+def _records(content: bytes) -> Iterator[McapRecord]:
+    """Schemas, channels and messages of an unpacked chunk; those of other kinds are passed over."""
+    end = 0
+    while end < len(content):
+        opcode, length = _RECORD.unpack_from(content, end)
+        start, end = end + _HEAD, end + _HEAD + length
+        if end > len(content):
+            raise ValueError(f"a record of {length} bytes reaches beyond its end")
+        # Messages are many: no stream is made for each
+        if opcode == Opcode.MESSAGE:
+            channel, sequence, log_time, publish_time = _MESSAGE.unpack_from(content, start)
+            yield Message(channel, log_time, content[start + _MESSAGE.size : end], publish_time, sequence)
+        elif opcode == Opcode.SCHEMA:
+            yield Schema.read(ReadDataStream(BytesIO(content[start:end])))
+        elif opcode == Opcode.CHANNEL:
+            yield Channel.read(ReadDataStream(BytesIO(content[start:end])))
 
 
 def _stream(file: IO[bytes], length: int) -> ReadDataStream:

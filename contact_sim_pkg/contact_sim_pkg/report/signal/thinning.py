@@ -1,4 +1,4 @@
-"""Rows that arrive one by one and never take more than a bounded memory: groups of 1, 2, 4, … rows
+"""Rows that arrive in parts and never take more than a bounded memory: groups of 1, 2, 4, … rows
 become one.
 """
 
@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 Reduction = Callable[..., Any]
-"""`numpy.mean`, `numpy.min` or `numpy.max`: what becomes of a group of rows, called with
-`axis=0`.
+"""`numpy.mean`, `numpy.min`, `numpy.max` or a mixture by column: what becomes of groups of rows,
+[groups, rows of a group, values], called with `axis=1`.
 """
 
 
@@ -31,25 +31,43 @@ class ThinnedRows:
         self.group = 1
         self._limit, self._reduce = limit, reduce
         self._kept: list[FloatArray] = []
+        self._kept_rows = 0
         self._open: list[FloatArray] = []
+        self._open_rows = 0
 
-    def add(self, row: FloatArray) -> None:
-        """Add a row, of the same length as all before."""
-        self._open.append(np.asarray(row, dtype=np.float64))
-        if len(self._open) < self.group:
-            return
-        self._kept.append(self._open[0] if self.group == 1 else self._reduce(self._open, axis=0))
-        self._open = []
-        if len(self._kept) == self._limit:
-            pairs = zip(self._kept[::2], self._kept[1::2], strict=True)
-            self._kept = [self._reduce(pair, axis=0) for pair in pairs]
+    def add(self, rows: FloatArray) -> None:
+        """Add rows [rows, values], as wide as all before."""
+        while len(rows):
+            # At most up to the limit, where the groups double
+            room = (self._limit - self._kept_rows) * self.group - self._open_rows
+            part, rows = rows[:room], rows[room:]
+            self._open.append(part)
+            self._open_rows += len(part)
+            if self._open_rows >= self.group:
+                self._close_groups()
+
+    def _close_groups(self) -> None:
+        """Reduce the groups that are full, and double the groups where the limit is reached."""
+        rows = np.concatenate(self._open)
+        full, rest = divmod(self._open_rows, self.group)
+        self._keep(rows[: full * self.group], self.group)
+        self._open, self._open_rows = [rows[full * self.group :]] if rest else [], rest
+        if self._kept_rows == self._limit:
+            rows, self._kept, self._kept_rows = np.concatenate(self._kept), [], 0
             self.group *= 2
+            self._keep(rows, 2)
+
+    def _keep(self, rows: FloatArray, group: int) -> None:
+        reduced = rows if group == 1 else self._reduce(rows.reshape(-1, group, rows.shape[1]), axis=1)
+        self._kept.append(reduced)
+        self._kept_rows += len(reduced)
 
     def widen(self, before: int, after: int) -> None:
         """Put zeros in front of and behind the values of every row added so far."""
-        self._kept, self._open = ([np.pad(row, (before, after)) for row in rows] for rows in (self._kept, self._open))
+        margins = (0, 0), (before, after)
+        self._kept, self._open = ([np.pad(rows, margins) for rows in each] for each in (self._kept, self._open))
 
     def finish(self) -> FloatArray:
         """The table, [rows, values]; at least one row was read."""
-        rest = [self._reduce(self._open, axis=0)] if self._open else []
-        return np.array([*self._kept, *rest])
+        rest = [self._reduce(np.concatenate(self._open)[None], axis=1)] if self._open else []
+        return np.concatenate([*self._kept, *rest])

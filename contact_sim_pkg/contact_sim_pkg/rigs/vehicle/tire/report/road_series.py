@@ -4,6 +4,7 @@ overlap.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -57,7 +58,7 @@ class RoadReader:
         self._travel: list[tuple[float, float]] = []
         self._end = (0.0, 0.0)
         self._next_row: int | None = None
-        self._middle, self._low, self._high = (ThinnedRows(ROWS, reduce) for reduce in (np.mean, np.min, np.max))
+        self._profile = ThinnedRows(ROWS, _mean_low_high)
 
     def add(self, time: float, _type: str, message: Any) -> None:
         """Read the block that starts at `time` [s]. BagError for one that does not fill its
@@ -78,14 +79,11 @@ class RoadReader:
         skipped = 0 if self._next_row is None else max(self._next_row - message.first_row, 0)
         if skipped >= message.rows:
             return
-        y = (np.arange(message.cols) - 0.5 * (message.cols - 1)) * message.cell_y
-        strip = height[skipped:, np.abs(y) <= max(0.5 * TRACK, message.cell_y)]
-        middle = height[skipped:, np.abs(y) <= 0.51 * message.cell_y].mean(axis=1)
+        track, middle = _columns(message.cols, message.cell_y)
+        strip = height[skipped:, track]
         x = (message.first_row + skipped + np.arange(len(strip))) * message.cell_x
-        for row in np.column_stack([x, middle, strip.min(axis=1), strip.max(axis=1)]):
-            self._middle.add(row[:2])
-            self._low.add(row[2:3])
-            self._high.add(row[3:4])
+        rows = x, height[skipped:, middle].mean(axis=1), strip.min(axis=1), strip.max(axis=1)
+        self._profile.add(np.stack(rows, axis=1))
         self._next_row = message.first_row + message.rows
 
     def finish(self) -> RoadSeries:
@@ -93,7 +91,18 @@ class RoadReader:
         if self._next_row is None:
             raise BagError("no road was read")
         time, travel = np.array([*self._travel, self._end]).T
-        x, middle = self._middle.finish().T
-        low: FloatArray = self._low.finish()[:, 0]
-        high: FloatArray = self._high.finish()[:, 0]
-        return RoadSeries(WheelTravel(time, travel), x, middle, low, high)
+        return RoadSeries(WheelTravel(time, travel), *self._profile.finish().T)
+
+
+@cache
+def _columns(cols: int, cell_y: float) -> tuple[slice, slice]:
+    """Columns of a patch in the strip, and the one or two in the middle of it."""
+    distance = np.abs((np.arange(cols) - 0.5 * (cols - 1)) * cell_y)
+    strip, middle = (np.flatnonzero(distance <= reach) for reach in (max(0.5 * TRACK, cell_y), 0.51 * cell_y))
+    return slice(strip[0], strip[-1] + 1), slice(middle[0], middle[-1] + 1)
+
+
+def _mean_low_high(rows: FloatArray, axis: int) -> FloatArray:
+    """Groups of rows of distance, middle, low and high [..., 4]."""
+    x_middle, low, high = rows[..., :2].mean(axis=axis), rows[..., 2:3].min(axis=axis), rows[..., 3:].max(axis=axis)
+    return np.concatenate([x_middle, low, high], axis=-1)
