@@ -44,18 +44,22 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_ver
     begin = "report: reading the bag" if len(bags) == 1 else "report: comparing the bags"
     with RunDisplay(1.0, begin, "section") as display:
 
+        def on_read(share: float) -> None:
+            display.show_set_up(f"report: reading the bag, {share:.0%}")
+
         def on_section(number: int, count: int, title: str) -> None:
             display.update(number / count, f"report: section {number + 1} of {count}, {title}")
 
         # the libraries of pictures are loaded under the display
-        from contact_sim_pkg.report.comparison.runs import write_comparison
         from contact_sim_pkg.report.reading import scenes_fit
-        from contact_sim_pkg.report.report import write_report
 
         with scenes_fit(recorded):
-            page = (
-                write_report(recorded[0], out, overwrite=overwrite, on_section=on_section)
-                if len(recorded) == 1
-                else write_comparison(recorded, out, overwrite=overwrite)
-            )
+            if len(recorded) == 1:
+                from contact_sim_pkg.report.report import write_report
+
+                page = write_report(recorded[0], out, overwrite=overwrite, on_section=on_section, on_read=on_read)
+            else:
+                from contact_sim_pkg.report.comparison.runs import write_comparison
+
+                page = write_comparison(recorded, out, overwrite=overwrite)
     click.echo(f"report: {page}")

@@ -15,6 +15,7 @@ import matplotlib
 import numpy
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -157,6 +158,12 @@ def picture(name: str, figure: Figure, description: str, caption: str) -> Pictur
         description: plain text for those who do not see the picture.
         caption: plain text below the picture.
     """
+    # Laid out here: `savefig` would draw the whole figure once more for the layout alone
+    FigureCanvasSVG(figure)
+    layout = figure.get_layout_engine()
+    if layout is not None:
+        layout.execute(figure)
+        figure.set_layout_engine("none")
     buffer = io.StringIO()
     figure.savefig(buffer, format="svg", dpi=150, metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()

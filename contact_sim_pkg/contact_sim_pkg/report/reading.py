@@ -46,14 +46,19 @@ MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acc
 SCENE_KEY = "scene"
 
 
-def read_recording(bag: Bag) -> Recording:
+OnRead = Callable[[float], object]
+"""Called while a bag is read, with the share of its messages read: 0 to 1."""
+MESSAGES_BETWEEN_CALLS = 10_000
+
+
+def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
     """Read every series, in one pass over the bag.
 
     Raises:
         BagError: a message does not fit its definition, or a chunk is damaged and bad chunks are
             not skipped.
     """
-    raw, fields, points, of_rigs = _decode(bag)
+    raw, fields, points, of_rigs = _decode(bag, on_read)
 
     def columns(topic: str, names: tuple[str, ...] | None = None) -> dict[str, Any]:
         return bag.stacked(topic, raw.pop(topic), names)
@@ -135,9 +140,12 @@ def _rig_series(readers: dict[tuple[str, str], Any]) -> dict[str, Any]:
     return found
 
 
-def _decode(bag: Bag) -> Decoded:
+def _decode(bag: Bag, on_read: OnRead) -> Decoded:
     decoded, readers = Decoded({}, {}, {}, {}), series_readers()
-    for message in bag.messages():
+    total = bag.count()
+    for number, message in enumerate(bag.messages(), start=1):
+        if number % MESSAGES_BETWEEN_CALLS == 0:
+            on_read(min(1.0, number / max(total, 1)))
         seconds = message.log_time * 1e-9
         # Fields and points are reduced as they are read; they would not fit into memory
         if message.type == PATCH:

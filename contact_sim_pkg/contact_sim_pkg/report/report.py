@@ -17,7 +17,7 @@ from contact_sim_pkg.report.drawing import style
 from contact_sim_pkg.report.figures.bench import energy_balance, real_time_factor
 from contact_sim_pkg.report.figures.contact import contact_section
 from contact_sim_pkg.report.page import Section, environment, is_page
-from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.reading import OnRead, read_recording
 from contact_sim_pkg.report.rows import scene_rows
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.report.summary import summarise_recording
@@ -31,7 +31,12 @@ OnSection = Callable[[int, int, str], object]
 
 
 def write_report(
-    bag: Bag, out: Path | None = None, *, overwrite: bool = False, on_section: OnSection = lambda *_: None
+    bag: Bag,
+    out: Path | None = None,
+    *,
+    overwrite: bool = False,
+    on_section: OnSection = lambda *_: None,
+    on_read: OnRead = lambda _: None,
 ) -> Path:
     """Write the report of a bag.
 
@@ -40,6 +45,7 @@ def write_report(
         out: file to write; a page of this command is made again, another
             file only by `overwrite`; `report.html` in the bag's directory where it is None.
         on_section: called before each section.
+        on_read: called while the bag is read, with the share that has been.
 
     Returns:
         Where the page is.
@@ -52,7 +58,7 @@ def write_report(
     read = (bag.path, bag.path.parent)
     check_output(path, read, overwrite=overwrite, ours=is_page)
     # Everything is read before the file is touched
-    page = render(read_recording(bag), on_section)
+    page = render(read_recording(bag, on_read), on_section)
     with new_file(path, read, overwrite=overwrite, ours=is_page) as file:
         file.write(page.encode())
     return path

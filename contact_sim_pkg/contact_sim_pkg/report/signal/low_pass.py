@@ -10,7 +10,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-import scipy.signal
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
@@ -34,9 +33,9 @@ def low_pass(values: FloatArray, sample_rate: float, cutoff: float = CUTOFF) -> 
     """Butterworth filter of order 2, forward and backward (zero phase); None where the rate is too
     low for the cutoff.
 
-    One pass has the gain g with g^2 = 1/(1 + (tan(pi f/fs)/tan(pi f0/fs))^4); f0 is chosen so that
-    the two passes have the gain 1/sqrt(2) at the cutoff: `tan(pi f0/fs) = tan(pi cutoff/fs) /
-    (sqrt(2) - 1)^(1/4)`. The signal is continued at its ends by its odd reflection.
+    Both passes together have the gain 1/(1 + (sqrt(2) - 1) (tan(pi f/fs)/tan(pi cutoff/fs))^4), which
+    is applied in the frequency domain. The signal is continued at its ends by its odd reflection, and
+    from there by the mirror image of it all, so that no end shows.
 
     Args:
         values: [samples], any unit.
@@ -45,12 +44,15 @@ def low_pass(values: FloatArray, sample_rate: float, cutoff: float = CUTOFF) -> 
     """
     if not 2.0 * cutoff < sample_rate or values.size < 2:
         return None
-    # Corner of one pass, so that both together have -3 dB at the cutoff
-    widened = math.tan(math.pi * cutoff / sample_rate) / (math.sqrt(2.0) - 1.0) ** 0.25
-    corner = math.atan(widened) / math.pi * sample_rate
-    sections = scipy.signal.butter(ORDER, corner, fs=sample_rate, output="sos")
     reach = min(values.size - 1, math.ceil(3.0 * sample_rate / cutoff))
-    filtered: FloatArray = scipy.signal.sosfiltfilt(sections, values, padtype="odd", padlen=reach)
+    before, after = 2.0 * values[0] - values[reach:0:-1], 2.0 * values[-1] - values[-2 : -reach - 2 : -1]
+    continued = np.concatenate([before, values, after])
+    spectrum = np.fft.rfft(np.concatenate([continued, continued[::-1]]))
+    # tan(pi f/fs) over that of the cutoff, which grows beyond all bounds towards half the rate
+    angle = np.linspace(0.0, 0.5 * math.pi, spectrum.size)
+    with np.errstate(over="ignore"):
+        spectrum /= 1.0 + (math.sqrt(2.0) - 1.0) * (np.tan(angle) / math.tan(math.pi * cutoff / sample_rate)) ** 4
+    filtered: FloatArray = np.fft.irfft(spectrum)[reach : reach + values.size]
     return filtered
 
 
