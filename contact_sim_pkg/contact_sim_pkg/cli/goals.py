@@ -11,7 +11,7 @@ from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show
 @click.option("--start", is_flag=True, help="The first block of every scene instead, cold and warm: some minutes.")
 @json_option
 def command(start: bool, as_json: bool) -> None:
-    """Start-up, speed and error against their goals, measured in one run; a missed goal is shown
+    """Start-up, speed, report and error against their goals, measured in one run; a missed goal is shown
     only.
     """
     from contact_sim_pkg.studies.goals import goals, starts

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from contact_sim_pkg.report.series import FieldSeries, FloatArray, PressureMap, 
 from contact_sim_pkg.report.signal.thinning import ThinnedRows
 
 SCALARS = ("load", "peak", "mean", "area", "lame_a", "lame_b", "lame_n")
+_scalars_of = attrgetter(*SCALARS)
 AROUND_LARGEST_LOAD = 20
 """Fields kept before and after the one with the largest load."""
 HISTORY_ROWS = 4000
@@ -58,7 +60,7 @@ class FieldReader:
         self._first = self._first or (time, message)
         if self._touch is None and message.load > 0.0 and self._scalars and self._scalars[-1][1] <= 0.0:
             self._touch = time, message
-        self._scalars.append((time, *(float(getattr(message, name)) for name in SCALARS), *size))
+        self._scalars.append((time, *_scalars_of(message), *size))
         # Line load along x for the space-time picture
         line = np.zeros((1, self._widest.rows))
         line[0, row : row + message.rows] = pressure.sum(axis=1, dtype=np.float64) * message.cell_y
@@ -145,10 +147,12 @@ def _size(loaded: Any, message: Any) -> tuple[float, float]:
     """Length and width [m] between the outermost loaded cells, these included; zeros without
     load.
     """
-    rows, cols = (np.flatnonzero(loaded.any(axis=axis)) for axis in (1, 0))
-    if not rows.size:
+    rows, cols = loaded.any(axis=1), loaded.any(axis=0)
+    if not rows.any():
         return 0.0, 0.0
-    return float(rows[-1] - rows[0] + 1) * message.cell_x, float(cols[-1] - cols[0] + 1) * message.cell_y
+    # From the first loaded line to the last
+    length, width = (len(each) - int(each.argmax()) - int(each[::-1].argmax()) for each in (rows, cols))
+    return length * message.cell_x, width * message.cell_y
 
 
 def _place(inner: Any, outer: Any) -> tuple[int, int]:

@@ -34,7 +34,7 @@ def study(progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]
     """Rows: part, what, measured (null where it could not be), unit, goal, reached (null: no goal,
     or not measured), note.
 
-    Takes one to two minutes.
+    Takes two to three minutes.
     """
     rows = []
     for part, measure in parts():

@@ -1,4 +1,6 @@
-"""Goals of whole runs: start-up and real-time factor of the full bench on nodes and without."""
+"""Goals of whole runs: start-up and real-time factor of the full bench on nodes and without, and its
+report.
+"""
 
 from __future__ import annotations
 
@@ -7,17 +9,21 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.records.goal import GoalPart, Measured
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.records.goal import GoalPart, Measured, median_time
+from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.resolve import load_resolved
 
-__all__ = ["GOALS", "offline", "on_nodes"]
+__all__ = ["GOALS", "offline", "on_nodes", "report"]
 
 SCENE = "car_full_bench"
 RUNS = 3  # after one that compiles and is not counted
+REPORTED = 10.0, 20.0  # [s] of simulated time in the bags of the report
 LONGEST = 300.0  # [s] for a run that compiles
 
 
@@ -56,4 +62,35 @@ def offline() -> list[Measured]:
     return [Measured(f"{SCENE} without nodes and bag", simulated / outcome.wall, "× real time")]
 
 
-GOALS = (GoalPart("full bench on nodes", on_nodes), GoalPart("full bench without nodes", offline))
+def report() -> list[Measured]:
+    """Time of the report of 10 s of the full bench, as a user starts it, and that of ten minutes by
+    extrapolation: what grows with the duration is the reading, measured on bags of 10 and 20 s.
+    """
+    short, long = REPORTED
+    with tempfile.TemporaryDirectory() as folder:
+        bags = {duration: Path(folder) / str(duration) for duration in REPORTED}
+        for duration, bag in bags.items():
+            run_offline(load_resolved(SCENE, f"duration={duration}"), bag)
+        command = [sys.executable, "-m", "contact_sim_pkg.cli.main", "report", str(bags[short])]
+        for _ in range(2):  # the first one may compile
+            began = time.perf_counter()
+            subprocess.run(command, cwd=folder, capture_output=True, timeout=LONGEST, check=True)
+            wall = time.perf_counter() - began
+        reading = [_reading_time(bag) for bag in bags.values()]
+    slope = (reading[1] - reading[0]) / (long - short)
+    return [
+        Measured(f"report of {short:g} s of {SCENE}", wall, "s", most=5.0),
+        Measured(f"report of ten minutes of {SCENE}, extrapolated", wall + (600.0 - short) * slope, "s", most=20.0),
+    ]
+
+
+def _reading_time(bag: Path) -> float:
+    """[s] to read what a report draws."""
+    return median_time(lambda: read_recording(open_bag(bag)), RUNS)
+
+
+GOALS = (
+    GoalPart("full bench on nodes", on_nodes),
+    GoalPart("full bench without nodes", offline),
+    GoalPart("report of the full bench", report),
+)
