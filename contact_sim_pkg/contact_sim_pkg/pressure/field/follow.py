@@ -14,6 +14,10 @@ afresh: that certifies the field and gives K s, clipping and all. Where more is 
 rescaled afterwards, with the factor `g = -sum c s / sum s K s`, before the next search direction;
 g^(1/4) enters the experience.
 
+Where a belt yields in series with the half-space its lines are taken off z and off what clipping
+adds (`pressure/field/belt.py`). A correction then leaves a third of the error, and each has another
+length: b = 0, and no step is rescaled.
+
 It ends when the residual is at most the tolerance and the last correction changed the field by at
 most `CHANGE` times the tolerance in L2. The second is the better measure of the error: the error
 was 0.4 to 0.9 of the change where it was measured (tire on rough roads), while the residual weighs
@@ -29,6 +33,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.jit import kernel
+from contact_sim_pkg.pressure.field.belt import factor_belt, keep_lines, relieve
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, convolve, precondition
 from contact_sim_pkg.pressure.field.iteration import SolverWorkspace, evaluate, hold_load
 from contact_sim_pkg.pressure.field.solver import FieldRequest
@@ -87,15 +92,18 @@ def correct(
     [corrections] [1], learned, changed in place.
     """
     holds_load = total >= 0.0
+    belted = len(half_space.belt) > 0
     contact, pulling = list_cells(workspace)
+    factor_belt(half_space.belt, half_space.strip, workspace.pressure, workspace.belt)
     response_known = False
+    state = evaluate(workspace, contact, 0, approach, holds_load)
     for correction in range(min(request.max_iterations, MOST_CORRECTIONS)):
-        state = evaluate(workspace, contact, 0, approach, holds_load)
         if contact == 0 or not abs(state.approach) < numpy.inf:
             break
         # A step of the learned length, scaled to the load.
         search_direction(half_space, workspace, state.free, holds_load, response_known)
         contact, left = move(workspace, state.free, pulling, lengths[correction])
+        keep_lines(half_space.belt, workspace.pressure, workspace.clipped, workspace.cells.left, left, workspace.belt)
         factor = hold_load(workspace, contact, total) if holds_load else 1.0
         if contact == 0 or not 0.0 < factor < numpy.inf:
             break
@@ -109,9 +117,14 @@ def correct(
         enough = correction + 1 >= least_corrections and change.size <= CHANGE * request.tolerance
         if enough and state.residual <= request.tolerance:
             return Corrected(True, correction + 1, state.approach, state.residual)
-        # Not enough: the step with its best length, then another.
-        contact, pulling = rescale_step(workspace, contact, state.free, left, change.factor)
-        response_known = True
+        # Not enough: another. Without a belt the step takes its best length before, and is kept in
+        # mind.
+        if belted:
+            pulling = 0
+        else:
+            contact, pulling = rescale_step(workspace, contact, state.free, left, change.factor)
+            response_known = True
+            state = evaluate(workspace, contact, 0, approach, holds_load)
     return Corrected(False, 0, approach, numpy.inf)
 
 
@@ -148,7 +161,8 @@ def search_direction(
 
     Direction and preconditioned clearance: [Pa], response: [m].
     """
-    precondition(half_space, workspace.buffers, workspace.residual, workspace.filtered)
+    precondition(half_space.without_belt, workspace.buffers, workspace.residual, workspace.filtered)
+    relieve(half_space.belt, workspace.residual, workspace.filtered, workspace.belt)
     filtered, residual = workspace.cells.filtered, workspace.cells.residual
     direction, response = workspace.cells.direction, workspace.cells.response
     free = workspace.cells.free
@@ -189,11 +203,12 @@ def move(workspace: SolverWorkspace, count: int, pulling: int, length: float) ->
     length: [1] of the direction [Pa].
     """
     pressure, direction = workspace.cells.pressure, workspace.cells.direction
-    free, leaving = workspace.cells.free, workspace.cells.left
+    free, leaving, clipped = workspace.cells.free, workspace.cells.left, workspace.clipped
     # Cells that pulled: without pressure.
     for m in range(pulling):
         k = leaving[m]
         direction[k] = -pressure[k]
+        clipped[m] = -pressure[k]
         pressure[k] = 0.0
     # The step, clipped at zero.
     contact, left = 0, pulling
@@ -209,6 +224,7 @@ def move(workspace: SolverWorkspace, count: int, pulling: int, length: float) ->
         else:
             pressure[k] = 0.0
             leaving[left] = k
+            clipped[left] = -after
             left += 1
     return contact, left
 

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.guards import require_count, require_positive, require_values
 from contact_sim_pkg.compiled.jit import entry, kernel
 from contact_sim_pkg.compiled.transforms import rocket_fft
+from contact_sim_pkg.pressure.field.belt import stiffness_of_belt
 
 __all__ = ["Buffers", "HalfSpace", "coarsened", "displacement", "make_buffers", "make_half_space", "part_of"]
 
@@ -59,6 +60,12 @@ class HalfSpace(NamedTuple):
     transfer: Field
     # [rows', cols'/2+1] approximate inverse of `transfer` on the unpadded grid
     preconditioner: Field
+    # [rows', cols'/2+1] the same of the half-space alone
+    without_belt: Field
+    # [rows, rows] [Pa/m] of a belt in series with it and of a strip as wide as the grid, see
+    # `pressure/field/belt.py`; [0, 0] without
+    belt: Field
+    strip: Field
     # [rows, 2 cols - 1] `influence` from cols - 1 cells on one side to as many on the other
     mirrored: Field
     pushes_only: bool  # whether a pressure lifts the surface nowhere
@@ -84,7 +91,7 @@ def make_half_space(
     rows, cols: number of cells along x and y; cell_x, cell_y: their size [m]; modulus: contact
     modulus E* [Pa]; further: influence [m/Pa] [rows, cols] of something else that yields under the
     pressure, in series with the half-space, as a belt does (`rigs/vehicle/tire/inflated_belt.py`);
-    positive definite, and not growing with the distance within the size of a contact. Raises
+    the same for all columns, positive definite, and not growing with the distance within the size of a contact. Raises
     `ValueError` for sizes that are not positive and finite, counts that are not whole or outside 1
     to 4096, and a `further` of another shape or with a larger value than that of the loaded cell. A
     ratio cell_x/cell_y up to 100 either way is fine.
@@ -131,6 +138,9 @@ def coarsened(fine: HalfSpace) -> HalfSpace:
 def _half_space(influence: Field, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
     influence = numpy.ascontiguousarray(influence)
     rows, cols = influence.shape
+    further = influence - love_coefficients(rows, cols, cell_x, cell_y) / (numpy.pi * modulus)
+    belted = further[0, -1] > LEAST_FURTHER * influence[0, -1]
+    without_belt = _preconditioner(rows, cols, cell_x, cell_y, modulus)
     return HalfSpace(
         rows=rows,
         cols=cols,
@@ -139,7 +149,10 @@ def _half_space(influence: Field, cell_x: float, cell_y: float, modulus: float) 
         modulus=modulus,
         influence=influence,
         transfer=_transfer(influence),
-        preconditioner=_preconditioner(influence, cell_x, cell_y, modulus),
+        preconditioner=_preconditioner(rows, cols, cell_x, cell_y, modulus, further) if belted else without_belt,
+        without_belt=without_belt,
+        belt=stiffness_of_belt(further[:, -1]) if belted else numpy.zeros((0, 0)),
+        strip=_strip(without_belt, rows, cols) if belted else numpy.zeros((0, 0)),
         mirrored=numpy.ascontiguousarray(numpy.concatenate([influence[:, :0:-1], influence], axis=1)),
         pushes_only=bool(influence.min() >= 0.0),
     )
@@ -221,11 +234,12 @@ def convolve(half_space: HalfSpace, buffers: Buffers, field: Field, result: Fiel
 
 
 @kernel
-def precondition(half_space: HalfSpace, buffers: Buffers, field: Field, result: Field) -> None:
+def precondition(inverse: Field, buffers: Buffers, field: Field, result: Field) -> None:
     """`result = M field`, M an approximate inverse of K: the filter E* |q| / 2 on the unpadded
     grid.
 
-    field: [rows, cols] [m]; result: [rows, cols] [Pa].
+    inverse: [rows', cols'/2+1], of a half-space with or without its belt; field: [rows, cols] [m];
+    result: [rows, cols] [Pa].
     """
     rows, cols = field.shape
     plain, spectrum = buffers.plain, buffers.plain_spectrum
@@ -239,7 +253,7 @@ def precondition(half_space: HalfSpace, buffers: Buffers, field: Field, result: 
                 plain[i, j] = field[i, j] if i < rows and j < cols else 0.0
         rocket_fft.r2c(plain, spectrum, buffers.col_axis, True, 1.0, 1)
     rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, True, 1.0, 1)
-    multiply(spectrum, half_space.preconditioner)
+    multiply(spectrum, inverse)
     rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, False, 1.0, 1)
     if fits:
         rocket_fft.c2r(spectrum, result, buffers.col_axis, False, 1.0, 1)
@@ -302,36 +316,23 @@ def _transfer(influence: Field) -> Field:
     return numpy.ascontiguousarray(numpy.fft.rfft2(even).real / even.size)
 
 
-def _preconditioner(influence: Field, cell_x: float, cell_y: float, modulus: float) -> Field:
+def _preconditioner(
+    rows: int, cols: int, cell_x: float, cell_y: float, modulus: float, further: Field | None = None
+) -> Field:
     """`E* sqrt(|q|^2 + q0^2) / 2` on the unpadded grid, divided by its number of cells; q0 keeps it
     definite.
 
-    What yields in series with the half-space adds the eigenvalues of its nearest circulant to the
-    reciprocal.
+    What yields `further` in series with the half-space adds the eigenvalues of its nearest circulant
+    to the reciprocal.
     """
-    rows, cols = influence.shape
     plain_rows, plain_cols = _good(rows), _good(cols)
     wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(plain_rows, cell_x)[:, None]
     wave_y = 2.0 * numpy.pi * numpy.fft.rfftfreq(plain_cols, cell_y)[None, :]
     floor = PRECONDITIONER_FLOOR * (1.0 / (plain_rows * cell_x) ** 2 + 1.0 / (plain_cols * cell_y) ** 2)
     stiffness = 0.5 * modulus * numpy.sqrt(wave_x**2 + wave_y**2 + floor)
-    further = influence - love_coefficients(rows, cols, cell_x, cell_y) / (numpy.pi * modulus)
-    if _counts(further, influence):
+    if further is not None:
         stiffness /= 1.0 + stiffness * _nearest_circulant(further, plain_rows, plain_cols)
     return numpy.ascontiguousarray(stiffness / (plain_rows * plain_cols))
-
-
-def yields_further(half_space: HalfSpace) -> bool:
-    """Whether something else yields in series with the half-space (`further` of
-    `make_half_space`).
-    """
-    size = (half_space.rows, half_space.cols, half_space.cell_x, half_space.cell_y)
-    plain = love_coefficients(*size) / (numpy.pi * half_space.modulus)
-    return _counts(half_space.influence - plain, half_space.influence)
-
-
-def _counts(further: Field, influence: Field) -> bool:
-    return bool(further[0, -1] > LEAST_FURTHER * influence[0, -1])
 
 
 def _nearest_circulant(table: Field, rows: int, cols: int) -> Field:
@@ -345,3 +346,16 @@ def _nearest_circulant(table: Field, rows: int, cols: int) -> Field:
         weight = (near / length)[:, None]
         table = ((1.0 - weight) * table[numpy.minimum(near, last)] + weight * table[numpy.minimum(far, last)]).T
     return numpy.asarray(numpy.fft.rfft2(table).real)
+
+
+def _strip(preconditioner: Field, rows: int, cols: int) -> Field:
+    """Sums across a strip of `cols` cells of what the preconditioner makes of a clearance that is 1
+    on another line of it, [rows, rows] [Pa/m].
+    """
+    plain_rows, half = preconditioner.shape
+    plain_cols = _good(cols)
+    power = abs(numpy.fft.rfft(numpy.ones(cols), plain_cols)) ** 2
+    twice = numpy.where((numpy.arange(half) == 0) | (2 * numpy.arange(half) == plain_cols), 1.0, 2.0)
+    along = numpy.fft.fft(preconditioner @ (power * twice)).real
+    near = numpy.arange(rows)
+    return numpy.ascontiguousarray(along[(near[:, None] - near) % plain_rows])

@@ -14,6 +14,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.jit import kernel
+from contact_sim_pkg.pressure.field.belt import BeltWorkspace, make_belt_workspace
 from contact_sim_pkg.pressure.field.halfspace import Buffers, Field, HalfSpace, convolve, make_buffers, precondition
 
 __all__ = [
@@ -72,6 +73,7 @@ class SolverWorkspace(NamedTuple):
     residual_before: Values
     clipped: Values  # [Pa] pressure that the bound p >= 0 added to the cells of `left`
     cells: CellLists
+    belt: BeltWorkspace
 
 
 class Evaluation(NamedTuple):
@@ -89,7 +91,8 @@ def make_workspace(half_space: HalfSpace) -> SolverWorkspace:
     fields = (height, pressure, surface, residual, filtered, direction, response)
     free, left = numpy.zeros(cells, dtype=numpy.int64), numpy.zeros(cells, dtype=numpy.int64)
     lists = CellLists(free, left, *(field.reshape(-1) for field in fields))
-    return SolverWorkspace(make_buffers(half_space), *fields, numpy.zeros(cells), numpy.zeros(cells), lists)
+    belt = make_belt_workspace(len(half_space.belt))
+    return SolverWorkspace(make_buffers(half_space), *fields, numpy.zeros(cells), numpy.zeros(cells), lists, belt)
 
 
 @kernel
@@ -219,7 +222,7 @@ def search(
     (r - r_before) / slope_before`, at least 0. A direction that does not descend is replaced by -z.
     Slopes: [Pa m].
     """
-    precondition(half_space, workspace.buffers, workspace.residual, workspace.filtered)
+    precondition(half_space.preconditioner, workspace.buffers, workspace.residual, workspace.filtered)
     residual, filtered = workspace.cells.residual, workspace.cells.filtered
     free, before = workspace.cells.free, workspace.residual_before
     slope, change, total = 0.0, 0.0, 0.0

@@ -3,8 +3,9 @@ that it needs.
 
 Prediction and its displacement come from the two fields before (`pressure/field/prediction.py`);
 corrections follow, each certified by its own convolution (`pressure/field/follow.py`). Where that
-does not converge the solver of `pressure/field/solver.py` goes on. Without a field before the start
-is the field on a grid of half as many cells each way, itself started like that.
+does not converge the solver of `pressure/field/solver.py` goes on. After much travel the road that
+was under the wheel has left: the start is the last field, not carried along. Without a field before
+it is the field on a grid of half as many cells each way, itself started like that.
 
 Window: the solver works on the box of the contact before and a margin. A window is enough if no
 cell outside it penetrates, which is checked after each solve (`pressure/field/outside.py`). Where
@@ -19,7 +20,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.field.follow import FIRST_LENGTH, MOST_CORRECTIONS
-from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, coarsened, make_half_space, yields_further
+from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, coarsened, make_half_space
 from contact_sim_pkg.pressure.field.instant import (
     InstantResult,
     Start,
@@ -51,18 +52,15 @@ TOLERANCE_OF_HALF = 1e-1
 """Of the field on the coarser grid; the grids differ by more."""
 
 MOST_TRAVEL = 0.1
-"""Of a window's rows: after more travel the field before is no start any more."""
+"""Of a window's rows: after more travel the last field is no start where the road took it, but one
+where the wheel took it.
+"""
 
 NOWHERE = (0, -1, 0, -1)
 
 NEW, REPEAT, START = 0, 1, 2
 """Lengths of corrections are learned apart for a new instant, another solve at the same, and a
 start from nothing.
-"""
-
-FEW_CORRECTIONS = 2
-"""Of a grid where a belt yields beside the half-space: corrections of learned length do not
-converge there, gradients do.
 """
 
 FROM_PRESSURE = -1.0
@@ -91,7 +89,6 @@ class RollingField:
         self._cells: int | None = None  # of travel since the last field, if a new instant began
         self._box: Box = NOWHERE  # of the last field's contact
         self._lengths: Values = numpy.full((3, MOST_CORRECTIONS), FIRST_LENGTH)
-        self._corrections = FEW_CORRECTIONS if yields_further(half_space) else MOST_CORRECTIONS
         self._parts: dict[tuple[int, int], Part] = {}
         self._half = _half_of(half_space)
         self._gap_of_half: Field = numpy.zeros((half_space.rows // 2, half_space.cols // 2))
@@ -153,7 +150,7 @@ class RollingField:
                 share=share,
                 lengths=self._lengths[lengths],
             )
-            most = min(request.max_iterations - spent, self._corrections)
+            most = request.max_iterations - spent
             found = self._correct(window, gap, request._replace(max_iterations=most), start)
             spent += found.corrections
             if not found.certified:
@@ -171,6 +168,8 @@ class RollingField:
         for field in (self._last, self._before):
             field.place[4] += self._cells or 0
         self._cells = None
+        if abs(self._last.place[4]) > MOST_TRAVEL * (self._last.place[2] - self._last.place[0]):
+            self._last.place[4], self._instants = 0, min(self._instants, 1)
         return repeats
 
     def _end(self, repeats: bool, box: Box) -> None:
@@ -187,8 +186,7 @@ class RollingField:
         if self._instants == 0 or self._box == NOWHERE:
             return None
         top, bottom, left, right = self._box
-        window = GridWindow(*widened(self.half_space.rows, self.half_space.cols, top, bottom, left, right))
-        return window if abs(self._last.place[4]) <= MOST_TRAVEL * window.rows else None
+        return GridWindow(*widened(self.half_space.rows, self.half_space.cols, top, bottom, left, right))
 
     def _start(self, gap: Field, request: FieldRequest) -> GridWindow:
         """Start from the field on a grid of half as many cells each way, itself started like that,
