@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.jit import entry, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
 
 __all__ = [
     "LameFit",
@@ -199,7 +199,7 @@ def take_logarithms(x: Field, y: Field, centre_x: float, centre_y: float) -> Non
         y[k] = math.log(max(abs(y[k] - centre_y), _TINY))
 
 
-@kernel
+@borrowing_kernel
 def extents(pressure: Field) -> tuple[int, int, int, int, int, int]:
     """Number of cells in contact, number of their outer edges, first and last row, first and last
     column.
@@ -209,16 +209,31 @@ def extents(pressure: Field) -> tuple[int, int, int, int, int, int]:
     rows, cols = pressure.shape
     cells, edges, low_row, high_row, low_col, high_col = 0, 0, rows, -1, cols, -1
     for i in range(rows):
+        first, last = cols, -1
         for j in range(cols):
             if pressure[i, j] > 0.0:
                 cells += 1
-                edges += 4 - neighbours(pressure, i, j)
-                low_row, high_row = min(low_row, i), max(high_row, i)
-                low_col, high_col = min(low_col, j), max(high_col, j)
+                edges += 0 if surrounded(pressure, i, j) else 4 - neighbours(pressure, i, j)
+                first, last = min(first, j), j
+        if last >= 0:
+            low_row, high_row = min(low_row, i), i
+            low_col, high_col = min(low_col, first), max(high_col, last)
     return cells, edges, low_row, high_row, low_col, high_col
 
 
-@kernel
+@borrowing_kernel
+def surrounded(pressure: Field, i: int, j: int) -> bool:
+    """Whether all four neighbours of cell (i, j) are in contact, as most are; pressure: [rows, cols]
+    [Pa].
+    """
+    rows, cols = pressure.shape
+    if not (0 < i < rows - 1 and 0 < j < cols - 1):
+        return False
+    along = pressure[i - 1, j] > 0.0 and pressure[i + 1, j] > 0.0
+    return bool(along and pressure[i, j - 1] > 0.0 and pressure[i, j + 1] > 0.0)
+
+
+@borrowing_kernel
 def neighbours(pressure: Field, i: int, j: int) -> int:
     """Number of the four neighbours of cell (i, j) in contact; pressure: [rows, cols] [Pa]."""
     return (
@@ -229,7 +244,7 @@ def neighbours(pressure: Field, i: int, j: int) -> int:
     )
 
 
-@kernel
+@borrowing_kernel
 def inside(pressure: Field, i: int, j: int) -> int:
     """1 where cell (i, j) lies on the grid and carries pressure, else 0; pressure: [rows, cols]
     [Pa].
@@ -238,7 +253,7 @@ def inside(pressure: Field, i: int, j: int) -> int:
     return 1 if 0 <= i < rows and 0 <= j < cols and pressure[i, j] > 0.0 else 0
 
 
-@kernel
+@borrowing_kernel
 def boundary_points(pressure: Field, cell_x: float, cell_y: float, x: Field, y: Field) -> None:
     """Midpoints [m] of the edges between a cell in contact and one without, from the centre of cell
     (0, 0).
@@ -247,7 +262,7 @@ def boundary_points(pressure: Field, cell_x: float, cell_y: float, x: Field, y: 
     count = 0
     for i in range(rows):
         for j in range(cols):
-            if pressure[i, j] > 0.0:
+            if pressure[i, j] > 0.0 and not surrounded(pressure, i, j):
                 for step_i, step_j in ((-1, 0), (1, 0), (0, -1), (0, 1)):
                     if inside(pressure, i + step_i, j + step_j) == 0:
                         x[count] = (i + 0.5 * step_i) * cell_x

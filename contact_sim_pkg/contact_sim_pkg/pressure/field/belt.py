@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.jit import kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel
 
 __all__ = ["BeltWorkspace", "factor_belt", "keep_lines", "make_belt_workspace", "relieve", "stiffness_of_belt"]
 
@@ -63,7 +63,7 @@ def make_belt_workspace(rows: int) -> BeltWorkspace:
     return BeltWorkspace(numpy.zeros((rows, rows)), numpy.zeros(rows), numpy.zeros(rows), numpy.zeros(rows))
 
 
-@kernel
+@borrowing_kernel
 def factor_belt(belt: Field, strip: Field, pressure: Field, scratch: BeltWorkspace) -> None:
     """Factor `G^-1 + A` for the cells in contact; nothing without a belt.
 
@@ -92,7 +92,7 @@ def factor_belt(belt: Field, strip: Field, pressure: Field, scratch: BeltWorkspa
                 factor[i, j] -= part * factor[k, j]
 
 
-@kernel
+@borrowing_kernel
 def taken_by_belt(belt: Field, scratch: BeltWorkspace) -> None:
     """`A W l` of the lines l, as `l - G^-1 W l`, into `taken`.
 
@@ -122,7 +122,7 @@ def taken_by_belt(belt: Field, scratch: BeltWorkspace) -> None:
         taken[i] = lines[i]
 
 
-@kernel
+@borrowing_kernel
 def relieve(belt: Field, residual: Field, filtered: Field, scratch: BeltWorkspace) -> None:
     """Take the lines of the belt off the preconditioned clearance; nothing without a belt.
 
@@ -146,7 +146,7 @@ def relieve(belt: Field, residual: Field, filtered: Field, scratch: BeltWorkspac
             filtered[i, j] -= each
 
 
-@kernel
+@borrowing_kernel
 def keep_lines(
     belt: Field, pressure: Field, clipped: Values, leaving: Cells, left: int, scratch: BeltWorkspace
 ) -> None:

@@ -32,7 +32,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.jit import kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 from contact_sim_pkg.pressure.field.belt import factor_belt, keep_lines, relieve
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, convolve, precondition
 from contact_sim_pkg.pressure.field.iteration import SolverWorkspace, evaluate, hold_load
@@ -128,7 +128,7 @@ def correct(
     return Corrected(False, 0, approach, numpy.inf)
 
 
-@kernel
+@borrowing_kernel
 def list_cells(workspace: SolverWorkspace) -> tuple[int, int]:
     """List the cells that press as free and those that pull as left; returns how many of each.
 
@@ -194,7 +194,7 @@ def search_direction(
             direction[free[m]] -= surplus
 
 
-@kernel
+@borrowing_kernel
 def move(workspace: SolverWorkspace, count: int, pulling: int, length: float) -> tuple[int, int]:
     """Step along the direction and clip at zero; `direction` becomes minus the pressure before.
 
@@ -244,7 +244,7 @@ def apply_operator(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
             surface[i, j] = now
 
 
-@kernel
+@borrowing_kernel
 def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: float) -> Correction:
     """Complete the step in `direction`, and judge it; `approach` is that before the step.
 
@@ -276,7 +276,7 @@ def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: f
     return Correction(factor, math.sqrt(size / norm))
 
 
-@kernel
+@borrowing_kernel
 def rescale_step(workspace: SolverWorkspace, contact: int, count: int, left: int, factor: float) -> tuple[int, int]:
     """Make the last step `factor` times as long, surface and all; returns the numbers of cells that
     press and that pull.

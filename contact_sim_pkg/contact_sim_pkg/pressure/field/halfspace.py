@@ -19,7 +19,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.guards import require_count, require_positive, require_values
-from contact_sim_pkg.compiled.jit import entry, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
 from contact_sim_pkg.compiled.transforms import rocket_fft
 from contact_sim_pkg.pressure.field.belt import stiffness_of_belt
 
@@ -62,13 +62,14 @@ class HalfSpace(NamedTuple):
     preconditioner: Field
     # [rows', cols'/2+1] the same of the half-space alone
     without_belt: Field
-    # [rows, rows] [Pa/m] of a belt in series with it and of a strip as wide as the grid, see
+    # [rows] [m/Pa] influence of a belt in series, 0 without
+    along: Field
+    # [rows, rows] [Pa/m] inverse of it, and of a strip as wide as the grid, see
     # `pressure/field/belt.py`; [0, 0] without
     belt: Field
     strip: Field
     # [rows, 2 cols - 1] `influence` from cols - 1 cells on one side to as many on the other
     mirrored: Field
-    pushes_only: bool  # whether a pressure lifts the surface nowhere
 
 
 class Buffers(NamedTuple):
@@ -151,10 +152,10 @@ def _half_space(influence: Field, cell_x: float, cell_y: float, modulus: float) 
         transfer=_transfer(influence),
         preconditioner=_preconditioner(rows, cols, cell_x, cell_y, modulus, further) if belted else without_belt,
         without_belt=without_belt,
+        along=further[:, -1].copy() if belted else numpy.zeros(rows),
         belt=stiffness_of_belt(further[:, -1]) if belted else numpy.zeros((0, 0)),
         strip=_strip(without_belt, rows, cols) if belted else numpy.zeros((0, 0)),
         mirrored=numpy.ascontiguousarray(numpy.concatenate([influence[:, :0:-1], influence], axis=1)),
-        pushes_only=bool(influence.min() >= 0.0),
     )
 
 
@@ -264,7 +265,7 @@ def precondition(inverse: Field, buffers: Buffers, field: Field, result: Field) 
             result[i, j] = plain[i, j]
 
 
-@kernel
+@borrowing_kernel
 def load_padded(field: Field, padded: Field) -> tuple[int, int]:
     """Copy a field into the padded rows; returns the first row that is not all zero and the row
     after the last such.
@@ -283,7 +284,7 @@ def load_padded(field: Field, padded: Field) -> tuple[int, int]:
     return first, last
 
 
-@kernel
+@borrowing_kernel
 def multiply(spectrum: Spectrum, factor: Field) -> None:
     """`spectrum *= factor`, complex by real.
 

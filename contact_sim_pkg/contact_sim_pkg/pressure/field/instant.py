@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.jit import entry, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.pressure.field.follow import correct
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
 from contact_sim_pkg.pressure.field.iteration import SolverWorkspace
@@ -135,7 +135,7 @@ def grown_window(
     return enclose(whole, gap, approach, pressure, window)
 
 
-@kernel
+@borrowing_kernel
 def load_heights(gap: Field, first_row: int, first_col: int, height: Field, line: Values) -> float:
     """Copy the gap [rows, cols] of a window, from its lowest cell up, into `height` [rows, cols];
     returns that lowest gap [m].
@@ -159,7 +159,7 @@ def load_heights(gap: Field, first_row: int, first_col: int, height: Field, line
     return least
 
 
-@kernel
+@borrowing_kernel
 def put_start(workspace: SolverWorkspace, first_row: int, first_col: int, pressure: Field) -> None:
     """Field after the corrections, as a start on the whole grid: positive and finite, zero
     elsewhere.

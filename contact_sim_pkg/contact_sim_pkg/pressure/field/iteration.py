@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.jit import kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 from contact_sim_pkg.pressure.field.belt import BeltWorkspace, make_belt_workspace
 from contact_sim_pkg.pressure.field.halfspace import Buffers, Field, HalfSpace, convolve, make_buffers, precondition
 
@@ -95,7 +95,7 @@ def make_workspace(half_space: HalfSpace) -> SolverWorkspace:
     return SolverWorkspace(make_buffers(half_space), *fields, numpy.zeros(cells), numpy.zeros(cells), lists, belt)
 
 
-@kernel
+@borrowing_kernel
 def begin(workspace: SolverWorkspace) -> int:
     """Reset from the solve before; lists the cells in contact and returns their number.
 
@@ -132,7 +132,7 @@ def fresh_surface(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
             surface[i, j] += height[i, j]
 
 
-@kernel
+@borrowing_kernel
 def evaluate(workspace: SolverWorkspace, contact: int, left: int, approach: float, holds_load: bool) -> Evaluation:
     """Residual of a field (and its approach, if the load is given); stores the clearance of the
     free cells.
@@ -170,7 +170,7 @@ def evaluate(workspace: SolverWorkspace, contact: int, left: int, approach: floa
     return Evaluation(approach, (complementarity + penetration * total) / energy, count)
 
 
-@kernel
+@borrowing_kernel
 def release_cells(workspace: SolverWorkspace, left: int, approach: float) -> None:
     """Cells that lost their pressure and do not penetrate are not free any more.
 
@@ -185,7 +185,7 @@ def release_cells(workspace: SolverWorkspace, left: int, approach: float) -> Non
             direction[k] = 0.0
 
 
-@kernel
+@borrowing_kernel
 def join(workspace: SolverWorkspace, contact: int, approach: float) -> int:
     """Append the cells that penetrate without pressure to the list; returns its length.
 
@@ -241,7 +241,7 @@ def search(
     return slope, descent
 
 
-@kernel
+@borrowing_kernel
 def advance_direction(workspace: SolverWorkspace, count: int, momentum: float, mean: float, holds_load: bool) -> float:
     """`t = -(z - mean) + momentum t` on the free cells; returns `sum t r`.
 
@@ -286,7 +286,7 @@ def step(half_space: HalfSpace, workspace: SolverWorkspace, count: int, descent:
     return -descent / curvature
 
 
-@kernel
+@borrowing_kernel
 def part(workspace: SolverWorkspace, count: int, length: float) -> tuple[int, int]:
     """Move the pressure by `length` [1] along the direction and clip it at zero; splits the list of
     free cells.
@@ -313,7 +313,7 @@ def part(workspace: SolverWorkspace, count: int, length: float) -> tuple[int, in
     return contact, left
 
 
-@kernel
+@borrowing_kernel
 def move_surface(half_space: HalfSpace, workspace: SolverWorkspace, length: float, left: int) -> None:
     """Add the displacement of a step and of the pressure that clipping added, cell by cell.
 
@@ -333,7 +333,7 @@ def move_surface(half_space: HalfSpace, workspace: SolverWorkspace, length: floa
                 surface[i, j] += value * table[j]
 
 
-@kernel
+@borrowing_kernel
 def hold_load(workspace: SolverWorkspace, contact: int, total: float) -> float:
     """Scale the pressures so that they add up to `total` again; returns the factor, 1 where nothing
     is in contact.
@@ -352,7 +352,7 @@ def hold_load(workspace: SolverWorkspace, contact: int, total: float) -> float:
     return factor
 
 
-@kernel
+@borrowing_kernel
 def rescale(workspace: SolverWorkspace, factor: float) -> None:
     """Scale the displacement by what the pressures were scaled by.
 

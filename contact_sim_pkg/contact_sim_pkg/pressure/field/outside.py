@@ -4,8 +4,8 @@ do not decide.
 A window is enough if no cell outside it penetrates. The gap of a block of cells outside is not less
 than its lowest gap plus the displacement that the pressure of each block inside causes at the
 largest distance between the two. Only cells of blocks where that bound fails are evaluated, from
-the influence table. The bound holds for any influence that decays with distance, to
-below 0 too.
+the influence table. A belt, which may lift the surface far from its load, displaces a row as a whole:
+that is evaluated for each row, and the bound is of the half-space alone.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.jit import kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
 
 __all__ = ["enclose", "widened"]
@@ -62,12 +62,18 @@ class BlockSums(NamedTuple):
     fine: Blocks
     middle: Blocks
     coarse: Blocks
+    belt: Values  # [m] [rows] displacement of the belt
 
 
 @kernel
 def make_block_sums(half_space: HalfSpace) -> BlockSums:
     """Scratch for a grid; to hand it in from Python would take longer than to make it."""
-    return BlockSums(make_blocks(half_space, BLOCK), make_blocks(half_space, MIDDLE), make_blocks(half_space, COARSE))
+    return BlockSums(
+        make_blocks(half_space, BLOCK),
+        make_blocks(half_space, MIDDLE),
+        make_blocks(half_space, COARSE),
+        numpy.zeros(half_space.rows),
+    )
 
 
 @kernel
@@ -123,7 +129,7 @@ def enclose(
             if depth <= 0.0:
                 continue
             if not added:
-                add_up(pressure, blocks)
+                add_up(half_space, pressure, blocks)
                 added = True
             # Cells of a block that the bound does not clear.
             least = least_displacement(half_space, blocks, i, j, BLOCK, depth)
@@ -140,7 +146,7 @@ def enclose(
     return widened(rows, cols, top, bottom, left, right)
 
 
-@kernel
+@borrowing_kernel
 def penetrating(
     half_space: HalfSpace,
     gap: Field,
@@ -166,6 +172,10 @@ def penetrating(
             # Above the lower bound, or inside the window: decided
             if depth <= least or (first_row <= row < end_row and first_col <= col < end_col):
                 continue
+            # The bound of this cell alone is closer
+            further = depth - blocks.belt[row]
+            if bound(half_space, blocks.fine, row, col, 1, further) >= further:
+                continue
             # Direct sum of the pressure over this one cell
             if displacement_at(half_space, pressure, blocks.fine.line, row, col, first_row, end_row) < depth:
                 top, bottom = min(top, row), max(bottom, row)
@@ -173,31 +183,45 @@ def penetrating(
     return top, bottom, left, right
 
 
-@kernel
+@borrowing_kernel
 def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int, side: int, depth: float) -> float:
     """Displacement [m] that all of the `side` x `side` cells from (i, j) have at least, computed
     until it reaches `depth`.
     """
-    least = bound(half_space, blocks.coarse, i, j, side, depth)
-    if least < depth:
-        least = max(least, bound(half_space, blocks.middle, i, j, side, depth))
-    if least < depth:
-        least = max(least, bound(half_space, blocks.fine, i, j, side, depth))
-    return least
+    belt = float(blocks.belt[i])
+    for row in range(i + 1, min(i + side, len(blocks.belt))):
+        belt = min(belt, blocks.belt[row])
+    least = bound(half_space, blocks.coarse, i, j, side, depth - belt)
+    if least < depth - belt:
+        least = max(least, bound(half_space, blocks.middle, i, j, side, depth - belt))
+    if least < depth - belt:
+        least = max(least, bound(half_space, blocks.fine, i, j, side, depth - belt))
+    return belt + least
 
 
-@kernel
-def add_up(pressure: Field, blocks: BlockSums) -> None:
-    """Sums of the pressure over blocks of all sizes.
+@borrowing_kernel
+def add_up(half_space: HalfSpace, pressure: Field, blocks: BlockSums) -> None:
+    """Sums of the pressure over blocks of all sizes, and the displacement of the belt.
 
     pressure: [rows, cols] [Pa].
     """
+    rows, cols = pressure.shape
+    along, belt = half_space.along, blocks.belt
+    for k in range(rows if len(half_space.belt) > 0 else 0):
+        total = 0.0
+        for j in range(cols):
+            total += pressure[k, j]
+        if total > 0.0:
+            for i in range(k):
+                belt[i] += total * along[k - i]
+            for i in range(k, rows):
+                belt[i] += total * along[i - k]
     add_up_cells(pressure, blocks.fine)
     add_up_blocks(blocks.fine, blocks.middle)
     add_up_blocks(blocks.middle, blocks.coarse)
 
 
-@kernel
+@borrowing_kernel
 def add_up_cells(pressure: Field, blocks: Blocks) -> None:
     """Sums of the pressure over blocks of cells.
 
@@ -219,7 +243,7 @@ def add_up_cells(pressure: Field, blocks: Blocks) -> None:
     list_loaded(blocks)
 
 
-@kernel
+@borrowing_kernel
 def add_up_blocks(fine: Blocks, coarse: Blocks) -> None:
     """Sums over larger blocks from those over smaller ones."""
     ratio = coarse.side // fine.side
@@ -232,7 +256,7 @@ def add_up_blocks(fine: Blocks, coarse: Blocks) -> None:
     list_loaded(coarse)
 
 
-@kernel
+@borrowing_kernel
 def list_loaded(blocks: Blocks) -> None:
     """List the blocks with pressure in them."""
     count = 0
@@ -245,7 +269,7 @@ def list_loaded(blocks: Blocks) -> None:
     blocks.number[0] = count
 
 
-@kernel
+@borrowing_kernel
 def lowest_of_block(gap: Field, i: int, j: int, most: float) -> float:
     """Lowest gap [m] of a block, or `most` where none is lower."""
     end_row, end_col = min(i + BLOCK, gap.shape[0]), min(j + BLOCK, gap.shape[1])
@@ -257,26 +281,27 @@ def lowest_of_block(gap: Field, i: int, j: int, most: float) -> float:
     return least
 
 
-@kernel
+@borrowing_kernel
 def bound(half_space: HalfSpace, blocks: Blocks, i: int, j: int, side: int, depth: float) -> float:
-    """As `least_displacement`: the pressure of each block at the largest distance between two cells
-    of the two blocks.
+    """As `least_displacement` of the half-space alone: the pressure of each block at the largest
+    distance between two cells of the two blocks.
 
     depth: [m]; the result: [m].
     """
-    influence, loaded, far = half_space.influence, blocks.loaded, blocks.side - 1
+    influence, along, loaded, far = half_space.influence, half_space.along, blocks.loaded, blocks.side - 1
     last_row, last_col = influence.shape[0] - 1, influence.shape[1] - 1
     total = 0.0
     for k in range(blocks.number[0]):
         away_x = max(i + side - 1 - loaded[k, 0], loaded[k, 0] + far - i)
         away_y = max(j + side - 1 - loaded[k, 1], loaded[k, 1] + far - j)
-        total += blocks.pressures[k] * influence[min(away_x, last_row), min(away_y, last_col)]
-        if total >= depth and half_space.pushes_only:
+        away_x = min(away_x, last_row)
+        total += blocks.pressures[k] * (influence[away_x, min(away_y, last_col)] - along[away_x])
+        if total >= depth:
             break
     return total
 
 
-@kernel
+@borrowing_kernel
 def displacement_at(
     half_space: HalfSpace, pressure: Field, line: Values, row: int, col: int, first_row: int, end_row: int
 ) -> float:

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.jit import kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, convolve
 from contact_sim_pkg.pressure.field.iteration import SolverWorkspace
 
@@ -53,7 +53,7 @@ def make_previous_field(half_space: HalfSpace) -> PreviousField:
     return PreviousField(numpy.zeros(shape), numpy.zeros(shape), numpy.zeros(5, dtype=numpy.int64))
 
 
-@kernel
+@borrowing_kernel
 def predict(
     workspace: SolverWorkspace, first_row: int, first_col: int, last: PreviousField, before: PreviousField, share: float
 ) -> None:
@@ -98,7 +98,7 @@ def start_from(
     convolve(half_space, workspace.buffers, workspace.pressure, workspace.surface)
 
 
-@kernel
+@borrowing_kernel
 def stored_part(field: PreviousField, row: int, first_col: int, cols: int) -> tuple[int, int, int]:
     """Row of a stored field that lies at `row` now, and the first and end column of a window's row
     that it holds.
@@ -110,7 +110,7 @@ def stored_part(field: PreviousField, row: int, first_col: int, cols: int) -> tu
     return row, max(start - first_col, 0), min(end - first_col, cols)
 
 
-@kernel
+@borrowing_kernel
 def scale_to(workspace: SolverWorkspace, approach: float, total: float) -> bool:
     """Scale the prediction to the sum `total` [Pa], or where that is negative to the approach; u
     becomes the surface.
@@ -138,7 +138,7 @@ def scale_to(workspace: SolverWorkspace, approach: float, total: float) -> bool:
     return True
 
 
-@kernel
+@borrowing_kernel
 def store(
     workspace: SolverWorkspace, first_row: int, first_col: int, field: PreviousField, pressure: Field
 ) -> tuple[int, int, int, int]:

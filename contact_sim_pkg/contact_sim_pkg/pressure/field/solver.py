@@ -28,7 +28,7 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.guards import require_count, require_not_negative
-from contact_sim_pkg.compiled.jit import entry, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
 from contact_sim_pkg.pressure.field.iteration import (
     ONE_BY_ONE,
@@ -214,7 +214,7 @@ def solve(
     return FieldResult(result.status, result.iterations, result.load, approach, result.residual)
 
 
-@kernel
+@borrowing_kernel
 def acceptable(gap: Field, pressure: Field) -> bool:
     """All heights finite, all start pressures finite and not negative.
 
@@ -229,7 +229,7 @@ def acceptable(gap: Field, pressure: Field) -> bool:
     return faults == 0
 
 
-@kernel
+@borrowing_kernel
 def lowest(gap: Field) -> float:
     """Lowest height [m] of a gap [rows, cols]."""
     rows, cols = gap.shape
@@ -240,7 +240,7 @@ def lowest(gap: Field) -> float:
     return least
 
 
-@kernel
+@borrowing_kernel
 def heights_above(gap: Field, datum: float, height: Field) -> None:
     """Write `gap - datum` [m] into `height`, both [rows, cols]."""
     rows, cols = gap.shape
@@ -249,7 +249,7 @@ def heights_above(gap: Field, datum: float, height: Field) -> None:
             height[i, j] = gap[i, j] - datum
 
 
-@kernel
+@borrowing_kernel
 def total_of(pressure: Field) -> float:
     """Sum over the cells, row by row.
 
@@ -287,7 +287,7 @@ def start_at_load(half_space: HalfSpace, height: Field, load: float, total: floa
             pressure[i, j] = pressure[i, j] * (total / present) if present > 0.0 else total / (rows * cols)
 
 
-@kernel
+@borrowing_kernel
 def overlap_approach(half_space: HalfSpace, height: Field, load: float) -> float:
     """Approach [m] above the lowest cell at which the overlap carries the load [N]; height: [rows,
     cols] [m].
@@ -363,7 +363,7 @@ def iterate(
     return FieldResult(verdict(pressure, state.residual, tolerance), iterations, load, state.approach, state.residual)
 
 
-@kernel
+@borrowing_kernel
 def verdict(pressure: Field, residual: float, tolerance: float) -> int:
     """Status of a pressure field [rows, cols] [Pa] with this residual [1]; tolerance: [1]."""
     if not residual <= tolerance:

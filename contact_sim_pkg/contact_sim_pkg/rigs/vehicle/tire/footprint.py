@@ -49,7 +49,7 @@ def effective_heights(
     """
     reach = weights.shape[0] // 2
     # At the node before the one behind the wheel, at that, and at the two ahead
-    means = numpy.zeros(4)
+    means, line = numpy.zeros(4), numpy.zeros(height.shape[1])
     place, known = 0, False
     for k in range(travel.shape[0]):
         node = int(math.floor(travel[k] / cell_x))  # noqa: RUF046  # a float in compiled code
@@ -61,7 +61,7 @@ def effective_heights(
                 means[i] = means[i + 1]
             for i in range(kept, 4):
                 first = min(max(node - 1 + i - reach - first_row, 0), height.shape[0] - weights.shape[0])
-                means[i] = _mean(height, weights, first)
+                means[i] = _mean(height, weights, first, line)
             place, known = node, True
         out[k] = _cubic(means, travel[k] / cell_x - node)
     return True
@@ -78,12 +78,17 @@ def _cubic(means: Vector, part: float) -> float:
 
 
 @kernel
-def _mean(height: Heights, weights: Pressures, first: int) -> float:
-    """Mean of the rows from ``first`` on."""
-    total = 0.0
+def _mean(height: Heights, weights: Pressures, first: int, line: Vector) -> float:
+    """Mean [m] of the rows from ``first`` on; ``line`` [cols] is scratch."""
+    for j in range(weights.shape[1]):
+        line[j] = 0.0
+    # Sums of columns first: those run along memory
     for i in range(weights.shape[0]):
         for j in range(weights.shape[1]):
-            total += weights[i, j] * height[first + i, j]
+            line[j] += weights[i, j] * height[first + i, j]
+    total = 0.0
+    for j in range(weights.shape[1]):
+        total += line[j]
     return total
 
 
@@ -172,6 +177,9 @@ def touches_beyond(
         free = approach - height_along(form, x)
         inside = top <= i < top + own_rows
         for j in range(max(0, -margin), min(cols, height.shape[1] - margin)):
+            # Few nodes of the road stand above the lowest line of the tire there.
+            if free + height[first + i - first_row, margin + j] <= 0.0:
+                continue
             if inside and left <= j < left + own_cols:
                 continue
             y = (j - middle) * cell_y

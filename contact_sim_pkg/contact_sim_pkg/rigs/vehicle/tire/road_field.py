@@ -113,11 +113,9 @@ class RoadField(ContactField):
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
         """See `ContactField`."""
-        if not self._touches(grids.usual, approach):
-            return False
-        if grids.usual.settings.belt is None or self._touches_with_belt(grids, approach):
-            return True
-        return self._beyond_both(grids, approach)
+        if grids.usual.settings.belt is None:
+            return self._touches(grids.usual, approach)
+        return self._touches_with_belt(grids, approach) or self._beyond_both(grids, approach)
 
     def _touches_with_belt(self, grids: FieldGrids, approach: float) -> bool:
         """The same where a belt yields further than the half-space: by its displacements on the
@@ -177,13 +175,18 @@ class RoadField(ContactField):
             or not isinstance(self.contact.elastic, TabulatedElastic)
         ):
             return None
+        first = self.road_row(field.settings) - self._road.first_row
+        margin = (self._road.height.shape[1] - field.settings.cols) // 2
+        # Two cells in the middle of the contact decide on most roads.
+        row, col = field.settings.rows // 2, field.settings.cols // 2
+        here, beside = self._road.height[first + row : first + row + 2, margin + col]
+        if here != beside and (field.pressure[row : row + 2, col] > 0.0).all():
+            return None
         loaded = field.pressure > 0.0
         rows, cols = numpy.flatnonzero(loaded.any(axis=1)), numpy.flatnonzero(loaded.any(axis=0))
         if not len(rows):
             return None
         # The cells around the contact too: at an edge it would go on where the road does not
-        first = self.road_row(field.settings) - self._road.first_row
-        margin = (self._road.height.shape[1] - field.settings.cols) // 2
         top, bottom, left, right = (
             first + rows[0] - 1,
             first + rows[-1] + 2,
