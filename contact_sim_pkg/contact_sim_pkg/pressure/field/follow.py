@@ -15,8 +15,8 @@ rescaled afterwards, with the factor `g = -sum c s / sum s K s`, before the next
 g^(1/4) enters the experience.
 
 Where a belt yields in series with the half-space its lines are taken off z and off what clipping
-adds (`pressure/field/belt.py`). A correction then leaves a third of the error, and each has another
-length: b = 0, and no step is rescaled.
+adds (`pressure/field/belt.py`). A correction then leaves a third of the error on most roads, and no
+step is rescaled.
 
 It ends when the residual is at most the tolerance and the last correction changed the field by at
 most `CHANGE` times the tolerance in L2. The second is the better measure of the error: the error
@@ -117,13 +117,10 @@ def correct(
         enough = correction + 1 >= least_corrections and change.size <= CHANGE * request.tolerance
         if enough and state.residual <= request.tolerance:
             return Corrected(True, correction + 1, state.approach, state.residual)
-        # Not enough: another. Without a belt the step takes its best length before, and is kept in
-        # mind.
-        if belted:
-            pulling = 0
-        else:
+        # Not enough: another, without a belt after the step with its best length.
+        response_known, pulling = True, 0
+        if not belted:
             contact, pulling = rescale_step(workspace, contact, state.free, left, change.factor)
-            response_known = True
             state = evaluate(workspace, contact, 0, approach, holds_load)
     return Corrected(False, 0, approach, numpy.inf)
 
