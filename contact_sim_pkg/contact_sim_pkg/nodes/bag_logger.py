@@ -24,18 +24,16 @@ from contact_sim_pkg.nodes.processes.scene_file import (
 from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, publisher, subscription
 from contact_sim_pkg.nodes.protocol.recording import Recording
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, Follower, RunState
+from contact_sim_pkg.nodes.protocol.window import Gather
 from contact_sim_pkg.records.messages import BenchProgress
 
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
-GATHER_SECONDS = 0.002  # that messages gather for; the window leaves room for it
 STOP_SECONDS = 0.5  # from a signal to closing, for the simulator's last messages
 SETTLE_SECONDS = 1.0  # for the last answer to be acknowledged
 
 
 class BagLoggerNode(LifecycleBenchNode):
     """Subscribes to every recorded topic of the scene; answers on `bench/recorded`."""
-
-    gather = GATHER_SECONDS
 
     def __init__(self) -> None:
         """Declare the parameters; everything else is done in `configure`."""
@@ -44,6 +42,7 @@ class BagLoggerNode(LifecycleBenchNode):
         self._directory = declare(self, "bag", "", BAG_TEXT)
         self._patience = declare_input_timeout(self)
         self._recording: Recording | None = None
+        self._gather = Gather()
 
     def configure(self) -> None:
         """Subscribe to what the scene records. The bag is created when the run is ready, so a
@@ -61,10 +60,12 @@ class BagLoggerNode(LifecycleBenchNode):
         self._kept = [*kept, subscription(self, "bench/progress", self._on_progress)]
 
     def _on_message(self, topic: str, data: bytes, number: int | None) -> None:
-        if self._recording is not None:
-            publishers = self.count_publishers(self.resolve_topic_name(topic))
-            if reason := self._recording.accept(topic, data, number, publishers):
-                self.get_logger().warning(reason, throttle_duration_sec=1.0)
+        recording = self._recording
+        if recording is not None and (reason := recording.accept(topic, data, number, partial(self._count, topic))):
+            self.get_logger().warning(reason, throttle_duration_sec=1.0)
+
+    def _count(self, topic: str) -> int:
+        return int(self.count_publishers(self.resolve_topic_name(topic)))
 
     def _on_progress(self, data: bytes) -> None:
         recording, progress = self._recording, decode(BenchProgress, data)
@@ -75,6 +76,7 @@ class BagLoggerNode(LifecycleBenchNode):
             recording.open(self.resolve_topic_name, read_descriptions(self._scene_name, self._scene))
             self.announce(f"recording to {recording.path}")
         recording.order.on_progress(progress.block, progress.messages_sent)
+        self.gather = self._gather.on_block(progress.block, self._news)
 
     def tick(self, now: float) -> float:
         """Write whole blocks; close once the run has ended and all is here, or no wait is left."""

@@ -142,7 +142,7 @@ class BagReplayNode(LifecycleBenchNode):
 
 def main(args: Sequence[str] | None = None, show: Callable[[ReplayProgress], None] | None = None) -> int:
     """Run the node; returns the exit status. `show` is called with the progress."""
-    return run(lambda: BagReplayNode(show), args)
+    return run(lambda: BagReplayNode(show), args=args)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -22,13 +23,12 @@ from contact_sim_pkg.nodes.processes.scene_file import (
 from contact_sim_pkg.nodes.protocol.endpoints import publisher, subscription
 from contact_sim_pkg.nodes.protocol.pacing import Pacer
 from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError, RecordedFollower, RunState
-from contact_sim_pkg.nodes.protocol.window import BlockWindow
+from contact_sim_pkg.nodes.protocol.window import BlockWindow, Gather
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 from contact_sim_pkg.run.sources import Source
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 FROM_BAG_TEXT = "Directory of a bag whose excitation is sent instead of the scene's own. Empty: the scene's own."
-GATHER_SECONDS = 0.002  # that answers gather for at pace max; the window leaves room for it
 LINGER_SECONDS = {
     RunState.STOPPED: 1.0,
     RunState.FAILED: 10.0,
@@ -41,6 +41,7 @@ class ExcitationNode(Node):
     """Sends the blocks of one excitation topic, in order, and ends when the run has ended."""
 
     exit_status: int | None = None
+    gather = 0.0
     computes = False
 
     def __init__(self, name: str, topic: str, make_source: MakeSource) -> None:
@@ -58,7 +59,7 @@ class ExcitationNode(Node):
         self._window = BlockWindow(count_blocks(scene), logged=logged)
         pace = declare_pace(self, scene.data["pace"])
         self._pacer = Pacer(pace, scene.block_length)
-        self.gather = GATHER_SECONDS if math.isinf(pace) else 0.0
+        self._gather, self._at_full_speed = Gather(), math.isinf(pace)
         self._run, self._recorded = Follower(), RecordedFollower()
         self._leave_at = math.inf
         self._publisher = publisher(self, topic, queue_depth(scene))
@@ -109,6 +110,8 @@ class ExcitationNode(Node):
         progress = decode(BenchProgress, data)
         if self._run.accept(progress):
             self._window.on_done(progress.block)
+            if self._at_full_speed:
+                self.gather = self._gather.on_block(progress.block, time.monotonic())
 
     def _on_recorded(self, data: bytes) -> None:
         recorded = decode(BenchRecorded, data)

@@ -7,7 +7,7 @@ import pytest
 from ruamel.yaml import YAML
 from tests.bench_process import PACKAGE, needs_ros, resolved
 
-from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
+from contact_sim_pkg.nodes.processes.run_plan import in_processes, planned_nodes
 from contact_sim_pkg.nodes.processes.scene_file import count_blocks, queue_depth, read_scene, write_scene
 
 SCENE = Path("scene.resolved.yaml")
@@ -27,6 +27,15 @@ def test_a_scene_without_a_vibration_has_no_vibration_node():
 
 def test_a_car_has_both_and_no_logger_where_nothing_is_recorded():
     assert names("car_full_bench", None) == ["road_profile", "vibration", "contact_simulator"]
+
+
+def test_both_excitation_nodes_share_a_process_of_the_supervisor():
+    nodes = planned_nodes(resolved("car_full_bench"), SCENE, Path("bag"))
+    processes = in_processes(nodes)
+    assert [process.name for process in processes] == ["bag_logger", "excitation", "contact_simulator"]
+    assert processes[1].parameters == nodes[1].parameters == nodes[2].parameters
+    alone = planned_nodes(resolved("seat_ride"), SCENE, Path("bag"))
+    assert in_processes(alone) == alone
 
 
 def test_the_excitation_of_a_bag_is_a_parameter_of_the_excitation_nodes_alone():
@@ -52,8 +61,8 @@ def test_a_node_reads_the_scene_that_was_resolved_to_the_bit(tmp_path):
     assert count_blocks(again) == 37
 
 
-def test_queues_are_eight_blocks_of_the_fastest_single_messages_deep():
-    assert queue_depth(resolved("car_full_bench", "outputs.field_rate=200")) == 16
+def test_queues_are_two_windows_of_the_fastest_single_messages_deep():
+    assert queue_depth(resolved("car_full_bench", "outputs.field_rate=200")) == 2 * 8 * 2
 
 
 @needs_ros

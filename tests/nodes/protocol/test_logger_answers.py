@@ -33,8 +33,8 @@ class Run:
 
 
 def test_a_logger_that_does_not_answer_is_named_and_the_source_that_waits_for_it_is_not():
-    printed = Run(done=12, recorded=8).who()
-    assert printed.startswith("the logger has not answered for block 9")
+    printed = Run(done=12, recorded=4).who()
+    assert printed.startswith("the logger has not answered for block 5")
     assert VIBRATION not in printed
 
 

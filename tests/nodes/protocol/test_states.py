@@ -3,6 +3,7 @@
 import pytest
 
 from contact_sim_pkg.nodes.protocol.states import Follower, NodeError, RecordedFollower, RunState
+from contact_sim_pkg.nodes.protocol.window import AHEAD
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
 
@@ -45,13 +46,13 @@ def test_a_run_that_got_further_than_the_window_without_this_node_is_another_ben
     follower = Follower()
     follower.accept(report(RunState.STARTING, -1))
     with pytest.raises(NodeError, match="another bench"):
-        follower.accept(report(RunState.RUNNING, 4))
+        follower.accept(report(RunState.RUNNING, AHEAD))
 
 
 def test_ready_may_have_been_overwritten_by_the_first_blocks():
     follower = Follower()
     follower.accept(report(RunState.STARTING, -1))
-    assert follower.accept(report(RunState.RUNNING, 3))
+    assert follower.accept(report(RunState.RUNNING, AHEAD - 1))
 
 
 @pytest.mark.parametrize("state", [RunState.STARTING, RunState.READY, RunState.FAILED, RunState.STOPPED])
@@ -67,7 +68,7 @@ def test_nothing_follows_the_end():
     follower = Follower()
     follower.accept(report(RunState.READY, -1))
     follower.accept(report(RunState.STOPPED, 3))
-    assert not follower.accept(report(RunState.RUNNING, 4))
+    assert not follower.accept(report(RunState.RUNNING, AHEAD))
 
 
 def test_an_answer_of_the_logger_that_lies_behind_is_passed_over():

@@ -2,7 +2,7 @@
 
 import pytest
 
-from contact_sim_pkg.nodes.protocol.window import BlockWindow
+from contact_sim_pkg.nodes.protocol.window import LEAST_SECONDS, MOST_SECONDS, BlockWindow, Gather
 
 
 def sent(window: BlockWindow) -> list[int]:
@@ -12,31 +12,31 @@ def sent(window: BlockWindow) -> list[int]:
     return numbers
 
 
-def test_blocks_up_to_four_ahead_are_sent_before_any_answer():
-    assert sent(BlockWindow(100, logged=True)) == [0, 1, 2, 3]
+def test_blocks_up_to_eight_ahead_are_sent_before_any_answer():
+    assert sent(BlockWindow(100, logged=True)) == [0, 1, 2, 3, 4, 5, 6, 7]
 
 
 def test_the_slower_of_simulator_and_logger_limits_the_window():
     window = BlockWindow(100, logged=True)
     sent(window)
-    window.on_done(9)
+    window.on_done(19)
     assert sent(window) == []
     window.on_recorded(1)
-    assert sent(window) == [4, 5]
+    assert sent(window) == [8, 9]
 
 
 def test_without_a_logger_only_the_simulator_counts():
     window = BlockWindow(100, logged=False)
     sent(window)
     window.on_done(0)
-    assert sent(window) == [4]
+    assert sent(window) == [8]
 
 
 def test_an_older_answer_changes_nothing():
     window = BlockWindow(100, logged=False)
     window.on_done(5)
     window.on_done(2)
-    assert sent(window)[-1] == 9
+    assert sent(window)[-1] == 13
 
 
 def test_no_block_beyond_the_last_one_is_sent():
@@ -53,3 +53,12 @@ def test_the_window_is_finished_when_both_have_answered_for_the_last_block():
     assert not window.finished
     window.on_recorded(2)
     assert window.finished
+
+
+@pytest.mark.parametrize(
+    ("each", "expected"), [(0.004, 0.008), (0.0001, LEAST_SECONDS), (3.0, MOST_SECONDS)], ids=["usual", "fast", "slow"]
+)
+def test_messages_gather_for_the_time_of_two_blocks_within_bounds(each, expected):
+    gather = Gather()
+    found = [gather.on_block(block, 100.0 + block * each) for block in (0, 1, 3, 3)]
+    assert found[1:] == pytest.approx([expected] * 3, rel=1e-6)

@@ -156,21 +156,27 @@ def _change_policy(usual: int, wanted: int) -> None:
             os.sched_setscheduler(0, wanted, os.sched_param(0))
 
 
-def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
-    """Run one node until it ends or a signal comes; returns the exit status of the process."""
+def run(*make_nodes: Callable[[], Any], args: Sequence[str] | None = None) -> int:
+    """Run nodes, usually one, until they end or a signal comes; returns the exit status of the
+    process.
+    """
     atexit.register(gc.freeze)  # the process ends without looking through every object
     signals = StopSignals()
+    nodes: list[Any] = []
     node: Any = None
     try:
         use_batch_policy()
         _init(args)
-        node = make_node()
-        if node.computes:
-            signals.leave_what_computes(node)
-            use_usual_policy()
-        node.start()
+        for make_node in make_nodes:
+            node = None
+            node = make_node()
+            nodes.append(node)
+            if node.computes:
+                signals.leave_what_computes(node)
+                use_usual_policy()
+            node.start()
         signals.breaks_off = False
-        return _spin(node, signals)
+        return _spin(nodes, signals)
     except Interrupted:
         return 0
     except NodeError as error:
@@ -183,16 +189,16 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
     ) as error:  # the last two: rclpy's own parameters and names
         _log_fatal(node, " ".join(str(error).split()))
         return REFUSED
-    except rclpy_implementation.RCLError:
+    except (ExternalShutdownException, rclpy_implementation.RCLError):
         if rclpy.ok():
             raise
         return 0
     finally:
         signals.breaks_off = False
-        if node is not None:
+        for node in nodes:
             node.destroy_node()
         rclpy.try_shutdown()
-        if node is not None and _orphaned(node.supervisor):
+        if nodes and _orphaned(nodes[0].supervisor):
             leave()
 
 
@@ -205,33 +211,43 @@ def _init(args: Sequence[str] | None) -> None:
         raise NodeError(f"the arguments after --ros-args cannot be read: {reason}", REFUSED) from None
 
 
-def _spin(node: Any, signals: StopSignals) -> int:
+def _spin(nodes: Sequence[Any], signals: StopSignals) -> int:
     executor = make_executor()
-    executor.add_node(node)
-    supervisor, seen = node.supervisor, 0
-    while node.exit_status is None:
-        try:
-            wait = node.tick(time.monotonic())
-            if node.exit_status is None:
-                handle_messages(executor, min(wait, LONGEST_WAIT), node.gather)
-                raise_kept(node)
-        except ExternalShutdownException:
-            break
-        except (NodeError, RunError, *REFUSALS) as error:
-            node.fault(str(error), getattr(error, "exit_status", FAULT))
-        except rclpy_implementation.RCLError:
-            if rclpy.ok():
-                raise
-            break
-        except Exception as error:  # noqa: BLE001  # the boundary of a node: named once, the bag closed
-            node.get_logger().error(traceback.format_exc())
-            node.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
+    for node in nodes:
+        executor.add_node(node)
+    supervisor, seen = nodes[0].supervisor, 0
+    while _run_on(nodes):
+        wait = min(LONGEST_WAIT, *(_guarded(node, node.tick, time.monotonic()) for node in nodes))
+        if _run_on(nodes):
+            handle_messages(executor, wait, min(node.gather for node in nodes))
+            for node in nodes:
+                _guarded(node, raise_kept, node)
         orphaned = _orphaned(supervisor)
         if signals.count > seen or orphaned:
             seen, supervisor = signals.count, 0 if orphaned else supervisor
             signals.answered = seen
-            node.stop()
-    return node.exit_status or 0
+            for node in nodes:
+                node.stop()
+    return next((node.exit_status for node in nodes if node.exit_status), 0)
+
+
+def _guarded(node: Any, action: Callable[..., Any], *arguments: Any) -> Any:
+    """Result of an action of a node; 0 where it failed: the node then ends, or ends its run."""
+    try:
+        return action(*arguments)
+    except (NodeError, RunError, *REFUSALS) as error:
+        node.fault(str(error), getattr(error, "exit_status", FAULT))
+    except (ExternalShutdownException, rclpy_implementation.RCLError):
+        raise
+    except Exception as error:  # noqa: BLE001  # the boundary of a node: named once, the bag closed
+        node.get_logger().error(traceback.format_exc())
+        node.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
+    return 0.0
+
+
+def _run_on(nodes: Sequence[Any]) -> bool:
+    """Whether a node has not ended, and none has ended badly."""
+    return any(node.exit_status is None for node in nodes) and not any(node.exit_status for node in nodes)
 
 
 def _orphaned(supervisor: int) -> bool:

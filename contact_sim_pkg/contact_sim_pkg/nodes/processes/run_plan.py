@@ -39,3 +39,14 @@ def planned_nodes(
     logger = [] if directory is None else [PlannedNode("bag_logger", {**common, "bag": str(directory.absolute())})]
     sources = [PlannedNode(NODE_OF_INPUT[topic], {**common, **record, **source}) for topic in input_names(scene)]
     return [*logger, *sources, PlannedNode("contact_simulator", {**common, **record, "publish_clock": clock})]
+
+
+def in_processes(nodes: list[PlannedNode]) -> list[PlannedNode]:
+    """The processes in which a supervisor starts the nodes of a run: two excitation nodes, whose
+    parameters are equal, share one.
+    """
+    sources = [node for node in nodes if node.name in NODE_OF_INPUT.values()]
+    if len(sources) < len(NODE_OF_INPUT):
+        return nodes
+    shared = sources[0]._replace(name="excitation")
+    return [shared if node is sources[0] else node for node in nodes if node not in sources[1:]]

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.nodes.processes.run_folder import join
+from contact_sim_pkg.nodes.protocol.window import AHEAD
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 RESOLVED = ".resolved.yaml"  # ending of a scene that needs no resolving; its input files stand in the file below
@@ -100,9 +101,9 @@ def count_blocks(scene: ResolvedScene) -> int:
 
 
 def queue_depth(scene: ResolvedScene) -> int:
-    """Depth for the messages of a topic in 8 blocks, twice the window of 4."""
+    """Depth for the messages of a topic in two windows of blocks."""
     highest = max(scene.outputs.field_rate, scene.outputs.display_rate)
-    return 8 * math.ceil(highest * scene.block_length)
+    return 2 * AHEAD * math.ceil(highest * scene.block_length)
 
 
 def _beside(path: Path, ending: str) -> Path:

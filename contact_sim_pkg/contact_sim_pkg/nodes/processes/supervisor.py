@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from contact_sim_pkg.nodes.processes.children import Child, Children, ErrorLines
 from contact_sim_pkg.nodes.processes.environment import node_arguments, set_default_environment
 from contact_sim_pkg.nodes.processes.run_folder import RunFolder
-from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
+from contact_sim_pkg.nodes.processes.run_plan import in_processes, planned_nodes
 from contact_sim_pkg.nodes.processes.scene_file import count_blocks, descriptions_beside, write_reason, write_scene
 from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments
 from contact_sim_pkg.nodes.processes.stop_requests import StopRequests
@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from contact_sim_pkg.nodes.processes.run_monitor import RunMonitor
 
 LOOK_SECONDS = 0.05  # between two looks at the processes
-SEGMENT_SECONDS = 1.0  # between two looks at their shared memory
+SEGMENT_SECONDS = 1.0  # between two looks at their shared memory; it is all there when the run begins
+LATE_SEGMENT_SECONDS = 20.0  # from then on: a look costs 3 ms a process
 END_SECONDS = 15.0  # for the processes to end by themselves once the run has ended
 
 
@@ -91,7 +92,8 @@ class Supervisor:
             self._fail("bag_logger did not end, and was killed before it had closed its bag", FAULT)
 
     def _start_all(self, children: Children, scene: Path) -> None:
-        for node in planned_nodes(self._scene, scene, self._directory, self._from_bag, clock=self._clock):
+        nodes = planned_nodes(self._scene, scene, self._directory, self._from_bag, clock=self._clock)
+        for node in in_processes(nodes):
             arguments = node_arguments({**node.parameters, "supervisor": os.getpid()})
             children.start(node.name, [sys.executable, "-m", f"contact_sim_pkg.nodes.{node.name}", *arguments])
 
@@ -110,7 +112,8 @@ class Supervisor:
                 self._fail(str(error), error.exit_status)
                 return
             now = time.monotonic()
-            if now - looked > SEGMENT_SECONDS:
+            settled = monitor.run.state is RunState.RUNNING
+            if now - looked > (LATE_SEGMENT_SECONDS if settled else SEGMENT_SECONDS):
                 looked = now
                 children.record_segments()
                 folder.keep_segments(children.segments() | mapped_segments(os.getpid()))

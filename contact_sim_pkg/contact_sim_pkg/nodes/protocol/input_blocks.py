@@ -19,7 +19,7 @@ from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 
 Block = RoadPatch | VibrationBlock
 
-FARTHEST_AHEAD = 64  # blocks kept per input; the window of a well-behaved source is 4
+FARTHEST_AHEAD = 64  # blocks kept per input; the window of a well-behaved source is 8
 LARGEST_HEIGHT = 1.0e3  # [m]
 LARGEST_ACCELERATION = 1.0e4  # [m/s^2]
 

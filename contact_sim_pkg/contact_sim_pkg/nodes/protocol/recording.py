@@ -71,7 +71,7 @@ class Recording:
         """Topics whose messages are recorded."""
         return tuple(self._sources)
 
-    def accept(self, topic: str, data: bytes, number: int | None, publishers: int) -> str:
+    def accept(self, topic: str, data: bytes, number: int | None, count: Callable[[], int]) -> str:
         """Keep a message, also before the bag is created: on the wire, block 0 may overtake
         *ready*.
 
@@ -83,7 +83,7 @@ class Recording:
             Why the message is not recorded; empty where it is, or where its block is already whole.
         """
         # a foreign message is left out before its content counts for anything
-        if not self._sources[topic].accept(number, publishers):
+        if not self._sources[topic].accept(number, count):
             self.left_out[f"foreign {topic}"] += 1
             return f"{topic}: another node publishes here too; its messages are not recorded"
         try:

@@ -25,20 +25,19 @@ class SingleSource:
         """No message yet."""
         self._last = 0
 
-    def accept(self, number: int | None, publishers: int) -> bool:
+    def accept(self, number: int | None, count: Callable[[], int]) -> bool:
         """Whether a message is of the run's publisher.
 
         Args:
             number: the publisher's own number of the message, from 1; None where the middleware
                 does not number.
-            publishers: number of publishers of the topic in the graph now; 0: the publisher has
-                left meanwhile.
+            count: number of publishers of the topic in the graph now, 0 where the publisher has
+                left meanwhile; called where the number alone does not decide.
         """
-        alone = publishers <= 1
         if number is None:
-            return alone
+            return count() <= 1
         follows = self._last > 0 and number == self._last + 1
-        if not follows and not (alone and number > self._last):
+        if not follows and (number <= self._last or count() > 1):
             return False
         self._last = number
         return True
@@ -80,7 +79,7 @@ class SourceWatch:
         """Whether a message is of the run's publisher; `number` as the publisher gave it, `now` the
         steady clock, [s].
         """
-        if self._sources[topic].accept(number, self._count(self._in_graph[topic])):
+        if self._sources[topic].accept(number, lambda: self._count(self._in_graph[topic])):
             return True
         self._sent.setdefault(topic, now)
         self._learn_name(topic)
