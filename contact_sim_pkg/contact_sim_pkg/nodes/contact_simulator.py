@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from functools import partial
@@ -11,6 +12,7 @@ from contact_sim_pkg.compiled.jit import closed
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.parameters import declare, declare_input_timeout, declare_pace, declare_record, declare_scene
 from contact_sim_pkg.nodes.processes.process import run as run_process
+from contact_sim_pkg.nodes.processes.process import use_usual_policy
 from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_scene
 from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, subscription
 from contact_sim_pkg.nodes.protocol.peers import Peers
@@ -47,6 +49,8 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._run = None
         scene = read_scene(self._scene_name)
         pace, depth = declare_pace(self, scene.data["pace"]), queue_depth(scene)
+        if math.isfinite(pace):
+            use_usual_policy(everywhere=True)
         self.announce(f"{scene.name}: compiling")
         self._out = out = SimulatorPublishers(self, scene, clock=self._publish_clock)
         with out.compiling():

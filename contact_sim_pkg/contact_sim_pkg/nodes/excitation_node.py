@@ -13,6 +13,7 @@ from rclpy.node import Node
 from contact_sim_pkg.bag.messages import decode, encode
 from contact_sim_pkg.nodes.bench_node import SUPERVISOR_TEXT
 from contact_sim_pkg.nodes.parameters import declare, declare_pace, declare_record, declare_scene
+from contact_sim_pkg.nodes.processes.process import use_usual_policy
 from contact_sim_pkg.nodes.processes.scene_file import (
     block_length_ns,
     count_blocks,
@@ -60,6 +61,8 @@ class ExcitationNode(Node):
         pace = declare_pace(self, scene.data["pace"])
         self._pacer = Pacer(pace, scene.block_length)
         self._gather, self._at_full_speed = Gather(), math.isinf(pace)
+        if not self._at_full_speed:
+            use_usual_policy(everywhere=True)
         self._run, self._recorded = Follower(), RecordedFollower()
         self._leave_at = math.inf
         self._publisher = publisher(self, topic, queue_depth(scene))

@@ -37,3 +37,27 @@ def test_a_node_that_computes_on_behind_a_signal_ends_its_run_within_two_seconds
             assert process.stdout.read() == "ends the run\n"
         finally:
             process.kill()
+
+
+POLICIES = """
+import os, threading
+from contact_sim_pkg.nodes.processes.process import use_batch_policy, use_usual_policy
+
+use_batch_policy()
+stop = threading.Event()
+thread = threading.Thread(target=stop.wait)
+thread.start()
+found = lambda: [os.sched_getscheduler(each) for each in (0, thread.native_id)]
+print(found())
+use_usual_policy()
+print(found())
+use_usual_policy(everywhere=True)
+print(found())
+stop.set()
+"""
+
+
+@needs_ros
+def test_a_paced_node_returns_the_threads_of_the_middleware_to_the_usual_policy():
+    done = subprocess.run([sys.executable, "-c", POLICIES], env=ENVIRONMENT, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["[3, 3]", "[0, 3]", "[0, 0]"]  # sched(7): 3 is SCHED_BATCH, 0 SCHED_OTHER

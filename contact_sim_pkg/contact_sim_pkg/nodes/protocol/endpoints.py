@@ -75,10 +75,19 @@ def numbered_subscription(
     """As `subscription`, with the number that the publisher gave the message; None where the
     middleware does not number.
     """
+    return informed_subscription(node, name, lambda data, info: callback(data, info.get(NUMBER)), least_depth)
+
+
+def informed_subscription(
+    node: Node, name: str, callback: Callable[[bytes, dict[str, Any]], None], least_depth: int = 0
+) -> Subscription:
+    """As `subscription`, with what rclpy knows of the message: number, times of sending and arrival
+    (`source_timestamp`, `received_timestamp`, [ns] of the system clock).
+    """
 
     def receive(*parts: Any) -> None:
         data, info = parts if len(parts) == 2 else parts[0]  # rclpy 7.1: EventsExecutor hands on both as one tuple
-        _call(node, callback, data, info.get(NUMBER))
+        _call(node, callback, data, info)
 
     receive.__signature__ = _DATA_AND_INFO  # type: ignore[attr-defined]  # by which rclpy sees that the number is wanted
     return _subscribe(node, name, receive, least_depth)

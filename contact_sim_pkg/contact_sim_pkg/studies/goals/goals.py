@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from contact_sim_pkg.records.goal import GoalPart, Measured
 from contact_sim_pkg.records.table import Section
 from contact_sim_pkg.studies import cases
+from contact_sim_pkg.studies.goals import runs
 
 __all__ = ["parts", "sections", "study"]
 
@@ -30,14 +32,16 @@ def parts() -> list[GoalPart]:
     return [GoalPart("machine", _machine), *cases.objects(modules, "GOALS")]
 
 
-def study(progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
+def study(progress: Callable[[str], None] | None = None, latency: float | None = None) -> list[dict[str, Any]]:
     """Rows: part, what, measured (null where it could not be), unit, goal, reached (null: no goal,
     or not measured), note.
 
-    Takes two to three minutes.
+    ``latency``: only that of the full bench, over a run of this length, [s]. All of them take three
+    to four minutes.
     """
+    latencies = [GoalPart("machine", _machine), GoalPart("latency", partial(runs.latency, latency or 0.0))]
     rows = []
-    for part, measure in parts():
+    for part, measure in parts() if latency is None else latencies:
         if progress is not None:
             progress(part)
         for found in measure():

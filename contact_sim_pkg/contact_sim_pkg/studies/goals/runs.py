@@ -19,12 +19,13 @@ from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.resolve import load_resolved
 
-__all__ = ["GOALS", "offline", "on_nodes", "report"]
+__all__ = ["GOALS", "latency", "offline", "on_nodes", "report"]
 
 SCENE = "car_full_bench"
 RUNS = 3  # after one that compiles and is not counted
 REPORTED = 10.0, 20.0  # [s] of simulated time in the bags of the report
 LONGEST = 300.0  # [s] for a run that compiles
+LATENCY_SECONDS = 60.0  # of the run whose latency is measured
 
 
 def on_nodes() -> list[Measured]:
@@ -51,6 +52,26 @@ def on_nodes() -> list[Measured]:
         Measured(f"{SCENE} on nodes, recorded: warm start", startup, "s", most=2.0, note=note),
         Measured(f"{SCENE} on nodes, recorded: speed", factor, "× real time", least=3.0, note=note),
     ]
+
+
+def latency(seconds: float = LATENCY_SECONDS) -> list[Measured]:
+    """From a block of excitation to its forces at a subscriber, at the pace of the clock, recorded:
+    median, 99th percentile and maximum over a run of this length, [s].
+    """
+    module = "contact_sim_pkg.nodes.processes.latency"  # a process of its own, with ROS
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run(
+            [sys.executable, "-m", module, SCENE, str(seconds)],
+            cwd=folder, capture_output=True, text=True, timeout=LONGEST + seconds, check=False,
+        )  # fmt: skip
+    found: dict[str, float] = json.loads(done.stdout) if done.returncode == 0 else {}
+    note = "" if found else (done.stderr.strip().splitlines() or ["no reason given"])[-1]
+
+    def row(what: str, key: str, most: float | None = None) -> Measured:
+        value = 1e3 * found[key] if found else None
+        return Measured(f"{SCENE} at real time, block in to force out: {what}", value, "ms", most=most, note=note)
+
+    return [row("p50", "p50"), row("p99", "p99", most=5.0), row("largest", "largest")]
 
 
 def offline() -> list[Measured]:
@@ -91,6 +112,7 @@ def _reading_time(bag: Path) -> float:
 
 GOALS = (
     GoalPart("full bench on nodes", on_nodes),
+    GoalPart("latency of the full bench", latency),
     GoalPart("full bench without nodes", offline),
     GoalPart("report of the full bench", report),
 )
