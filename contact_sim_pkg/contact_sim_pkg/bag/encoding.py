@@ -1,4 +1,4 @@
-"""Message objects to CDR bytes and back, without a word about the fields of any message.
+"""Values to CDR bytes and bytes to message objects, without a word about the fields of any message.
 
 The bytes are little-endian CDR with the header 00 01 00 00, filled up with zeros to a multiple of
 4: what DDS delivers to a `raw` subscription when these bytes are given to
@@ -6,40 +6,131 @@ The bytes are little-endian CDR with the header 00 01 00 00, filled up with zero
 """
 
 import struct
-from functools import cache
+from collections.abc import Callable, Sequence
+from itertools import groupby
 from typing import Any
 
+import numpy
 from rosbags.serde import SerdeError
 
 from contact_sim_pkg.bag.errors import MessageError
 from contact_sim_pkg.bag.typestore import installed_types
+from contact_sim_pkg.records.definitions import Field, definition_of
 
 SECOND = 1_000_000_000  # [ns]
 LAST_STAMP = 2**31 * SECOND - 1  # [ns]; the seconds of a ROS stamp are an int32
 _FILL = (b"", b"\0\0\0", b"\0\0", b"\0")  # by length modulo 4
+CDR_HEADER = b"\0\1\0\0"
+_COUNT, _STAMP = struct.Struct("<I"), struct.Struct("<iII")
+_CODES = {"b1": "?", "i4": "i", "u1": "B", "u4": "I", "i8": "q", "u8": "Q", "f4": "f", "f8": "d"}
+_ZEROS = tuple(bytes(count) for count in range(8))
+
+Step = Callable[[list[bytes], int, Sequence[Any]], int]
 
 
-@cache
-def message_class(type_name: str) -> Any:
-    """The class of a message; its fields in the order of the definition are its arguments."""
-    return installed_types().types[type_name]
+class Layout:
+    """Places of some fields in CDR; what does not depend on the values is worked out once."""
+
+    def __init__(self, fields: Sequence[Field]) -> None:
+        """Lay out fields in the order of their definition."""
+        self._steps: list[tuple[slice, Step]] = []
+        first = 0
+        for is_number, group in groupby(fields, _is_number):
+            some = list(group)
+            steps = [_numbers(some)] if is_number else [_step(field) for field in some]
+            for step in steps:
+                last = first + len(some) // len(steps)
+                self._steps.append((slice(first, last), step))
+                first = last
+
+    def append(self, parts: list[bytes], at: int, values: Sequence[Any]) -> int:
+        """Append the bytes of one value a field behind `at` bytes; returns how many there are then.
+
+        Raises struct.error, TypeError, ValueError or AttributeError where a value does not fit.
+        """
+        for place, step in self._steps:
+            at = step(parts, at, values[place])
+        return at
 
 
-def header(stamp_ns: int, frame_id: str) -> Any:
-    """A `std_msgs/Header` of a simulated time in [ns], 0 to 2^31 s; MessageError outside."""
+def _is_number(field: Field) -> bool:
+    return not field.is_array and field.type != "string" and "/" not in field.type and field.type[0].islower()
+
+
+def _numbers(fields: Sequence[Field]) -> Step:
+    """Numbers in a row, each aligned to its size, packed in one call: a format for each place modulo
+    8 where the first may stand.
+    """
+    kinds = [numpy.dtype(field.type) for field in fields]
+
+    def form(at: int) -> struct.Struct:
+        text = "<"
+        for kind in kinds:
+            text += "x" * (-at % kind.itemsize) + _CODES[kind.str[1:]]
+            at += -at % kind.itemsize + kind.itemsize
+        return struct.Struct(text)
+
+    forms = [form(at) for at in range(8)]
+
+    def append(parts: list[bytes], at: int, values: Sequence[Any]) -> int:
+        parts.append(forms[at % 8].pack(*values))
+        return at + len(parts[-1])
+
+    return append
+
+
+def _step(field: Field) -> Step:
+    """What appends a text, an array, or a record of numbers."""
+    if field.type == "string":
+        return _texts if field.is_array else _text
+    if not field.is_array:
+        inner = Layout(definition_of(field.type.rpartition("/")[2]).fields)
+        return lambda parts, at, values: inner.append(parts, at, values[0])
+    size = numpy.dtype(field.type).itemsize
+
+    def append(parts: list[bytes], at: int, values: Sequence[Any]) -> int:
+        (array,) = values
+        at = _count(parts, at, array.size)
+        gap = -at % size if array.size else 0
+        parts += (_ZEROS[gap], array.tobytes())
+        return int(at + gap + array.nbytes)
+
+    return append
+
+
+def _text(parts: list[bytes], at: int, values: Sequence[str]) -> int:
+    data = values[0].encode() + b"\0"
+    at = _count(parts, at, len(data))
+    parts.append(data)
+    return at + len(data)
+
+
+def _texts(parts: list[bytes], at: int, values: Sequence[Sequence[str]]) -> int:
+    at = _count(parts, at, len(values[0]))
+    for text in values[0]:
+        at = _text(parts, at, (text,))
+    return at
+
+
+def _count(parts: list[bytes], at: int, count: int) -> int:
+    gap = -at % 4
+    parts += (_ZEROS[gap], _COUNT.pack(count))
+    return at + gap + 4
+
+
+def stamped(stamp_ns: int, frame_id: str) -> bytes:
+    """The bytes of a `std_msgs/Header` with a simulated time in [ns], 0 to 2^31 s; MessageError
+    outside.
+    """
     if not 0 <= stamp_ns <= LAST_STAMP:
         raise MessageError(f"a stamp of {stamp_ns} ns cannot be sent; allowed: 0 to {LAST_STAMP} ns")
-    time = message_class("builtin_interfaces/msg/Time")(*divmod(stamp_ns, SECOND))
-    return message_class("std_msgs/msg/Header")(time, frame_id)
+    frame = frame_id.encode() + b"\0"
+    return _STAMP.pack(*divmod(stamp_ns, SECOND), len(frame)) + frame
 
 
-def serialize(message: Any, type_name: str) -> bytes:
-    """The CDR bytes of a message; MessageError where a field does not fit its type."""
-    try:
-        data = installed_types().serialize_cdr(message, type_name, little_endian=True)
-    except (struct.error, TypeError, ValueError, AttributeError) as error:
-        raise MessageError(f"a {type_name} cannot be encoded: {error}") from None
-    return b"".join((data, _FILL[len(data) % 4]))
+def joined(parts: list[bytes], at: int) -> bytes:
+    """A message of the parts, which are `at` bytes long without its header."""
+    return b"".join((CDR_HEADER, *parts, _FILL[at % 4]))
 
 
 def deserialize(type_name: str, data: bytes) -> Any:

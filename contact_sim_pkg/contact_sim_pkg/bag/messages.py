@@ -6,6 +6,7 @@ copies: writable, aligned, contiguous.
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable, Sequence
 from functools import cache
 from math import prod
@@ -15,7 +16,7 @@ from typing import Any, TypeVar
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.encoding import deserialize, header, message_class, serialize, stamp_of
+from contact_sim_pkg.bag.encoding import Layout, deserialize, joined, stamp_of, stamped
 from contact_sim_pkg.bag.errors import MessageError
 from contact_sim_pkg.records import messages as records
 from contact_sim_pkg.records.definitions import HEADER, Field, definition_of
@@ -32,8 +33,7 @@ def encode(record: Any, stamp_ns: int = 0, frame_id: str = BENCH_FRAME) -> bytes
 
     Raises MessageError where a value does not fit its field, or arrays do not fit each other.
     """
-    codec = _codec(type(record).__name__)
-    return serialize(codec.message(record, stamp_ns, frame_id), codec.type_name)
+    return _codec(type(record).__name__).encode(record, stamp_ns, frame_id)
 
 
 def decode(kind: type[Record], data: bytes) -> Record:
@@ -66,7 +66,6 @@ class _Codec:
         definition = definition_of(name)
         fields, sides = definition.record_fields, definition.sides
         self.type_name, self._fields = definition.type_name, fields
-        self._class = message_class(definition.type_name)
         self._values_of = _values_of(tuple(field.name for field in fields))
         self._has_header = any(field.type == HEADER for field in definition.fields)
         self._kinds = [
@@ -82,29 +81,26 @@ class _Codec:
             (place, field.may_be_empty) for place, field in enumerate(fields)
             if field.is_array and not field.shape and field.name not in sides
         ]  # fmt: skip
-        body = [field.name for field in definition.fields if field.type != HEADER]
-        self._counts = [
-            (place, name) for place, name in enumerate(body) if name not in {field.name for field in fields}
-        ]
+        body = [field for field in definition.fields if field.type != HEADER]
+        self._layout = Layout(body)
+        self._counts = [(place, field.name) for place, field in enumerate(body) if field not in fields]
 
-    def message(self, record: Any, stamp_ns: int, frame_id: str) -> Any:
-        """Message of a record; the numbers of rows, columns and samples are those of its arrays."""
+    def encode(self, record: Any, stamp_ns: int, frame_id: str) -> bytes:
+        """CDR bytes of a record; the numbers of rows, columns and samples are those of its arrays."""
         try:
             values = list(self._values_of(record))
             for place, kind in self._kinds:
                 values[place] = numpy.asarray(values[place]).astype(kind, "C", "same_kind", copy=False)
             sizes = self._sizes(values) if self._shaped else {}
-        except (TypeError, ValueError, AttributeError) as error:
+            if self._columns:
+                self._refuse_uneven_columns(values)
+            for place, name in self._counts:  # in the order of the definition, so that each finds its place
+                values.insert(place, sizes[name])
+            parts = [stamped(stamp_ns, frame_id)] if self._has_header else []
+            at = self._layout.append(parts, len(parts[0]) if parts else 0, values)
+        except (struct.error, TypeError, ValueError, AttributeError) as error:
             raise MessageError(f"a {self.type_name} cannot be encoded: {error}") from None
-        if self._columns:
-            self._refuse_uneven_columns(values)
-        for place, _field in self._shaped:
-            values[place] = values[place].reshape(-1)
-        for place in self._names:
-            values[place] = list(values[place])
-        for place, name in self._counts:  # in the order of the definition, so that each finds its place
-            values.insert(place, sizes[name])
-        return self._class(header(stamp_ns, frame_id), *values) if self._has_header else self._class(*values)
+        return joined(parts, at)
 
     def _sizes(self, values: list[Any]) -> dict[str, int]:
         """The size of each side of an array; MessageError where two arrays disagree on it."""
