@@ -103,7 +103,7 @@ class Supervisor:
         """Until every process has ended, one has ended badly, or the time after the user's signal
         is over.
         """
-        looked, ended_at = 0.0, float("inf")
+        look_at, ended_at = 0.0, float("inf")
         failed: Child | None = None
         while failed is None and not children.all_ended():
             try:
@@ -112,9 +112,9 @@ class Supervisor:
                 self._fail(str(error), error.exit_status)
                 return
             now = time.monotonic()
-            settled = monitor.run.state is RunState.RUNNING
-            if now - looked > (LATE_SEGMENT_SECONDS if settled else SEGMENT_SECONDS):
-                looked = now
+            if now > look_at:
+                settled = monitor.run.state is RunState.RUNNING
+                look_at = now + (LATE_SEGMENT_SECONDS if settled else SEGMENT_SECONDS)
                 children.record_segments()
                 folder.keep_segments(children.segments() | mapped_segments(os.getpid()))
             if monitor.run.last is not None:
