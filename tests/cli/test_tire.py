@@ -28,7 +28,7 @@ road: {kind: bump, position: 10.0, height: 0.03, length: 0.6}
 
 
 def test_the_part_of_a_scene_is_one_that_loads(tmp_path):
-    shown = run(write(tmp_path, LATERAL_STIFFNESS=1e5, PCX1=1.5, PCY1=1.3))
+    shown = run(write(tmp_path, LONGITUDINAL_STIFFNESS=1e5, PCX1=1.5, PCY1=1.3))
     part = shown.stdout[shown.stdout.index("# from tire.tir") :]
     (tmp_path / "own.yaml").write_text(SCENE + part + "    contact_field: {}\n")
     inflation = load_scene(tmp_path / "own.yaml").effect("tire", Inflation)

@@ -70,6 +70,6 @@ def _show(tire: PropertyFile, found: SceneTire, comparisons: list[dict[str, Any]
     show_sections(sections)
     click.echo(f"\n# from {Path(tire.file).name}\neffects:\n  tire:")
     for effect, values in found.effects.items():
-        click.echo(f"    {effect}:")
+        click.echo(f"    {effect}:" if values else f"    {effect}: {{}}")
         for key, value in values.items():
             click.echo(f"      {key}: {value}")

@@ -1,5 +1,5 @@
-"""Accuracy studies of a scene of tire and seat: integrator, coupling of bodies and fields,
-fields.
+"""Accuracy studies of a scene of tire and seat: integrator, coupling of bodies and fields, fields,
+bristles and belt.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from contact_sim_pkg.rigs.vehicle.studies.accuracy_coupling import coupling_rows
 from contact_sim_pkg.rigs.vehicle.studies.accuracy_cushion import cushion_rows
 from contact_sim_pkg.rigs.vehicle.studies.accuracy_field import field_rows, first_solve
 from contact_sim_pkg.rigs.vehicle.studies.accuracy_integrator import tolerance_rows
+from contact_sim_pkg.rigs.vehicle.studies.accuracy_rolling import rolling_rows
 
 __all__ = ["ACCURACY"]
 
@@ -18,6 +19,10 @@ _CUSHION = tuple(
 )
 _COUPLING = AccuracyPart(
     "coupling", "coupling of bodies and pressure fields: error", "coupling of bodies and fields, whole scene"
+)
+_ROLLING = (
+    AccuracyPart("bristle cells", "rolling tire, error of the bristles' cells", "rolling tire"),
+    AccuracyPart("belt steps", "rolling tire, error of the belt's steps", "rolling tire"),
 )
 
 ACCURACY = (
@@ -29,4 +34,5 @@ ACCURACY = (
         first_solve,
     ),
     AccuracyStudy(lambda _name, scene, notify: cushion_rows(scene, notify), _CUSHION),
+    AccuracyStudy(lambda _name, scene, notify: rolling_rows(scene, notify), _ROLLING),
 )

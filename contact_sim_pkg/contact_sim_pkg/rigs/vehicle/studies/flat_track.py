@@ -4,6 +4,7 @@ belt by the slip or torque of the scene; no vertical motion.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy
@@ -17,13 +18,16 @@ from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, 
 from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
 from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["Track", "flat_track"]
+__all__ = ["Track", "flat_track", "track_of"]
 
 SCENE = "tire_braking"
 WHEEL = 40.0  # [kg]
 GRAVITY = 9.80665
-SEGMENT, SEGMENTS = 2.5e-4, 20  # [s], and those from one change of the slip to the next
+STRETCH = 5e-3  # [s] from one change of the slip to the next
+USUAL_STEP = 2.5e-4  # [s]
+TIGHT = 1e-8  # tolerance of the field
 
 Samples = NDArray[numpy.float64]
 
@@ -45,7 +49,13 @@ def flat_track(load: float, speed: float, duration: float, *values: str) -> Trac
     for a ``duration`` [s].
     """
     body = f"tire.body_mass={load / GRAVITY - WHEEL}"
-    scene = load_resolved(SCENE, f"tire.wheel_mass={WHEEL}", body, "slip=null", *values)
+    return track_of(load_resolved(SCENE, f"tire.wheel_mass={WHEEL}", body, "slip=null", *values), speed, duration)
+
+
+def track_of(scene: ResolvedScene, speed: float, duration: float, step: float = USUAL_STEP) -> Track:
+    """The same of the tire of a scene under its standing load, with samples and steps of ``step``
+    [s].
+    """
     model = build(scene)
     friction, grids = model.rolling_friction, model.tire_field
     assert friction is not None
@@ -54,19 +64,21 @@ def flat_track(load: float, speed: float, duration: float, *values: str) -> Trac
     x = (numpy.arange(settings.rows) - settings.rows // 2) * settings.cell_x
     y = (numpy.arange(settings.cols) - 0.5 * (settings.cols - 1)) * settings.cell_y
     field = PressureField(settings, "tire")
-    field.solve_load(gap_over_level_road(body_of(scene).form, x, y), standing_load(scene.section(TireSection), None))
+    gap = gap_over_level_road(body_of(scene).form, x, y)
+    field.solve_load(gap, standing_load(scene.section(TireSection), None), TIGHT)
     pressure, origin = field.pressure.copy(), (float(x[0]), float(y[0]))
+    friction = replace(friction, longest_step=step)
+    rows, count, segments = [], round(duration / STRETCH), round(STRETCH / step)
     shear = RollingShear(friction, settings)
     shear.start(pressure, origin, 0.0, 0.0)
-    rows, count = [], round(duration / (SEGMENT * SEGMENTS))
     for n in range(1, count + 1):
-        start = (n - 1) * SEGMENTS * SEGMENT
-        end = speed * (start + SEGMENTS * SEGMENT)
-        stretch = Stretch(start, SEGMENT, SEGMENTS, end, 0.0, 0.0, friction.deflection, 1, 0)
-        rows.append(shear.roll(stretch, pressure, origin)[:SEGMENTS].copy())
+        stretch = Stretch(
+            (n - 1) * STRETCH, step, segments, speed * n * STRETCH, 0.0, 0.0, friction.deflection, 1, 0
+        )  # fmt: skip
+        rows.append(shear.roll(stretch, pressure, origin)[:segments].copy())
     samples, result = numpy.concatenate(rows), shear.publish(pressure).result
     length = float(pressure.any(axis=1).sum()) * settings.cell_x
     return Track(
-        SEGMENT * numpy.arange(len(samples), dtype=numpy.float64), samples[:, :3], samples[:, 3:7], samples[:, 7], length,
+        step * numpy.arange(len(samples), dtype=numpy.float64), samples[:, :3], samples[:, 3:7], samples[:, 7], length,
         result.dissipated + result.released, friction.radius,
     )  # fmt: skip

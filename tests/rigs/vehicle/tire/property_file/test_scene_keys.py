@@ -7,6 +7,7 @@ import numpy
 import pytest
 from tests.rigs.vehicle.tire.property_file.tir_file import write
 
+from contact_sim_pkg.rigs.vehicle.studies.flat_track import flat_track
 from contact_sim_pkg.rigs.vehicle.tire.body import tire_body
 from contact_sim_pkg.rigs.vehicle.tire.force_table import tire_table
 from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileError
@@ -124,3 +125,35 @@ def test_what_is_assumed_is_said(tmp_path, keys, note):
 def test_a_tire_that_no_scene_takes_is_refused(tmp_path, keys, sentence):
     with pytest.raises(PropertyFileError, match=sentence):
         keys_of(tmp_path, **keys)
+
+
+CONTACT = coefficients(225e3, 0.143, 0.150)
+
+
+def test_bristles_and_sidewalls_make_the_stiffnesses_of_the_file(tmp_path):
+    """Slip stiffness and side stiffness of the scene's tire, rolled: those of PKX1 and LATERAL_STIFFNESS."""
+    given = {"PKX1": 22.0, "LATERAL_STIFFNESS": 150e3, "YAW_STIFFNESS": 5000, "FREQ_WINDUP": 60.0}
+    found = keys_of(tmp_path, **CONTACT, **given)
+    brush, belt = found.effects["brush"], found.effects["sidewall_compliance"]
+    assert belt["rotational"] == pytest.approx(0.6 * (2.0 * math.pi * 60.0) ** 2, rel=1e-5)
+    values = [
+        f"effects.tire.{effect}={{{', '.join(f'{key}: {value!r}' for key, value in keys.items())}}}"
+        for effect, keys in found.effects.items()
+    ]
+    track = flat_track(4000.0, 16.7, 0.5, *values, "slip={longitudinal: -0.002}")
+    assert track.force[-200:, 0].mean() / -0.002 == pytest.approx(22.0 * 4000.0, rel=0.15)
+    series = 1.0 / (1.0 / belt["lateral"] + 1.0 / (brush["stiffness_y"] * 0.0196))
+    assert series == pytest.approx(150e3, rel=0.02)
+
+
+def test_without_a_contact_the_slip_stiffness_is_left_with_a_note(tmp_path):
+    found = keys_of(tmp_path, PKX1=22.0)
+    assert "brush" not in found.effects
+    assert any("PKX1 is not used" in note for note in found.notes)
+
+
+def test_side_stiffness_above_the_bristles_is_left_with_a_note(tmp_path):
+    given = {"PKX1": 5.0, "LATERAL_STIFFNESS": 1e7}
+    found = keys_of(tmp_path, **CONTACT, **given)
+    assert "lateral" not in found.effects["sidewall_compliance"]
+    assert any("above that of the bristles alone" in note for note in found.notes)

@@ -1,4 +1,6 @@
-"""From a tire property file to the keys of a scene: an inflated tire and its rigid ring."""
+"""From a tire property file to the keys of a scene: an inflated tire, its rigid ring, bristles and
+sidewall compliance.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +13,7 @@ from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileE
 from contact_sim_pkg.rigs.vehicle.tire.property_file.fit import allowed, angles, fitted, standing_on_belt
 from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import StandingTire, standing_tire
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
+from contact_sim_pkg.rigs.vehicle.tire.property_file.slip_keys import slip_keys
 from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation
 from contact_sim_pkg.rigs.vehicle.tire.size import INCH, read_size
 
@@ -46,7 +49,8 @@ class SceneTire(NamedTuple):
 
 def scene_tire(tire: PropertyFile) -> SceneTire:
     """Size, inflation, ring stiffness, belt mass and damping from the file; sidewall angle and tread
-    modulus fitted (`fit.py`) where it has FNOMIN and VERTICAL_STIFFNESS.
+    modulus fitted (`fit.py`) where it has FNOMIN and VERTICAL_STIFFNESS; bristles and sidewall
+    compliance (`slip_keys.py`) where it has PKX1.
 
     Ring: ``K_b = m_b (2 pi f)^2`` at the nominal pressure, ``c_b = 2 zeta sqrt(K_b m_b)``.
 
@@ -67,6 +71,13 @@ def scene_tire(tire: PropertyFile) -> SceneTire:
         inflation, comparisons = _fit(tire, inflation, aim, (radius, nominal), notes)
     given = inflation.model_dump(include={"size", "pressure", "sidewall_angle", "tread_modulus", "ring_stiffness"})
     effects = {"inflation": {key: _rounded(value) for key, value in given.items()}, **_rigid_ring(tire, inflation)}
+    contact = None if aim is None or not (aim.length and aim.width) else (aim.length, aim.width)
+    slip = slip_keys(tire, contact, notes)
+    if slip.brush:
+        rounded = [{key: _rounded(value) for key, value in keys.items()} for keys in (slip.brush, slip.compliance)]
+        effects |= {"contact_field": {}, "brush": rounded[0], "sidewall_compliance": rounded[1]}
+    if slip.cornering is not None:
+        comparisons += (Comparison("cornering stiffness (not fitted)", "N/rad", *slip.cornering),)
     return SceneTire(effects, comparisons, tuple(notes))
 
 
