@@ -8,7 +8,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most
-from contact_sim_pkg.rigs.vehicle.studies.flat_track import Track, flat_track
+from contact_sim_pkg.rigs.vehicle.studies.machines.flat_track import Track, flat_track
 from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
 
 SCENE = "tire_cleat"
@@ -28,7 +28,7 @@ def locked_wheel() -> Finding:
     """
     worst = 0.0
     for speed in (0.1, 5.0, 60.0):
-        values = ("effects.tire.wheel_spin={brake: 20000}", "effects.tire.brush.sliding_speed=0")
+        values = ("effects.tire.wheel_spin={brake: 20000}", "effects.tire.brush.coefficient_static=0.8")
         track = _spinning(speed, max(0.4, 0.4 / speed), *values)
         error = abs(float(track.force[-1, 0]) / (-KINETIC * LOAD) - 1.0)
         worst = max(worst, error, float(-track.spin.min()))

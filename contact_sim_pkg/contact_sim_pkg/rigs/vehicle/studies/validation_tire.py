@@ -13,8 +13,8 @@ from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffnes
 from contact_sim_pkg.records.published import Published
 from contact_sim_pkg.rigs.vehicle.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.model import build
-from contact_sim_pkg.rigs.vehicle.studies.flat_track import Track, flat_track
-from contact_sim_pkg.rigs.vehicle.studies.held_axle import CLEAT, OverCleat, over_cleat
+from contact_sim_pkg.rigs.vehicle.studies.machines.flat_track import Track, flat_track
+from contact_sim_pkg.rigs.vehicle.studies.machines.held_axle import CLEAT, OverCleat, over_cleat
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of
 from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
