@@ -13,6 +13,8 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("identify", "plot"): ["BAG", "--box", "1", "1", "1", "--plot", "FILE"],
     ("accuracy", "plot"): ["seat_ride", "--plot", "FILE"],
     ("validation", "page"): ["--page", "FILE"],
+    ("growth", "page"): ["--page", "FILE"],
+    ("growth", "plot"): ["--plot", "FILE"],
     ("report", "out"): ["BAG", "--out", "FILE"],
     ("run", "out"): ["seat_ride", "--offline", "--out", "FILE"],
     ("recover", "target"): ["BAG", "FILE"],

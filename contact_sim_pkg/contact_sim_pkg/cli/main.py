@@ -27,6 +27,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "hard": "hard",
     "validation": "validation",
     "goals": "goals",
+    "growth": "growth",
     "material": "material",
     "tire": "tire",
     "recover": "recover",

@@ -25,14 +25,14 @@ def outputs_of(scene_name: str, duration: float, *values: str) -> list[Output]:
     return outputs_with(scene, make_simulation(scene))
 
 
-def outputs_with(scene: ResolvedScene, simulation: BlockSimulation) -> list[Output]:
-    """The same of a `simulation` of a resolved scene."""
+def outputs_with(scene: ResolvedScene, simulation: BlockSimulation, *, cost: bool = False) -> list[Output]:
+    """The same of a `simulation` of a resolved scene, with ``cost`` that too."""
     sources = make_sources(scene)
     simulation.prepare()
     found: list[Output] = []
     for block in range(simulation.blocks):
         result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
-        found += [output for output in result.outputs if output.topic != "bench/cost"]
+        found += [output for output in result.outputs if cost or output.topic != "bench/cost"]
     return found
 
 

@@ -76,7 +76,7 @@ RIGS = (
             for name in ("elliptic", "force", "smooth", "rough", "area", "exponent", "road")
         ),
         hard_cases=tuple(
-            f"{__name__}.studies.hard_cases_{name}" for name in ("tire", "inflation", "rolling", "scenes", "occupant")
+            f"{__name__}.studies.hard_cases.{name}" for name in ("tire", "inflation", "rolling", "scenes", "occupant")
         ),
         validation=(f"{__name__}.studies.validation_tire",),
     ),
@@ -94,7 +94,7 @@ RIGS = (
         unused_axes=lambda effects: "x" if effects["seat"].get("friction") is None else "",
         validation=tuple(f"{__name__}.studies.validation_{name}" for name in ("occupant", "seat")),
         accuracy=_ACCURACY,
-        hard_cases=(f"{__name__}.studies.hard_cases_cushion",),
+        hard_cases=(f"{__name__}.studies.hard_cases.cushion",),
         work_precision=(
             "contact_sim_pkg.studies.laws.work_precision_restitution",
             "contact_sim_pkg.papers.cnoidal.work_precision_periodic",

@@ -1,0 +1,1 @@
+"""Hard cases of tire, seat and car for `bench hard`."""
