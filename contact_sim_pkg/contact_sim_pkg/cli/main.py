@@ -27,7 +27,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "hard": "hard",
     "validation": "validation",
     "goals": "goals",
-    "growth": "growth",
+    "growth": "goals:growth_command",
     "material": "material",
     "tire": "tire",
     "recover": "recover",

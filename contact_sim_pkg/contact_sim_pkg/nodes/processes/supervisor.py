@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from contact_sim_pkg.nodes.processes.run_monitor import RunMonitor
 
 LOOK_SECONDS = 0.05  # between two looks at the processes
-SEGMENT_SECONDS = 1.0  # between two looks at their shared memory; it is all there when the run begins
+SEGMENT_SECONDS = 1.0  # between two looks at their shared memory, until the run has settled
+SETTLING_SECONDS = 5.0  # after the beginning of the run
 LATE_SEGMENT_SECONDS = 20.0  # from then on: a look costs 3 ms a process
 END_SECONDS = 15.0  # for the processes to end by themselves once the run has ended
 
@@ -103,7 +104,7 @@ class Supervisor:
         """Until every process has ended, one has ended badly, or the time after the user's signal
         is over.
         """
-        look_at, ended_at = 0.0, float("inf")
+        look_at, settled_at, ended_at = 0.0, float("inf"), float("inf")
         failed: Child | None = None
         while failed is None and not children.all_ended():
             try:
@@ -112,9 +113,10 @@ class Supervisor:
                 self._fail(str(error), error.exit_status)
                 return
             now = time.monotonic()
-            if now > look_at:
-                settled = monitor.run.state is RunState.RUNNING
-                look_at = now + (LATE_SEGMENT_SECONDS if settled else SEGMENT_SECONDS)
+            if monitor.run.state is RunState.RUNNING and settled_at == float("inf"):
+                settled_at, look_at = now + SETTLING_SECONDS, now  # at once: a node may be killed any time
+            if now >= look_at:
+                look_at = now + (LATE_SEGMENT_SECONDS if now > settled_at else SEGMENT_SECONDS)
                 children.record_segments()
                 folder.keep_segments(children.segments() | mapped_segments(os.getpid()))
             if monitor.run.last is not None:
