@@ -94,8 +94,11 @@ class Coupling:
         bodies.stand(float(first.smooth[0]))
         if self.tire.grids is not None:
             self.tire.place(drive.road, float(drive.travel[0]))
-            bodies.lift(bodies.tire_approach(0.0) - self.tire.stand(bodies.weight()))
+            approach, rolled = self.tire.stand(bodies.weight()), self.tire.roll_in(bodies.weight(), drive.speed)
+            bodies.lift(bodies.tire_approach(0.0) - (approach if rolled is None else rolled))
         self.tire.begin(self._solve_tire(first, 0, 0))
+        if drive.speed != 0.0:
+            self.tire.store()
         self._slope = self.tire.effective_slope()
         if self.shear is not None and self.tire.published is not None:
             found = self.tire.published

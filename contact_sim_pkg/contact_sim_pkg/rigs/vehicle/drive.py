@@ -29,12 +29,15 @@ class BlockDrive(NamedTuple):
     acceleration_z: Vector  # [m/s^2]
     push: Vector | None  # [N] of the road's asperities; None where the scene calls for none
 
+    speed: float = 0.0  # [m/s] at the start of the block
+
     def part(self, first: int, segments: int) -> BlockDrive:
         """The same for ``segments`` segments from number ``first``."""
         chosen = slice(first, first + segments + 1)
         return BlockDrive(
             self.road, self.travel[chosen], self.smooth[chosen], self.acceleration_x[chosen],
             self.acceleration_z[chosen], None if self.push is None else self.push[chosen],
+            self.speed,
         )  # fmt: skip
 
 
@@ -45,7 +48,8 @@ def block_drive(model: Model, travel: Travel | None, block: int, road: Any, vibr
     """
     a_x, a_z = _accelerations(model, block, vibration)
     places, smooth, push = _rolling(model, travel, block, road)
-    return BlockDrive(road, places, smooth, a_x, a_z, push)
+    speed = float(places[1] - places[0]) / model.timing.segment_length
+    return BlockDrive(road, places, smooth, a_x, a_z, push, speed)
 
 
 def _accelerations(model: Model, block: int, vibration: Any) -> tuple[Vector, Vector]:

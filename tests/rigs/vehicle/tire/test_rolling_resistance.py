@@ -84,3 +84,12 @@ def test_a_free_wheel_is_pulled_by_what_its_tread_loses():
     )  # fmt: skip
     _body, free, _patch = rolled("effects.tire.tread_viscoelasticity={}")
     assert free == pytest.approx(plain, rel=5e-3)  # the wheel still turns faster as it sinks
+
+
+def test_a_rolling_tread_has_rolled_in_at_the_start():
+    """It is stiffer than a standing one: started relaxed, the force would swing by a tenth."""
+    found = messages_of(
+        resolved("tire_cleat", "duration=0.3", "road={kind: flat}", "effects.tire.tread_viscoelasticity={}")
+    )
+    vertical = numpy.concatenate([decode(AxleForce, data).vertical for data in found["tire/axle"]])
+    assert vertical == pytest.approx(vertical[0], rel=2e-3)

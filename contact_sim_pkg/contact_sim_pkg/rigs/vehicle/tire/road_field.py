@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy
@@ -10,11 +11,14 @@ from contact_sim_pkg.laws.parameters import Contact, TabulatedElastic
 from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, PressureField
-from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, Gap
+from contact_sim_pkg.rigs.vehicle.field_driver import AT_REST, ContactField, Gap
 from contact_sim_pkg.rigs.vehicle.tire.footprint import slope_along, tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
 from contact_sim_pkg.run.errors import RunError
+
+MOST_STEPS = 600
+"""Of a tread that rolls in before the start; slower than that it is nearly relaxed."""
 
 
 class RoadField(ContactField):
@@ -62,6 +66,25 @@ class RoadField(ContactField):
         approach, field = self._stand_on(relaxed, load)
         self._tread_state.settle(self.road_row(relaxed.wide.settings), self._on_wide(field.pressure))
         return approach
+
+    def roll_in(self, load: float, speed: float) -> float | None:
+        """Approach [m] under a ``load`` [N] of a tread with memory that has rolled here at a ``speed``
+        [m/s] for the length of its grid; None where it stands, or rolls too slowly for that.
+        """
+        if self._tread_state is None or self._tread is None or self.grids is None or speed == 0.0:
+            return None
+        field, wide = self.grids.usual, self.grids.wide.settings
+        way = speed * self._tread.step / wide.cell_x  # cells a step
+        steps = math.ceil(wide.rows / abs(way)) + 1
+        if steps > MOST_STEPS:
+            return None
+        for step in range(1, steps + 1):
+            self._tread_state.roll(round(step * way) - round((step - 1) * way))
+            if step == steps:  # the field of the start, which the run solves and stores
+                return field.solve_load(self.gap(field.settings), load, AT_REST)
+            field.solve_load(self.gap(field.settings), load)
+            self._tread_state.store(self._on_wide(field.pressure))
+        return None
 
     def store(self) -> None:
         """See `ContactField`; the tread stores the pressure."""

@@ -150,6 +150,12 @@ class TreadState:
                 self._belt.move(cells)
             self._add_up()
 
+    def roll(self, cells: int) -> None:
+        """Roll on by so many rows in place: the first row keeps its number."""
+        row = self._row
+        self.move_to(row + cells)
+        self._row = row
+
     def store(self, pressure: Field) -> None:
         """Store the pressure [Pa] that was found with the present `gap`."""
         displacement(self._relaxed, self._buffers, pressure, self._displaced)

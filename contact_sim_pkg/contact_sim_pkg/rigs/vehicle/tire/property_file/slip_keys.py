@@ -18,6 +18,8 @@ from typing import NamedTuple
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
 from contact_sim_pkg.rigs.vehicle.tire.schema import SidewallComplianceSection
 
+SIDEWALLS = ("LATERAL_STIFFNESS", "YAW_STIFFNESS", "BELT_IYY", "FREQ_WINDUP", "DAMP_WINDUP")
+
 __all__ = ["SlipKeys", "slip_keys"]
 
 Keys = dict[str, float]
@@ -40,6 +42,9 @@ def slip_keys(tire: PropertyFile, contact: tuple[float, float] | None, notes: li
     if contact is None or not stiffness or load is None or stiffness < 0.0:
         if stiffness:
             notes.append("PKX1 is not used: it needs FNOMIN, VERTICAL_STIFFNESS, Q_RA and Q_RB for the contact")
+        of_sidewalls = [key for key in SIDEWALLS if tire.get(key) is not None]
+        if of_sidewalls:
+            notes.append(f"{', '.join(of_sidewalls)}: not used without bristles, which need PKX1 and the contact")
         return SlipKeys({}, compliance, None)
     length, width = contact
     area = ROUND * length * width
