@@ -34,7 +34,7 @@ from contact_sim_pkg.rigs.vehicle.entries import FORCES, TIRE_SHEAR, TIRE_SLOPE
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord
-from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, Stretch
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, TireStep
 from contact_sim_pkg.rigs.vehicle.tire.road_field import RoadField
 from contact_sim_pkg.run.errors import RunError
 
@@ -169,11 +169,11 @@ class Coupling:
         pressure = self.tire.with_loss(found, approach, rate).pressure
         load = float(pressure.sum()) * self.tire.cell_area
         every = self.model.timing.sample_every
-        stretch = Stretch(
+        tire_step = TireStep(
             step.start, step.segment_length, step.segments, float(step.drive.travel[-1]), self.tire.slope_force(load),
             self.tire.rolling_force(), self.bodies.axle_deflection(approach), every, step.behind_sample,
         )  # fmt: skip
-        samples = self.shear.roll(stretch, pressure, (found.origin_x, found.origin_y))
+        samples = self.shear.roll(tire_step, pressure, (found.origin_x, found.origin_y))
         count = len(range(-step.behind_sample % every, step.segments, every))
         step.sampled[2][:count, TIRE_SHEAR:] = samples[:count]
 

@@ -10,7 +10,7 @@ import numpy
 from contact_sim_pkg.laws.parameters import Contact, TabulatedElastic
 from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, PressureField
+from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field_driver import AT_REST, ContactField, Gap
 from contact_sim_pkg.rigs.vehicle.tire.footprint import slope_along, tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
@@ -73,18 +73,21 @@ class RoadField(ContactField):
         """
         if self._tread_state is None or self._tread is None or self.grids is None or speed == 0.0:
             return None
-        field, wide = self.grids.usual, self.grids.wide.settings
+        field, wide = self.grids.wide, self.grids.wide.settings
         way = speed * self._tread.step / wide.cell_x  # cells a step
         steps = math.ceil(wide.rows / abs(way)) + 1
         if steps > MOST_STEPS:
             return None
-        for step in range(1, steps + 1):
-            self._tread_state.roll(round(step * way) - round((step - 1) * way))
-            if step == steps:  # the field of the start, which the run solves and stores
-                return field.solve_load(self.gap(field.settings), load, AT_REST)
-            field.solve_load(self.gap(field.settings), load)
-            self._tread_state.store(self._on_wide(field.pressure))
-        return None
+        try:
+            for step in range(1, steps):
+                self._tread_state.roll(round(step * way) - round((step - 1) * way))
+                field.solve_load(self.gap(wide), load)
+                self._tread_state.store(self._on_wide(field.pressure))
+            # The field of the start, which the run solves again and stores
+            self._tread_state.roll(round(steps * way) - round((steps - 1) * way))
+            return field.solve_load(self.gap(wide), load, AT_REST)
+        except FieldError as error:
+            raise RunError(f"block 0: {error}") from None
 
     def store(self) -> None:
         """See `ContactField`; the tread stores the pressure."""

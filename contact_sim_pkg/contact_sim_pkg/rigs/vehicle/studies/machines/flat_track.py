@@ -14,7 +14,7 @@ from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of
-from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, Stretch
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, TireStep
 from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
 from contact_sim_pkg.scene.resolve import load_resolved
@@ -25,7 +25,7 @@ __all__ = ["Track", "flat_track", "track_of"]
 SCENE = "tire_braking"
 WHEEL = 40.0  # [kg]
 GRAVITY = 9.80665
-STRETCH = 5e-3  # [s] from one change of the slip to the next
+INTERVAL = 5e-3  # [s] from one change of the slip to the next
 USUAL_STEP = 2.5e-4  # [s]
 TIGHT = 1e-8  # tolerance of the field
 
@@ -68,14 +68,14 @@ def track_of(scene: ResolvedScene, speed: float, duration: float, step: float = 
     field.solve_load(gap, standing_load(scene.section(TireSection), None), TIGHT)
     pressure, origin = field.pressure.copy(), (float(x[0]), float(y[0]))
     friction = replace(friction, longest_step=step)
-    rows, count, segments = [], round(duration / STRETCH), round(STRETCH / step)
+    rows, count, segments = [], round(duration / INTERVAL), round(INTERVAL / step)
     shear = RollingShear(friction, settings)
     shear.start(pressure, origin, 0.0, 0.0)
     for n in range(1, count + 1):
-        stretch = Stretch(
-            (n - 1) * STRETCH, step, segments, speed * n * STRETCH, 0.0, 0.0, friction.deflection, 1, 0
+        tire_step = TireStep(
+            (n - 1) * INTERVAL, step, segments, speed * n * INTERVAL, 0.0, 0.0, friction.deflection, 1, 0
         )  # fmt: skip
-        rows.append(shear.roll(stretch, pressure, origin)[:segments].copy())
+        rows.append(shear.roll(tire_step, pressure, origin)[:segments].copy())
     samples, result = numpy.concatenate(rows), shear.publish(pressure).result
     length = float(pressure.any(axis=1).sum()) * settings.cell_x
     return Track(

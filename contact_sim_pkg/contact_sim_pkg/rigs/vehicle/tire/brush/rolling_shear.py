@@ -29,13 +29,13 @@ from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import (
 )
 from contact_sim_pkg.rigs.vehicle.tire.model import RollingFriction
 
-__all__ = ["RollingShear", "Sheared", "Stretch"]
+__all__ = ["RollingShear", "Sheared", "TireStep"]
 
 Field = NDArray[numpy.float64]
 
 
-class Stretch(NamedTuple):
-    """From one solution of the field to the next, in segments of the drive."""
+class TireStep(NamedTuple):
+    """A coupling step, as bristles and belt take it: from one solution of the field to the next."""
 
     start: float  # [s]
     segment_length: float  # [s]
@@ -94,34 +94,35 @@ class RollingShear:
         step = rolling_step(0.0, *self._friction.slips.at(0.0))
         self._result = self._advance_bristles(self._lay(pressure, origin), step)
 
-    def roll(self, stretch: Stretch, pressure: Field, origin: tuple[float, float]) -> Field:
+    def roll(self, step: TireStep, pressure: Field, origin: tuple[float, float]) -> Field:
         """Roll on to a field ``pressure`` [Pa] with cell (0, 0) at the ``origin`` [m].
 
         Returns the samples of `belt_motion.py` at the segments that hold one, [samples, 8]; good
         until the next call.
         """
         grid, sidewalls = self._lay(pressure, origin), self._friction.sidewalls
-        before, way = self._result, stretch.travel - self._travel
-        speed = way / stretch.duration
-        # The slips in the middle of the stretch act over all of it.
-        slip, angle = self._friction.slips.at(stretch.start + 0.5 * stretch.duration)
-        first, radius = math.isnan(self._speed), self._friction.radius_at(stretch.deflection)
+        before, way = self._result, step.travel - self._travel
+        speed = way / step.duration
+        # The slips in the middle of the coupling step act over all of it.
+        slip, angle = self._friction.slips.at(step.start + 0.5 * step.duration)
+        first, radius = math.isnan(self._speed), self._friction.radius_at(step.deflection)
         radii = radius if first else self._radius, radius
         rim = (1.0 + slip) * speed / (0.5 * (radii[0] + radii[1]))
         if first:  # the wheel rolls already
             self._speed, self._belt[SPIN], self._belt[RIM] = speed, rim, rim
+            self._last[:] = (0.0, 0.0, 0.0, self._slopes, 0.0, 0.0, 0.0, rim)
         if sidewalls is None:
-            found = self._advance_bristles(grid, rolling_step(way, slip, angle, stretch.duration))
-            samples = self._between(stretch, found, rim)
+            found = self._advance_bristles(grid, rolling_step(way, slip, angle, step.duration))
+            samples = self._between(step, found, rim)
         else:
-            parts = math.ceil(stretch.segment_length / self._friction.longest_step * (1.0 - 1e-9))
+            parts = math.ceil(step.segment_length / self._friction.longest_step * (1.0 - 1e-9))
             drive = BeltDrive(
-                stretch.duration, way, way * math.tan(angle), speed - self._speed, rim, radii,
-                (self._slopes, stretch.slopes), (self._rolling * radii[0], stretch.rolling * radii[1]),
-                *self._friction.torques.at(stretch.start + 0.5 * stretch.duration), stretch.segments * parts,
-                stretch.sample_every * parts, stretch.behind_sample * parts,
+                step.duration, way, way * math.tan(angle), speed - self._speed, rim, radii,
+                (self._slopes, step.slopes), (self._rolling * radii[0], step.rolling * radii[1]),
+                *self._friction.torques.at(step.start + 0.5 * step.duration), step.segments * parts,
+                step.sample_every * parts, step.behind_sample * parts,
             )  # fmt: skip
-            rows = stretch.segments // stretch.sample_every + 2
+            rows = step.segments // step.sample_every + 2
             if len(self._samples) < rows:
                 self._samples = numpy.zeros((rows, BELT_SAMPLES))
             found = advance_belt(
@@ -129,8 +130,8 @@ class RollingShear:
                 self._shear_y, self._state, self._samples,
             )  # fmt: skip
             samples = self._samples
-        self._time, self._travel, self._speed = stretch.start + stretch.duration, stretch.travel, speed
-        self._slopes, self._rolling, self._radius = stretch.slopes, stretch.rolling, radii[1]
+        self._time, self._travel, self._speed = step.start + step.duration, step.travel, speed
+        self._slopes, self._rolling, self._radius = step.slopes, step.rolling, radii[1]
         dissipated, released = before.dissipated + found.dissipated, before.released + found.released
         self._result = found._replace(dissipated=dissipated, released=released)
         return samples
@@ -169,15 +170,15 @@ class RollingShear:
         )  # fmt: skip
         return found
 
-    def _between(self, stretch: Stretch, found: BrushResult, rim: float) -> Field:
+    def _between(self, step: TireStep, found: BrushResult, rim: float) -> Field:
         """Samples of a belt that is one with the rim, linear between the fields."""
-        radius, before = self._friction.radius_at(stretch.deflection), self._last
+        radius, before = self._friction.radius_at(step.deflection), self._last
         now: Field = numpy.array(
             (
-                found.force_x, found.force_y, found.moment_z, stretch.slopes + found.force_x, found.force_y,
-                -radius * (found.force_x + stretch.rolling), found.moment_z, rim,
+                found.force_x, found.force_y, found.moment_z, step.slopes + found.force_x, found.force_y,
+                -radius * (found.force_x + step.rolling), found.moment_z, rim,
             )
         )  # fmt: skip
-        at = numpy.arange(-stretch.behind_sample % stretch.sample_every, stretch.segments, stretch.sample_every)
+        at = numpy.arange(-step.behind_sample % step.sample_every, step.segments, step.sample_every)
         self._last = now
-        return numpy.asarray(before + (now - before) * (at / stretch.segments)[:, None])
+        return numpy.asarray(before + (now - before) * (at / step.segments)[:, None])
