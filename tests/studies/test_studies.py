@@ -24,6 +24,12 @@ def test_the_error_of_the_time_integration_falls_with_the_tolerance(tolerance_ro
     assert min(motion.values()) < 1e-3 * max(motion.values())
 
 
+def test_force_and_motion_of_a_tire_on_its_rigid_ring_are_compared_at_the_belt():
+    scene = load_resolved("tire_bump", "effects.tire.rigid_ring={}", "duration=0.5")
+    rows = accuracy_cost_integrator.tolerance_rows(scene, lambda text: None)
+    assert all(row["error"] < 1e-4 for row in rows if row["quantity"] == "normal force")
+
+
 def test_the_plot_is_drawn_for_every_part_that_is_there(tolerance_rows, tmp_path):
     path = accuracy_cost.write_plot(tolerance_rows, tmp_path / "plot.png")
     assert path.read_bytes().startswith(b"\x89PNG")

@@ -118,7 +118,8 @@ def _forces(drive: SceneDrive, states: Vector) -> list[Vector]:
     tire_law, seat_law = twin_laws(rig)
     found = []
     if tire_law is not None:
-        approach, speed = height[:-1] - states[:, 0], rate - states[:, 2]
+        tread = (0, 2) if rig.rigid_ring is None else (rig.rigid_ring.offset, rig.rigid_ring.offset + 1)
+        approach, speed = height[:-1] - states[:, tread[0]], rate - states[:, tread[1]]
         found.append(numpy.array([normal_force(tire_law, x, v) for x, v in zip(approach, speed, strict=True)]))
     if seat_law is not None and rig.seat is not None:
         first = rig.seat.offset
