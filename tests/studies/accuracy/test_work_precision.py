@@ -144,7 +144,7 @@ def test_grid_error_stands_beside_solver_error_and_bounds_the_error_with_it(roug
 
 @pytest.mark.parametrize("given", GIVEN)
 @pytest.mark.parametrize("seed", [21, 25])
-def test_two_tiers_differ_on_a_further_road_by_little_more_than_both_announce_at_most(rough_rows, seed, given):
+def test_two_tiers_differ_on_a_further_road_by_less_than_twice_what_both_announce(rough_rows, seed, given):
     assert seed not in study_rough.SEEDS
     value = LOAD if given == GIVEN[0] else 7.6e-3
     answers = [solve(patch_problem(level.cells, seed), given, value, level.tolerance) for level in study_smooth.LEVELS]
@@ -152,7 +152,7 @@ def test_two_tiers_differ_on_a_further_road_by_little_more_than_both_announce_at
     for (coarse, one), (fine, other) in itertools.combinations(pairs, 2):
         for quantity, difference in distances(one, other).items():
             announced = [error_of(rough_rows, quantity, level.name, ROUGH[given]) for level in (coarse, fine)]
-            assert difference <= 1.25 * sum(announced) + 1e-12, (quantity, coarse, fine)
+            assert difference <= 2.0 * sum(announced) + 1e-12, (quantity, coarse, fine)
 
 
 def test_the_check_is_against_dense_least_squares_and_falls_with_the_tolerance():

@@ -279,7 +279,8 @@ def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log
     exp(-n |u-v|)) / n`, its derivatives by ln a, ln b, ln n are `-s`, `-(1-s)` and `s u + (1-s) v -
     ln rho`. log_x, log_y: [points]; normal: [3, 4], overwritten.
     """
-    normal[:] = 0.0
+    # Sums in registers: an array would be read and written at each point
+    aa = ab = an = bb = bn = nn = ae = be = ne = 0.0
     exponent, cost = math.exp(log_n), 0.0
     for k in range(log_x.size):
         # Radial variable of the point; the exponential never overflows
@@ -293,10 +294,12 @@ def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log
         # Gradient of rho by ln a, ln b, ln n
         by_a, by_b, by_n = -rho * share, rho * (share - 1.0), rho * (share * u + (1.0 - share) * v - log_rho)
         cost += error * error
-        row = (by_a, by_b, by_n, -error)
-        for i in range(3):
-            for j in range(4):
-                normal[i, j] += row[i] * row[j]
+        aa, ab, an = aa + by_a * by_a, ab + by_a * by_b, an + by_a * by_n
+        bb, bn, nn = bb + by_b * by_b, bn + by_b * by_n, nn + by_n * by_n
+        ae, be, ne = ae - by_a * error, be - by_b * error, ne - by_n * error
+    normal[0, 0], normal[0, 1], normal[0, 2], normal[0, 3] = aa, ab, an, ae
+    normal[1, 0], normal[1, 1], normal[1, 2], normal[1, 3] = ab, bb, bn, be
+    normal[2, 0], normal[2, 1], normal[2, 2], normal[2, 3] = an, bn, nn, ne
     return cost
 
 

@@ -4,8 +4,9 @@ that it needs.
 Prediction and its displacement come from the two fields before (`pressure/field/prediction.py`);
 corrections follow, each certified by its own convolution (`pressure/field/follow.py`). Where that
 does not converge the solver of `pressure/field/solver.py` goes on. After much travel the road that
-was under the wheel has left: the start is the last field, not carried along. Without a field before
-it is the field on a grid of half as many cells each way, itself started like that.
+was under the wheel has left: the start is the field on a grid of half as many cells each way, which
+rolls along and is itself started like that; on the coarsest grid it is the last field where the wheel
+took it. So it is without a field before, with nothing to start from on the coarsest.
 
 Window: the solver works on the box of the contact before and a margin. A window is enough if no
 cell outside it penetrates, which is checked after each solve (`pressure/field/outside.py`). Where
@@ -48,13 +49,11 @@ __all__ = ["RollingField"]
 LEAST_OF_HALF = 24
 """Rows and columns below which a coarser grid costs more than it saves."""
 
-TOLERANCE_OF_HALF = 1e-1
+TOLERANCE_OF_HALF = 5e-2
 """Of the field on the coarser grid; the grids differ by more."""
 
 MOST_TRAVEL = 0.1
-"""Of a window's rows: after more travel the last field is no start where the road took it, but one
-where the wheel took it.
-"""
+"""Of a window's rows: after more travel the last field is no start where the road took it."""
 
 NOWHERE = (0, -1, 0, -1)
 
@@ -91,6 +90,7 @@ class RollingField:
         self._lengths: Values = numpy.full((3, MOST_CORRECTIONS), FIRST_LENGTH)
         self._parts: dict[tuple[int, int], Part] = {}
         self._half = _half_of(half_space)
+        self._cells_of_half = 0  # of travel since its last field, in cells of this grid
         self._gap_of_half: Field = numpy.zeros((half_space.rows // 2, half_space.cols // 2))
         compile_now()
 
@@ -104,6 +104,7 @@ class RollingField:
         negative: the other way.
         """
         self._cells = int(cells) + (self._cells or 0)
+        self._cells_of_half += int(cells)
 
     def reset(self) -> None:
         """Drop the fields before: the next one starts from nothing."""
@@ -134,7 +135,8 @@ class RollingField:
         if not (numpy.isfinite(prescribed) and (prescribed >= 0.0 or not request.holds_load) and all_finite(gap)):
             return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
         # Predict from the fields before, or start from a coarser grid.
-        repeats, window, spent = self._begin(), self._expected(), 0
+        repeats, has_left = self._begin()
+        window, spent = self._expected(has_left), 0
         share, lengths = (0.0, REPEAT) if repeats else (EXTRAPOLATION if self._instants > 1 else 0.0, NEW)
         if window is None:
             window, share, lengths = self._start(gap, request), FROM_PRESSURE, START
@@ -160,17 +162,18 @@ class RollingField:
                 return self._judged(FieldResult(CONVERGED, spent, found.load, found.approach, found.residual))
             window, share, lengths = GridWindow(*found.window), FROM_PRESSURE, START
 
-    def _begin(self) -> bool:
+    def _begin(self) -> tuple[bool, bool]:
         """Carry the fields before to where the road is now; whether this is another solve at the
-        same instant.
+        same instant, and whether the road of the last field has left.
         """
         repeats = self._cells is None and self._instants > 0
         for field in (self._last, self._before):
             field.place[4] += self._cells or 0
         self._cells = None
-        if abs(self._last.place[4]) > MOST_TRAVEL * (self._last.place[2] - self._last.place[0]):
+        has_left = bool(abs(self._last.place[4]) > MOST_TRAVEL * (self._last.place[2] - self._last.place[0]))
+        if has_left:
             self._last.place[4], self._instants = 0, min(self._instants, 1)
-        return repeats
+        return repeats, has_left
 
     def _end(self, repeats: bool, box: Box) -> None:
         """The new field was stored: in place of the last one if that was of the same instant."""
@@ -179,11 +182,11 @@ class RollingField:
             self._last, self._before = self._before, self._last
             self._instants = min(self._instants + 1, 2)
 
-    def _expected(self) -> GridWindow | None:
+    def _expected(self, has_left: bool) -> GridWindow | None:
         """Where the contact will be: around the place of the last; None where no field before is of
-        use.
+        use, or a coarser grid has a better start once the road `has_left`.
         """
-        if self._instants == 0 or self._box == NOWHERE:
+        if self._instants == 0 or self._box == NOWHERE or (has_left and self._half is not None):
             return None
         top, bottom, left, right = self._box
         return GridWindow(*widened(self.half_space.rows, self.half_space.cols, top, bottom, left, right))
@@ -196,7 +199,10 @@ class RollingField:
         if half is None:
             self.pressure.fill(0.0)
             return whole
-        half.reset()
+        if self._instants == 0:
+            half.reset()
+        half.roll(self._cells_of_half // 2)
+        self._cells_of_half = 0
         halve(gap, self._gap_of_half)
         solve = half.solve_at_load if request.holds_load else half.solve_at_approach
         solve(self._gap_of_half, request.prescribed, TOLERANCE_OF_HALF, request.max_iterations)

@@ -3,8 +3,8 @@
 From one solution to the next each contact has its tangent law and a height whose correction is
 linear in time (decision 0004). A coupling step is as long as that allows:
 
-* No longer than a part of the footprint, so that no obstacle that the tire passes falls between two
-  fields.
+* No longer than the footprint, half of it where the road is not nearly straight, so that no obstacle
+  that the tire passes falls between two fields.
 * The slopes of the effective-height correction over this coupling step, s1 over h1, and the one
   before, s0 over h0, give its curvature; a straight line misses a parabola of it by
   ``|s1 - s0| h1**2 / (4 (h0 + h1))`` at most. Above the allowed height the coupling step is
@@ -28,7 +28,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
 from contact_sim_pkg.rigs.vehicle.bodies import Bodies, Corrections, CouplingStep, Sampled, Saved
-from contact_sim_pkg.rigs.vehicle.coupling_model import Allowance
+from contact_sim_pkg.rigs.vehicle.coupling_model import STRAIGHT, Allowance
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
 from contact_sim_pkg.rigs.vehicle.entries import FORCES, TIRE_SHEAR, TIRE_SLOPE
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField
@@ -185,9 +185,14 @@ class Coupling:
         if rule.segments is not None:
             return min(rule.segments, left)
         travel = float(numpy.ptp(whole.travel[first : first + left + 1]))
-        longest = self._proposed if travel <= 0.0 else min(self._proposed, left * rule.longest_travel / travel)
-        steps = -(-left // max(1, int(longest)))
-        return -(-left // steps)
+        count = left
+        # The longer way only where the road is nearly straight all along it.
+        for longest in rule.longest:
+            steps = self._proposed if travel <= 0.0 else min(self._proposed, left * longest / travel)
+            count = _even_part(left, steps)
+            if _bend(whole.smooth[first : first + count + 1]) <= STRAIGHT * self._allowances[0].height:
+                break
+        return count
 
     def _advance_step(self, step: CouplingStep, record: BlockRecord) -> bool:
         """Advance by a coupling step; False where a shorter one must be tried from the same
@@ -306,3 +311,17 @@ class Coupling:
             self.bodies.supply(elastic_energy(law, approach + change) - elastic_energy(law, approach))
             jump = abs(elastic_force(law, approach + change) - elastic_force(law, approach))
             record.field_jump = max(record.field_jump, jump)
+
+
+def _even_part(whole: int, most: float) -> int:
+    """A part of ``whole`` segments, at most ``most`` of them and at least one, such that the others are
+    as long.
+    """
+    parts = -(-whole // max(1, int(most)))
+    return -(-whole // parts)
+
+
+def _bend(height: Vector) -> float:
+    """Largest distance [m] of a height [points] [m] from the straight line between its ends."""
+    line = height[0] + (height[-1] - height[0]) / (len(height) - 1) * numpy.arange(len(height))
+    return float(abs(height - line).max())

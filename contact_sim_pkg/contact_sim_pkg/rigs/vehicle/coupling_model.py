@@ -12,13 +12,20 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
-LONGEST = 0.5
-"""Of the standing footprint's length, from one solution of the tire's field to the next: every
-obstacle is felt by two.
+LONGEST = 1.1
+"""Of the standing footprint's length, from one solution of the tire's field to the next, where the
+road is nearly straight: one of them feels every obstacle that is longer than a tenth of it.
 """
 
-LONGEST_LOOSE, LOOSE = 1.0, 0.1
-"""The same where an error of `LOOSE` or more is allowed: every obstacle is felt by one."""
+LONGEST_ROUGH = 0.5
+"""The same where it is not, so that two fields feel an obstacle, and where bristles pass the
+footprint under a pressure that is linear in time.
+"""
+
+STRAIGHT = 3.0
+"""Of the allowed height: a smooth height that bends by less is nearly straight. Of the bend the
+weights of the footprint miss a part only.
+"""
 
 LONGEST_UNIFORM = 0.125
 """The same where the coupling steps cannot be chosen by their error."""
@@ -46,7 +53,7 @@ class CouplingRule(NamedTuple):
 
     tolerance: float  # error of a force over the standing load
     allowances: tuple[Allowance, Allowance]  # of tire and seat
-    longest_travel: float  # [m]
+    longest: tuple[float, float]  # [m] of travel, where the road is nearly straight and where it is not
     shortest: int  # segments: no error alone makes a coupling step shorter
     segments: int | None  # of each coupling step, where all must be equal; None: chosen by the error
 
@@ -70,20 +77,20 @@ def allowance_of(contact: Contact | None, field: FieldGrids | None, load: float,
     )  # fmt: skip
 
 
+def longest_travels(footprint: float | None, has_bristles: bool) -> tuple[float, float]:
+    """Longest ways in [m] of a coupling step over a ``footprint`` [m], which is None without a field
+    on a road: where the road is nearly straight, and elsewhere.
+    """
+    if footprint is None:
+        return math.inf, math.inf
+    return footprint * (LONGEST_ROUGH if has_bristles else LONGEST), footprint * LONGEST_ROUGH
+
+
 def shortest_time(allowance: Allowance) -> float:
     """Time in [s] over which the solver's error of a height is no more than the allowed speed; at
     most `SHORTEST_FOR_NOISE`.
     """
     return min(allowance.noise / allowance.speed, SHORTEST_FOR_NOISE)
-
-
-def longest_travel(footprint: float | None, tolerance: float) -> float:
-    """Longest way in [m] of a coupling step over a ``footprint`` [m], which is None without a field
-    on a road.
-    """
-    if footprint is None:
-        return math.inf
-    return footprint * (LONGEST_LOOSE if tolerance >= LOOSE else LONGEST)
 
 
 def highest_speed(scene: ResolvedScene) -> float:

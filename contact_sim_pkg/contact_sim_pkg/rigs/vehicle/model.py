@@ -20,7 +20,7 @@ from contact_sim_pkg.rigs.vehicle.coupling_model import (
     CouplingRule,
     allowance_of,
     coupled_timing,
-    longest_travel,
+    longest_travels,
     shortest_time,
 )
 from contact_sim_pkg.rigs.vehicle.lattice import field_settings, occupant_mass, standing_load
@@ -31,7 +31,14 @@ from contact_sim_pkg.rigs.vehicle.seat.lean import Lean, build_back, interface_a
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OccupantModel
 from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap, shape_of
 from contact_sim_pkg.rigs.vehicle.tire import schema as tire_schema
-from contact_sim_pkg.rigs.vehicle.tire.model import Asperities, RollingFriction, TireGeometry, Tread, build_tire
+from contact_sim_pkg.rigs.vehicle.tire.model import (
+    Asperities,
+    RollingFriction,
+    TireGeometry,
+    TireParts,
+    Tread,
+    build_tire,
+)
 from contact_sim_pkg.run.contact_laws import Cushion, elastic_law, friction, hysteresis, normal_loss
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
@@ -117,20 +124,18 @@ def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
             (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
             default=0,
         ),
-        coupling=_coupling(
-            scene, rig, footprint, timing, (tire_field, seat_field), None if tire is None else tire.tread
-        ),
+        coupling=_coupling(scene, rig, footprint, timing, (tire_field, seat_field), tire),
         shaken=scene.vibration is not None,
     )
 
 
 def _coupling(
-    scene: ResolvedScene, rig: Vehicle, footprint: float | None, timing: Timing, fields: Fields, tread: Tread | None
+    scene: ResolvedScene, rig: Vehicle, footprint: float | None, timing: Timing, fields: Fields, tire: TireParts | None
 ) -> CouplingRule | None:
     """Rule for the coupling steps between two solutions of the fields.
 
-    ``footprint`` [m] is None without a field on a road. The steps of a viscoelastic ``tread`` are
-    its own.
+    ``footprint`` [m] is None without a field on a road. The steps of a viscoelastic tread are its
+    own.
     """
     if fields == (None, None):
         return None
@@ -143,9 +148,10 @@ def _coupling(
         allowance_of(rig.tire_contact, fields[0], tire_load, tolerance),
         allowance_of(rig.seat_contact, fields[1], seat_load, tolerance),
     )
-    segments = None if tread is None else round(tread.step / timing.segment_length)
+    segments = None if tire is None or tire.tread is None else round(tire.tread.step / timing.segment_length)
     shortest = max(1, round(max(map(shortest_time, allowances)) / timing.segment_length))
-    return CouplingRule(tolerance, allowances, longest_travel(footprint, tolerance), shortest, segments)
+    longest = longest_travels(footprint, tire is not None and tire.rolling_friction is not None)
+    return CouplingRule(tolerance, allowances, longest, shortest, segments)
 
 
 def _seat(scene: ResolvedScene, occupant: OccupantModel, lean: Lean | None, offset: int) -> Seat:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-from contact_sim_pkg.scene.schema.accuracy import level_of
+from contact_sim_pkg.scene.schema.accuracy import FASTEST, level_of, requested
 from contact_sim_pkg.scene.schema.fields import Section, number
 
 if TYPE_CHECKING:
@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from contact_sim_pkg.scene.schema.scene import Scene
 
 MOST_CELLS_A_SIDE = 65536
+
+LOOSER = 3.0
+"""Factor on the tolerance of the least expensive level where an error of `FASTEST` or more is allowed."""
 
 
 class GridSection(NamedTuple):
@@ -56,7 +59,10 @@ class PressureFieldSection(Section):
         return cls.levels
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
-        return self.levels_of(scene)[level_of(scene.accuracy)]._asdict()
+        level = self.levels_of(scene)[level_of(scene.accuracy)]
+        if requested(scene.accuracy) >= FASTEST:
+            level = level._replace(tolerance=LOOSER * level.tolerance)
+        return level._asdict()
 
     def cells(self, scene: Scene) -> tuple[int, int]:
         """Rows and cols: as given, else those of the level."""

@@ -16,9 +16,9 @@ from contact_sim_pkg.records.contact import LOOSEST_INTEGRATION, Contact
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.registry import contacts, effects
 from contact_sim_pkg.records.rig import load
-from contact_sim_pkg.scene.schema.accuracy import LEVELS, Level
+from contact_sim_pkg.scene.schema.accuracy import FASTEST, LEVELS, Level
 from contact_sim_pkg.scene.schema.catalog import Entry, Location, catalog, show
-from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
+from contact_sim_pkg.scene.schema.pressure_field import LOOSER, PressureFieldSection
 
 BEGIN = "<!-- tables made from the schema: begin -->"
 END = "<!-- tables made from the schema: end -->"
@@ -146,7 +146,8 @@ def _accuracy() -> str:
         for contact, grid in ((contact, field.levels[place]) for contact, field in fields.items())
     ]
     loosest = {contact.name: contact.loosest_integration({}) for contact in contacts().values()}
-    note = "The relative tolerance of the time integration is a hundredth of the requested error,\n"
+    note = f"With {FASTEST:g} or realtime the field tolerance is {LOOSER:g} times that of the first rows.\n\n"
+    note += "The relative tolerance of the time integration is a hundredth of the requested error,\n"
     note += f"at most {LOOSEST_INTEGRATION:g}; that of a rigid body at most {min(loosest.values()):g}."
     return "\n".join([head, *rows, "", note])
 

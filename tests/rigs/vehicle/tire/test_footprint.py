@@ -31,19 +31,42 @@ def test_a_plane_has_the_height_under_the_wheel():
     assert heights(0.2 * ALONG + 0.1 * ACROSS + 0.01) == pytest.approx(0.2 * PLACES + 0.01, abs=1e-7)
 
 
-def test_a_parabola_is_raised_by_the_second_moment_of_the_hertz_pressure():
-    """The mean of x**2 under the pressure of semi-axis a is a**2 / 5; the nodes leave 1 % of it, straight lines 3 um."""
+def moments(power):
+    """Difference of the ``power`` of 1.2 and 0.8: footprints a fifth of the approach apart from the standing one."""
+    return 1.2**power - 0.8**power
+
+
+def test_a_parabola_is_raised_as_far_as_two_hertz_contacts_say():
+    """The mean of x**2 over sqrt(s - (x/a)**2 - (y/b)**2) is s a**2 / 5, its weight s**1.5; nodes leave 1 % of it."""
+    mean = 0.06**2 / 5.0 * moments(2.5) / moments(1.5)
     assert heights(0.5 * (ALONG - 0.4) ** 2) == pytest.approx(
-        0.5 * (PLACES - 0.4) ** 2 + 0.1 * 0.06**2, abs=0.01 * 0.1 * 0.06**2 + 0.125 * CELL**2
+        0.5 * (PLACES - 0.4) ** 2 + 0.5 * mean, abs=0.01 * mean + 0.125 * CELL**2
     )
 
 
+def test_a_hertz_contact_answers_to_a_road_as_to_its_own_curvature():
+    """A road with the curvature c (x**2 + y**2) / 2 makes 1/R of a sphere 1/R - c; at a constant load its
+    approach, (3 F / 4 E)**(2/3) R**(-1/3), then falls by c a**2 / 3. The range of the weights leaves 1 %, the nodes 1 %."""
+    a, cols = 0.06, 41
+    weights = hertz_weights(a, a, CELL, CELL, cols)
+    x = CELL * (numpy.arange(len(weights)) - len(weights) // 2)
+    y = CELL * (numpy.arange(cols) - cols // 2)
+    raised = float((weights * 0.5 * (x[:, None] ** 2 + y**2)).sum())
+    assert raised == pytest.approx(a**2 / 3.0, rel=0.02)
+
+
 def test_a_wall_comes_without_jerks_between_the_nodes():
-    """The share of Hertz's pressure beyond x is (1/2 - 3/4 u + 1/4 u**3), of slope 3/4 (1 - u**2) / a at most."""
+    """Along x a Hertz contact s weighs as s - (x/a)**2: two of them evenly where both are, 0.4 / 0.7987 / a."""
     height = heights(0.1 * (ALONG > 0.4))
-    u = numpy.clip((0.4 + 0.5 * CELL - PLACES) / 0.06, -1.0, 1.0)
-    assert height == pytest.approx(0.1 * (0.5 - 0.75 * u + 0.25 * u**3), abs=0.001)
-    assert numpy.diff(height).max() / numpy.diff(PLACES)[0] < 1.03 * 0.1 * 0.75 / 0.06
+    u = (0.4 + 0.5 * CELL - PLACES) / 0.06
+
+    def beyond_u(s):
+        at = numpy.clip(u, -math.sqrt(s), math.sqrt(s))
+        return 2.0 / 3.0 * s**1.5 - s * at + at**3 / 3.0
+
+    whole = 4.0 / 3.0 * moments(1.5)
+    assert height == pytest.approx(0.1 * (beyond_u(1.2) - beyond_u(0.8)) / whole, abs=0.002)
+    assert numpy.diff(height).max() / numpy.diff(PLACES)[0] < 1.1 * 0.1 * 0.4 / whole / 0.06
 
 
 def test_a_lattice_that_does_not_hold_the_footprint_is_reported():
@@ -105,6 +128,11 @@ def test_a_straight_road_is_left_alone():
 def test_an_edge_does_not_stand_out_over_both_ends():
     height = between(EDGE, 0.0, 0.5)  # both ends at 0: the tire still stands on the edge
     assert abs(height).max() < 1e-12
+
+
+def test_a_correction_the_same_way_as_the_road_leaves_its_form():
+    height = between(EDGE, 0.0, -0.1)
+    assert height == pytest.approx(EDGE - 0.1 * PLACE)
 
 
 def test_a_bump_inside_the_interval_is_kept():

@@ -1,10 +1,17 @@
-"""The height that a smooth tire sees: the road averaged with the pressure of the footprint.
+"""The height that a smooth tire sees: the road averaged with the weights of the footprint.
 
-By the reciprocal theorem (Betti) a small roughness h(x, y) under a contact of fixed pressure p
-changes the approach by ``integral(p h) / integral(p)``: exact to first order in h. The weights are
-the pressure of the standing load: from the table of an inflated tire, or Hertz's ``sqrt(1 - (x/a)^2
-- (y/b)^2)``. It drives the point contact everywhere, and between two field instants it determines
-how the effective height changes with the travel; at the instants the pressure field itself decides.
+In contact ``K p = d - g + h``, with the approach d and a small roughness h(x, y). Both raise the
+load in the same way, ``dF = sum K^-1 1 (dd + dh)`` over the cells in contact, so at a constant load
+the height changes by ``sum w h``, ``w = dp/dF``: exact to first order in h. These are not the
+pressures p themselves, with which a roughness changes the elastic energy. A tire takes more load by
+a longer footprint, so the weights lie at its ends: the two-point follower of Pacejka, Tire and
+Vehicle Dynamics, 4.2.
+
+Instead of the derivative the difference of two footprints is taken, at approaches `RANGE` more and
+less than the standing one: a road moves the ends of the footprint as far as that. They come from
+the table of an inflated tire, or from Hertz. The height drives the point contact everywhere, and
+between two field instants it determines how the effective height changes with the travel; at the
+instants the pressure field itself decides.
 """
 
 from __future__ import annotations
@@ -22,17 +29,26 @@ from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 Heights = NDArray[numpy.float32]
 Pressures = NDArray[numpy.float64]
 
+RANGE = 0.2
+"""Of the standing approach: footprints at so much more and less make the weights."""
+
+CANCELLED = 2.0
+"""Factor on the part of the smooth height's change that a correction cancels."""
+
 
 def hertz_weights(semi_axis_x: float, semi_axis_y: float, cell_x: float, cell_y: float, cols: int) -> Pressures:
-    """Hertz pressure on the nodes of a road around its middle, [odd rows, cols], of sum 1.
+    """Weights of a Hertz contact on the nodes of a road around its middle, [odd rows, cols], of sum 1:
+    differences of ``sqrt(d (d/d0 - (x/a)^2 - (y/b)^2))`` between two approaches d.
 
-    semi_axis_x, semi_axis_y: of the footprint [m]; cell_x, cell_y: spacing of the nodes [m].
+    semi_axis_x, semi_axis_y: a, b of the footprint [m] at the approach d0; cell_x, cell_y: spacing of
+    the nodes [m].
     """
-    reach = int(semi_axis_x / cell_x) + 1
+    reach = int(math.sqrt(1.0 + RANGE) * semi_axis_x / cell_x) + 1
     u = (numpy.arange(2 * reach + 1) - reach) * cell_x / semi_axis_x
     v = (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y / semi_axis_y
-    weights = numpy.sqrt(numpy.maximum(0.0, 1.0 - u[:, None] ** 2 - v[None, :] ** 2))
-    return numpy.asarray(weights / weights.sum())
+    place = u[:, None] ** 2 + v[None, :] ** 2
+    more, less = (numpy.sqrt(numpy.maximum(0.0, ratio - place)) for ratio in (1.0 + RANGE, 1.0 - RANGE))
+    return numpy.asarray((more - less) / (more - less).sum())
 
 
 @entry
@@ -207,15 +223,19 @@ def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vec
     smooth: smooth height [points] [m]; offset, offset_end: effective-height corrections [m] at the
     ends, linear between. What the smooth height has beside a straight line is right to first order
     in the roughness only: at an edge it falls in a curve where the tire, which stands on the edge,
-    does not, and the correction cancels nearly all of it. So its factor is ``1 - 4 |change of
-    correction| / range of smooth``, and 0 from a quarter on.
+    does not, and the correction cancels nearly all of it. So its factor is ``1 - CANCELLED r``, at
+    least 0, with r the part of the change of the smooth height that the correction cancels; times
+    the range of the smooth height over the change of the correction, where that is less than 1.
     """
     last = smooth.shape[0] - 1
     highest, lowest = smooth[0], smooth[0]
     for i in range(1, last + 1):
         highest, lowest = max(highest, smooth[i]), min(lowest, smooth[i])
     span, change = highest - lowest, offset_end - offset
-    kept = max(0.0, 1.0 - 4.0 * abs(change) / span) if span > 0.0 else 0.0
+    cancelled = -change * (smooth[last] - smooth[0]) / (span * span) if span > 0.0 else 0.0
+    kept = max(0.0, 1.0 - CANCELLED * max(0.0, cancelled))
+    if abs(change) > span:
+        kept *= span / abs(change)
     for i in range(last + 1):
         # The straight line stays, the rest is reduced.
         part = i / last

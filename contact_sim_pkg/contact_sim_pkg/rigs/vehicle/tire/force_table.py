@@ -21,6 +21,7 @@ from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle import contact_field
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm
+from contact_sim_pkg.rigs.vehicle.tire.footprint import RANGE
 
 __all__ = ["TireTable", "gap_over_level_road", "tire_table"]
 
@@ -56,21 +57,28 @@ class TireTable(NamedTuple):
         return length, width, area
 
     def weights(self, load: float, cells: tuple[float, float], cols: int) -> Field:
-        """The footprint under a ``load`` [N] on nodes of a road, [2 reach + 1, cols], of sum 1.
+        """Weights of the road under a ``load`` [N] on its nodes, [2 reach + 1, cols], of sum 1; see
+        ``footprint.py``.
 
         cells: their spacing [m] along and across; the middle of rows and of ``cols`` lies under the
         wheel.
         """
-        place = tabulated_approach_of_force(self.law(), load) / self.spacing / MAP_EVERY
-        i = min(int(place), len(self.quarters) - 2)
-        part = min(place - i, 1.0)
-        quarter = (1.0 - part) * self.quarters[i].astype(numpy.float64) + part * self.quarters[i + 1]
-        rows = numpy.flatnonzero(quarter.any(axis=1))
+        deepest = (len(self.quarters) - 1) * MAP_EVERY * self.spacing
+        approach = min(tabulated_approach_of_force(self.law(), load), deepest / (1.0 + RANGE))
+        more, less = self._quarter((1.0 + RANGE) * approach), self._quarter((1.0 - RANGE) * approach)
+        rows = numpy.flatnonzero(more.any(axis=1))
         reach = int((rows[-1] + 1) * self.cell[0] / cells[0]) + 1
         x = abs(numpy.arange(2 * reach + 1) - reach) * cells[0] / self.cell[0]
         y = abs(numpy.arange(cols) - 0.5 * (cols - 1)) * cells[1] / self.cell[1] - 0.5
-        found = _between(_between(quarter, x).T, y).T
+        found = _between(_between(more - less, x).T, y).T
         return numpy.ascontiguousarray(found / found.sum())
+
+    def _quarter(self, approach: float) -> Field:
+        """Quarter of the footprint [Pa] at an ``approach`` [m]."""
+        place = approach / self.spacing / MAP_EVERY
+        i = min(int(place), len(self.quarters) - 2)
+        part = min(place - i, 1.0)
+        return numpy.asarray((1.0 - part) * self.quarters[i].astype(numpy.float64) + part * self.quarters[i + 1])
 
 
 def _between(values: Field, place: Field) -> Field:
