@@ -231,3 +231,39 @@ def test_the_accuracy_study_finds_errors_that_fall_with_cells_and_spacing():
         assert errors[1] < 0.01
         assert errors[-1] < finest
     assert cushion_rows(resolved("seat_ride", "effects.seat={normal_elastic: {}}"), lambda _sentence: None) == []
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"modulus": 1e6},
+        {"modulus": 1e6, "plateau": 1e5},
+        {"modulus": 1.01e5, "plateau": 1e5},
+        {"hardness": 1e5},
+        {"hardness": 1e5, "thickness": 0.02},
+    ],
+)
+def test_the_hardest_cushion_is_right_on_the_cells_of_one_per_cent(values):
+    """Force at the sink at which cells of 2.5 mm carry the load of the default occupant."""
+    from contact_sim_pkg.rigs.vehicle.seat.cushion import pan_layer
+    from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion
+
+    keys = SeatCushion(percentile=50, cell=0.01, **{"thickness": 0.1, **values})
+    fine = pan_layer(keys.model_copy(update={"cell": 0.0025}))
+    exact = fine.solve(0.008)
+    for _ in range(8):
+        exact = fine.solve(exact.approach + (498.0 - exact.force) / fine.tangent(exact), exact)
+    assert exact.force == pytest.approx(498.0, rel=1e-4)
+    assert pan_layer(keys).solve(exact.approach).force == pytest.approx(exact.force, rel=5e-3)
+
+
+@pytest.mark.parametrize("value", ["modulus=1e7", "plateau=2e5", "hardness=2e5", "densification=1e5"])
+def test_a_cushion_harder_than_its_cells_allow_is_refused(value):
+    with pytest.raises(SceneError, match=r"effects\.seat\.cushion\." + value.split("=")[0]):
+        resolved("seat_drop", f"effects.seat.cushion.{value}")
+
+
+def test_a_hardness_that_scales_the_modulus_beyond_its_range_is_refused():
+    values = ("effects.seat.cushion.modulus=1e6", "effects.seat.cushion.hardness=1e5")
+    with pytest.raises(SceneError, match=r"seat\.cushion\.hardness: scales the modulus to .* Pa, 1e\+06 Pa at most"):
+        build(resolved("seat_drop", *values))

@@ -9,6 +9,7 @@ from pydantic import Field
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.scene.schema.fields import Section, number
 from contact_sim_pkg.scene.schema.laws import (
+    STIFFEST,
     THICKEST,
     USUAL_PERCENTILE,
     CushionSection,
@@ -100,12 +101,16 @@ class BackCushion(CushionSection):
 
     thickness: float = number(0.02, THICKEST, "m", "thickness of the unloaded foam", default=0.05)
     modulus: float = number(
-        100.0, 1e9, "Pa", "Young's modulus of the foam at first contact, above plateau; 20 to 100 kPa", default=3.0e4
+        100.0,
+        STIFFEST,
+        "Pa",
+        "Young's modulus of the foam at first contact, above plateau; 20 to 100 kPa",
+        default=3.0e4,
     )
     plateau: float = number(
-        10.0, 1e8, "Pa", "stress of the plateau; with the other defaults 4.0 kPa at 40 % strain", default=2.2e3
+        10.0, 1e5, "Pa", "stress of the plateau; with the other defaults 4.0 kPa at 40 % strain", default=2.2e3
     )
-    densification: float = number(0.0, 1e8, "Pa", "stress scale of the densification", default=60.0)
+    densification: float = number(0.0, 1e4, "Pa", "stress scale of the densification", default=60.0)
     lumbar_support: float = number(0.0, 0.04, "m", "depth of the bulge under the lumbar spine; 0: none", default=0.0)
     lumbar_height: float = number(
         0.05, 0.4, "m", "height of its middle over the lower edge of the seat back", default=0.20

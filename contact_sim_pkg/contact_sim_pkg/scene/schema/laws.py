@@ -18,6 +18,9 @@ USUAL_PERCENTILE = 50
 THICKEST = 0.2
 """[m] of a cushion."""
 
+STIFFEST = 1e6
+"""[Pa] modulus of a cushion; under a person a harder one touches too few cells of its map."""
+
 USUAL_REVERSAL = 1.0
 """[J] of a foam's hysteresis, where a scene names none."""
 
@@ -79,15 +82,19 @@ class CushionSection(Section):
     )
     thickness: float = number(0.02, THICKEST, "m", "thickness of the unloaded foam", default=0.08)
     modulus: float = number(
-        100.0, 1e9, "Pa", "Young's modulus of the foam at first contact, above plateau; 20 to 100 kPa", default=4.5e4
+        100.0,
+        STIFFEST,
+        "Pa",
+        "Young's modulus of the foam at first contact, above plateau; 20 to 100 kPa",
+        default=4.5e4,
     )
     plateau: float = number(
-        10.0, 1e8, "Pa", "stress of the plateau; with the other defaults 6.1 kPa at 40 % strain", default=3.4e3
+        10.0, 1e5, "Pa", "stress of the plateau; with the other defaults 6.1 kPa at 40 % strain", default=3.4e3
     )
-    densification: float = number(0.0, 1e8, "Pa", "stress scale of the densification", default=80.0)
+    densification: float = number(0.0, 1e4, "Pa", "stress scale of the densification", default=80.0)
     densification_exponent: float = number(0.1, 20.0, "", "r: stress grows as l^(-r-1), l = 1 - strain", default=3.0)
     hardness: float | None = number(
-        100.0, 1e6, "Pa", "stress at 40 % strain (ISO 3386-1): scales the three stresses together; none: as they are",
+        100.0, 1e5, "Pa", "stress at 40 % strain (ISO 3386-1): scales the three stresses together; none: as they are",
         default=None,
     )  # fmt: skip
     shear_share: float = number(
