@@ -14,6 +14,7 @@ from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.records.messages import SolverCost
+from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
 from contact_sim_pkg.run import offline
 from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.rigs import make_simulation
@@ -24,6 +25,7 @@ from contact_sim_pkg.scene.load import shipped_names
 
 GENERAL = "effects.backrest.general_dissipative"
 DAMPER = (f"{GENERAL}.restitution=null", f"{GENERAL}.reference_speed=null", f"{GENERAL}.coefficient=1e12")
+SEAT_LOSS, SEAT_GENERAL = "effects.seat.normal_dissipative=null", "effects.seat.general_dissipative"
 ON_A_HALF_SPACE = ("effects.seat={normal_elastic: {}, half_space_field: {rows: 512, cols: 512}}",)
 
 
@@ -31,6 +33,7 @@ ON_A_HALF_SPACE = ("effects.seat={normal_elastic: {}, half_space_field: {rows: 5
     ("scene", "values", "cause"),
     [
         ("seat_general", DAMPER, "backrest.general_dissipative"),
+        ("seat_ride", (SEAT_LOSS, f"{SEAT_GENERAL}.coefficient=1e12"), "seat.general_dissipative"),
         ("block_fall", ("block.mass=1e6", "block.torque=[0,1e12,0]"), "spins"),
         ("box_3d_tumble", ("duration=60", "block.angular_velocity=[0,0,1e6]"), "spins"),
         ("roller_corrugation", ("roller.radius=100",), "turns of the track"),
@@ -55,6 +58,18 @@ def test_nothing_is_reported_of_a_shipped_scene(name):
     scene = resolved(name)
     assert refuse_long(scene, allowed=False) == ""
     assert sum(part.seconds for part in estimated_work(scene)) < BOUND
+
+
+def test_a_loss_is_estimated_at_the_depth_of_the_law_that_carries():
+    """A nearly linear foam without densification: force S E x / h, loss B x^2 v; foam takes the place of a stiff power law."""
+    foam = "{area: 1, thickness: 2, modulus: 1e6, plateau: 999999, densification: 0}"
+    laws = f"{{normal_elastic: {{coefficient: 1e9}}, foam: {foam}, general_dissipative: {{approach_exponent: 2}}}}"
+    scene = resolved("seat_ride", f"effects.seat={laws}", f"{SEAT_GENERAL}.coefficient=1e12")
+    model = scene.section(SeatSection).occupant.model_of()
+    depth = model.mass * 9.80665 * 2.0 / 1e6
+    expected = 1e12 * depth**2 / (model.masses[0] or model.mass) / 3.3 * scene.duration
+    found = {part.what: part.number for part in estimated_work(scene)}
+    assert found["steps of the integrator for seat.general_dissipative"] == pytest.approx(expected, rel=0.01)
 
 
 def test_the_time_that_a_run_lasts_anyway_is_no_reason_to_refuse_it():

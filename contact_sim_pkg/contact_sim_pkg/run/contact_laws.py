@@ -30,6 +30,7 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.schema.laws import (
+    STIFFEST,
     THICKEST,
     CushionSection,
     Foam,
@@ -164,8 +165,10 @@ def layer_under(keys: CushionSection, body: PressingBody) -> FoamLayer:
 def build_cushion(contact: str, keys: CushionSection, load: float, body: PressingBody) -> Cushion:
     """Table of the cushion of a contact, kept from an earlier run or computed.
 
-    load: [N] at rest. Raises SceneError where the cushion does not carry it within its range.
+    load: [N] at rest. Raises SceneError where the cushion does not carry it within its range, or its
+    hardness scales the modulus beyond STIFFEST.
     """
+    _refuse_modulus(contact, foam_of(keys).modulus)
     spacing = min(MOST_SPACING, keys.thickness / LEAST_NODES)
     place, cell = (float(body.x[0]), float(body.y[0])), given(keys.cell)
     grid = len(body.x), len(body.y), cell, place
@@ -187,6 +190,13 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
     table = kept_table(description, compute)
     _refuse_load(contact, keys, table, load)
     return Cushion(table, table.law(), (cell, cell, *place))
+
+
+def _refuse_modulus(contact: str, modulus: float) -> None:
+    """A modulus that the hardness has scaled beyond its range."""
+    if modulus > STIFFEST:
+        sentence = f"scales the modulus to {modulus:.4g} Pa, {STIFFEST:g} Pa at most is allowed; take a softer cushion"
+        raise SceneError([Fault("scene", 0, 0, f"effects.{contact}.cushion.hardness", sentence)])
 
 
 def _refuse_load(contact: str, keys: CushionSection, table: ForceTable, load: float) -> None:

@@ -8,13 +8,16 @@ damper (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.2).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from contact_sim_pkg.records.work import STEP_COST, Work
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.laws import FrictionSection, GeneralDissipation, HuntCrossley, PowerLaw
 from contact_sim_pkg.scene.timing import make_timing
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.run.contact_laws import Cushion
 
 __all__ = ["Link", "integrator_steps", "links_of_laws", "power_law_link", "segments"]
 
@@ -46,28 +49,49 @@ def integrator_steps(
         yield Work(f"steps of the integrator for {contact}.{link.name}", rate * scene.duration, cost)
 
 
-def links_of_laws(scene: ResolvedScene, contact: str, mass: float, load: float) -> Iterator[Link]:
+def links_of_laws(
+    scene: ResolvedScene, contact: str, mass: float, load: float,
+    build_cushion: Callable[[ResolvedScene, float], Cushion | None],
+) -> Iterator[Link]:  # fmt: skip
     """The laws of a contact as springs and dampers of the ``mass`` [kg], linear at the ``load`` [N]
     at rest.
+
+    build_cushion: scene, load -> its foam cushion, None where it has none; called for where a loss
+    depends on the depth. Errors as those of ``build_cushion``.
     """
-    elastic = scene.effect(contact, PowerLaw)
-    depth = 0.0 if elastic is None else (load / elastic.coefficient) ** (1.0 / elastic.exponent)
     for record, keys in scene.effects_at(contact):
-        yield Link(record.name, mass, *_tangent(keys, load, depth))
+        if isinstance(keys, PowerLaw) and load > 0.0:
+            yield power_law_link(record.name, mass, load, keys.coefficient, keys.exponent)
+        elif isinstance(keys, GeneralDissipation) and load > 0.0:
+            yield Link(record.name, mass, 0.0, _damping(keys, _depth(scene, contact, load, build_cushion)))
+        else:
+            yield Link(record.name, mass, *_tangent(keys, load))
 
 
-def _tangent(law: Any, load: float, depth: float) -> tuple[float, float]:
-    """Stiffness [N/m] and damping [N s/m] of a law at its ``load`` [N] and ``depth`` [m]."""
+def _depth(
+    scene: ResolvedScene, contact: str, load: float, build_cushion: Callable[[ResolvedScene, float], Cushion | None]
+) -> float:
+    """Approach [m] at the ``load`` [N] of the elastic law that carries it."""
+    from contact_sim_pkg.laws.elastic_law import approach_of_force  # brings the compiler
+    from contact_sim_pkg.run.contact_laws import elastic_law
+
+    cushion = build_cushion(scene, load)
+    return approach_of_force(elastic_law(scene, contact) if cushion is None else cushion.law, load)
+
+
+def _damping(law: GeneralDissipation, depth: float) -> float:
+    """Slope [N s/m] over the rate at a ``depth`` [m]; 0 of a law by its restitution."""
+    power = law.rate_exponent
+    slope: float = (law.coefficient or 0.0) * depth**law.approach_exponent * max(power, 1.0) * SPEED ** (power - 1.0)
+    return slope
+
+
+def _tangent(law: Any, load: float) -> tuple[float, float]:
+    """Stiffness [N/m] and damping [N s/m] of a law at its ``load`` [N]."""
     if isinstance(law, FrictionSection):
         return law.stiffness, law.damping
-    if load > 0.0:
-        if isinstance(law, PowerLaw):
-            return law.exponent * load / depth, 0.0
-        if isinstance(law, HuntCrossley):
-            return 0.0, (law.damping or 0.0) * load
-        if isinstance(law, GeneralDissipation) and law.coefficient is not None:
-            power = law.rate_exponent
-            return 0.0, law.coefficient * depth**law.approach_exponent * max(power, 1.0) * SPEED ** (power - 1.0)
+    if isinstance(law, HuntCrossley):
+        return 0.0, (law.damping or 0.0) * max(load, 0.0)
     return 0.0, 0.0
 
 

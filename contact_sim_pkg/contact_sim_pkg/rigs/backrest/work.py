@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from contact_sim_pkg.records.work import STEP_COST, Work
+from contact_sim_pkg.rigs.backrest.cushion import build_back_cushion
 from contact_sim_pkg.rigs.backrest.schema import BackrestSection, ShellModesSection
 from contact_sim_pkg.run.integrator_work import integrator_steps, links_of_laws, segments
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -27,4 +28,5 @@ def back_steps(scene: ResolvedScene) -> Iterator[Work]:
     if shell is not None:
         cost += POINT_COST * shell.modes * shell.points_up * shell.points_across
     load = float(backrest.preload or 0.0)
-    yield from integrator_steps(scene, "backrest", links_of_laws(scene, "backrest", given(backrest.mass), load), cost)
+    laws = links_of_laws(scene, "backrest", given(backrest.mass), load, build_back_cushion)
+    yield from integrator_steps(scene, "backrest", laws, cost)

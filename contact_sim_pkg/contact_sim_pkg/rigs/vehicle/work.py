@@ -24,18 +24,20 @@ def work_of_tire(scene: ResolvedScene) -> Iterator[Work]:
 def work_of_seat(scene: ResolvedScene) -> Iterator[Work]:
     """Segments and steps of an occupant on a seat."""
     yield segments(scene)
-    yield from seat_steps(scene)
+    yield from seat_steps(scene, _weight(scene))
 
 
 def work_of_car(scene: ResolvedScene) -> Iterator[Work]:
     """Segments and steps of both."""
     yield segments(scene)
     yield from tire_steps(scene)
-    yield from seat_steps(scene)
+    yield from seat_steps(scene, _weight(scene))
 
 
-def seat_steps(scene: ResolvedScene) -> Iterator[Work]:
-    """Steps of the occupant and of its contact with the cushion."""
+def seat_steps(scene: ResolvedScene, load: float) -> Iterator[Work]:
+    """Steps of the occupant and of its contact with the cushion, which bears ``load`` [N] at rest."""
+    from contact_sim_pkg.rigs.vehicle.seat.cushion import build_pan_cushion  # brings the compiler
+
     occupant = scene.section(SeatSection).occupant.model_of()
     # A massless interface moves with what hangs on it, and makes nothing faster.
     masses = [mass or occupant.mass for mass in occupant.masses]
@@ -43,8 +45,13 @@ def seat_steps(scene: ResolvedScene) -> Iterator[Work]:
         Link("occupant", min(masses[link.lower], masses[link.upper]), link.stiffness, link.damping)
         for link in occupant.links
     ]
-    laws = links_of_laws(scene, "seat", masses[0], occupant.mass * GRAVITY)
+    laws = links_of_laws(scene, "seat", masses[0], load, build_pan_cushion)
     yield from integrator_steps(scene, "seat", [*links, *laws])
+
+
+def _weight(scene: ResolvedScene) -> float:
+    """Of the occupant [N]."""
+    return scene.section(SeatSection).occupant.model_of().mass * GRAVITY
 
 
 def tire_steps(scene: ResolvedScene) -> Iterator[Work]:
