@@ -1,11 +1,15 @@
 """Sitters by percentile on pan and back: bands for areas, pressures and sinkage, and regression of this project's tables."""
 
+import math
+
 import numpy
 import pytest
 from scipy.ndimage import label
 from tests.pressure.cushion.cushions import SENSITIVITY, back_layer, figures, pan_layer, under
 
+from contact_sim_pkg.pressure.cushion import bonded_layer, sitter
 from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, LumbarSupport, back_gap, pan_gap
+from contact_sim_pkg.pressure.field import belt
 
 PAN_TABLE = {  # sink mm, stiffness kN/m, area cm^2, peak kPa, mean kPa
     (50, 498.0): (39.4, 22.0, 1096, 10.6, 4.54),
@@ -105,3 +109,39 @@ def test_the_gap_is_over_the_lowest_point_wherever_the_cells_lie():
     assert fine[::2, ::2] == pytest.approx(coarse, abs=2e-5)
     back = back_gap(sitter, LumbarSupport(), x, y)
     assert 0.0 <= back.min() < 1e-3
+
+
+ROW = numpy.linspace(-0.1, 0.1, 5)
+
+
+@pytest.mark.parametrize(
+    ("call", "named"),
+    [
+        *(
+            (lambda tilt=tilt: sitter.pan_gap(sitter.PERCENTILES[50], ROW, ROW, tilt), "tilt")
+            for tilt in (math.nan, math.inf, 10.0)
+        ),
+        *(
+            (lambda row=row: sitter.pan_gap(sitter.PERCENTILES[50], row, ROW), "x")
+            for row in (ROW[:0], ROW[:1], -ROW, 1e3 * ROW)
+        ),
+        *((lambda mass=mass: sitter.pan_weight(sitter.Sitter(mass, 1.0, 1.0)), "mass") for mass in (math.nan, -1.0)),
+        (lambda: sitter.back_gap(sitter.PERCENTILES[50], sitter.LumbarSupport(math.nan), ROW, ROW), "depth"),
+        (lambda: bonded_layer.layer_influence(ROW, 0.1, math.nan), "modulus"),
+        *(
+            (lambda along=along: belt.stiffness_of_belt(along), "belt")
+            for along in (ROW[:0], 0.0 * ROW, math.nan * ROW)
+        ),
+    ],
+)
+def test_what_cannot_be_computed_is_refused_by_name(call, named):
+    with pytest.raises(ValueError, match=f"{named}.* needed") as refused:
+        call()
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("inextensible", [False, True])
+def test_the_influence_of_the_shortest_wave_falls_as_that_of_a_half_space(inextensible):
+    """(1 - nu)/(G q), with a cover times (3 - 4 nu)/(4 (1 - nu)^2): nu = 0, G = E/2."""
+    found = bonded_layer.layer_influence(numpy.array([1e300]), 0.1, 2e4, inextensible=inextensible)
+    assert found[0] == pytest.approx((0.75 if inextensible else 1.0) / (1e4 * 1e300), rel=1e-12, abs=0.0)

@@ -170,14 +170,14 @@ def check_contact(found, gap, pressure, tolerance):
     assert pressure.sum() * 2e-3 * 2.5e-3 == close(found.load, rel=1e-12)
 
 
-@holds(field_solver.solve_at_load, **SOLVER, load=st.just(0.0) | positive(0.01, 5.0), **LIMITS, refused=refused,
+@holds(field_solver.solve_at_load, **SOLVER, load=st.just(0.0) | positive(0.01, 5.0), **LIMITS, infinite=True, refused=refused,
        outside=({"tolerance": -1e-9}, {"load": -1.0}, {"gap": numpy.zeros((10, 12))}, {"max_iterations": 1.5}))  # fmt: skip
 def _(found, half_space, workspace, gap, load, tolerance, max_iterations, pressure):
     check_contact(found, gap, pressure, tolerance)
     assert found.load == close(load, rel=1e-9)
 
 
-@holds(field_solver.solve_at_approach, **SOLVER, approach=st.floats(-0.1, 0.1005), **LIMITS, refused=refused,
+@holds(field_solver.solve_at_approach, **SOLVER, approach=st.floats(-0.1, 0.1005), **LIMITS, infinite=True, refused=refused,
        outside=({"tolerance": -1e-9}, {"pressure": numpy.full((12, 10), -1.0)}))  # fmt: skip
 def _(found, half_space, workspace, gap, approach, tolerance, max_iterations, pressure):
     check_contact(found, gap, pressure, tolerance)

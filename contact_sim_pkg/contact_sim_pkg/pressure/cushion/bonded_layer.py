@@ -24,6 +24,7 @@ from contact_sim_pkg.compiled.guards import require, require_positive, require_v
 __all__ = ["layer_influence"]
 
 Field = NDArray[numpy.float64]
+DECAYED = 1e3  # of t: exp(-2 t) is 0 there
 SERIES_BELOW = 1e-4  # of t: what the limit leaves out is of the order t^2
 
 
@@ -43,15 +44,16 @@ def layer_influence(
     shear = 0.5 * modulus / (1.0 + poisson)
     kappa = 3.0 - 4.0 * poisson
     t = numpy.maximum(q * thickness, SERIES_BELOW)
+    near = numpy.minimum(t, DECAYED)  # a factor of exp(-2t) alone
     # exp(-2t) times sinh 2t, cosh 2t and 1
     decay = numpy.exp(-2.0 * t)
     sinh, cosh = 0.5 * (1.0 - decay**2), 0.5 * (1.0 + decay**2)
     if inextensible:
         sinh_squared = 0.25 * (1.0 - decay) ** 2
-        numerator = thickness / t * (kappa**2 * sinh_squared - t**2 * decay)
-        found = numerator / (4.0 * shear * (1.0 - poisson) * (0.5 * kappa * sinh + t * decay))
+        numerator = thickness / t * (kappa**2 * sinh_squared - near**2 * decay)
+        found = numerator / (4.0 * shear * (1.0 - poisson) * (0.5 * kappa * sinh + near * decay))
     else:
-        numerator = (1.0 - poisson) / shear * thickness / t * (kappa * sinh - 2.0 * t * decay)
-        found = numerator / (kappa * cosh + (2.0 * t**2 + 5.0 - 12.0 * poisson + 8.0 * poisson**2) * decay)
+        numerator = (1.0 - poisson) / shear * thickness / t * (kappa * sinh - 2.0 * near * decay)
+        found = numerator / (kappa * cosh + (2.0 * near**2 + 5.0 - 12.0 * poisson + 8.0 * poisson**2) * decay)
     columns = thickness * (1.0 - 2.0 * poisson) / (2.0 * shear * (1.0 - poisson))
     return numpy.asarray(numpy.where(q * thickness < SERIES_BELOW, columns, found))

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.guards import require_values
+from contact_sim_pkg.compiled.guards import require, require_fields, require_values
 from contact_sim_pkg.records.constants import GRAVITY
 
 __all__ = ["PERCENTILES", "LumbarSupport", "Sitter", "back_gap", "pan_gap", "pan_weight"]
@@ -31,6 +31,7 @@ Field = NDArray[numpy.float64]
 BLEND = 0.004  # [m] width of the smooth minimum
 FINE = 0.002  # [m] lattice on which the lowest point is sought
 TANGENT_FROM = 0.95
+FARTHEST = 10.0  # [m] of a cell from the origin
 
 
 class Sitter(NamedTuple):
@@ -57,23 +58,30 @@ class LumbarSupport(NamedTuple):
 
 
 def pan_weight(sitter: Sitter) -> float:
-    """Load [N] of the pan."""
+    """Load [N] of the pan. Raises ValueError where a size is not above 0."""
+    _require_sitter(sitter)
     return PAN_SHARE * sitter.mass * GRAVITY
 
 
 def pan_gap(sitter: Sitter, x: Field, y: Field, tilt: float = 0.0) -> Field:
     """Gap [m] of buttocks and thighs over their lowest point, [len(x), len(y)].
 
-    x: [m] forward of the tuberosities; y: [m] left; tilt: [rad] of the pan, front up.
+    x: [m] forward of the tuberosities; y: [m] left; tilt: [rad] of the pan, front up,
+    less than a right angle. Both rise, at least two of each within 10 m. Raises ValueError outside.
     """
+    _require_sitter(sitter)
+    require("tilt", tilt, "rad", above=-0.5 * math.pi, below=0.5 * math.pi)
     return _over_lowest(lambda along, across: _lower_surface(sitter, along, across) - math.tan(tilt) * along, x, y)
 
 
 def back_gap(sitter: Sitter, support: LumbarSupport, x: Field, y: Field) -> Field:
     """Gap [m] of the back over its lowest point, [len(x), len(y)].
 
-    x: [m] up from the lower edge of the seat back; y: [m] left.
+    x: [m] up from the lower edge of the seat back; y: [m] left; both rise, at least two of each
+    within 10 m. Raises ValueError outside.
     """
+    _require_sitter(sitter)
+    require_fields("lumbar support", support, positive="length", not_negative="depth", finite="height")
     b, s = sitter.breadth, sitter.length
 
     def surface(up: Field, across: Field) -> Field:
@@ -87,6 +95,18 @@ def back_gap(sitter: Sitter, support: LumbarSupport, x: Field, y: Field) -> Fiel
         return numpy.asarray(trunk + spine + lumbar + shoulders + pelvis + bend - supported)
 
     return _over_lowest(surface, x, y)
+
+
+def _require_sitter(sitter: Sitter) -> None:
+    require_fields("sitter", sitter, positive="mass breadth length")
+
+
+def _places(name: str, values: Field) -> Field:
+    """Rising places [m] of cells, at least two."""
+    found = require_values(name, values, "m", shape=(None,), rising=True, least=-FARTHEST, most=FARTHEST)
+    if len(found) < 2:
+        raise ValueError(f"{name}: shape {found.shape}, at least two places are needed")
+    return found
 
 
 def _lower_surface(sitter: Sitter, along: Field, across: Field) -> Field:
@@ -110,7 +130,7 @@ def _lower_surface(sitter: Sitter, along: Field, across: Field) -> Field:
 
 def _over_lowest(surface: Callable[[Field, Field], Field], x: Field, y: Field) -> Field:
     """A surface [m] over its lowest point between the ends of x and y, which lies on no cell."""
-    x, y = require_values("x", x, "m", shape=(None,)), require_values("y", y, "m", shape=(None,))
+    x, y = _places("x", x), _places("y", y)
     on_cells = surface(x[:, None], y[None, :])
     fine = surface(numpy.arange(x[0], x[-1], FINE)[:, None], numpy.arange(y[0], y[-1], FINE)[None, :])
     return numpy.asarray(on_cells - min(float(fine.min()), float(on_cells.min())))

@@ -24,6 +24,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.compiled.guards import require_positive, require_values
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 
 __all__ = ["BeltWorkspace", "factor_belt", "keep_lines", "make_belt_workspace", "relieve", "stiffness_of_belt"]
@@ -51,8 +52,10 @@ class BeltWorkspace(NamedTuple):
 
 def stiffness_of_belt(along: Values) -> Field:
     """Inverse [Pa/m] of the influence `along` [rows] [m/Pa] of a line of cells on lines so many rows
-    away.
+    away, above 0 under the load. Raises ValueError where one is not finite or they have no inverse.
     """
+    along = require_values("influence of the belt", along, "m/Pa", shape=(None,))
+    require_positive("influence of the belt under the load", float(along[0]) if len(along) else 0.0, "m/Pa")
     rows = numpy.arange(len(along))
     influence = along[abs(rows[:, None] - rows)] + SOFTEST * along[0] * numpy.eye(len(along))
     return numpy.ascontiguousarray(numpy.linalg.inv(influence))
