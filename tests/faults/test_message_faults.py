@@ -97,23 +97,24 @@ def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes,
     source = make_vibration(scene)
 
     def bad(number):
-        if number % 5:  # now and then, so that a queue of 10 holds what is not answered for
+        # One at every fifth block: the queue of 10 holds them and the 8 blocks that the logger may be behind
+        if number % 5:
             return []
         block = source.block(number)
         short = block._replace(acceleration_x=block.acceleration_x[:-1], acceleration_z=block.acceleration_z[:-1])
-        return [
+        kinds = [
             spoilt(source, number),
             encode(short, number * BLOCK),
             block_of(source, number, stamp=number * BLOCK + 1),
-            *([block_of(source, number - 1)] if number else []),
+            block_of(source, max(number - 1, 0)),
         ]
+        return [kinds[number // 5]]
 
     stand_in.wait_ready(2)
     send(stand_in, source, range(BLOCKS), before=bad)
     assert nodes.wait() == {"bag_logger": 0, "contact_simulator": 0}
     assert any("NaN or infinite" in line and "dropped" in line for line in nodes.printed)
-    bad_blocks = sum(4 if number else 3 for number in range(0, BLOCKS, 5))
-    assert open_bag(nodes.bag).metadata["dropped platform/vibration"] == str(bad_blocks)
+    assert open_bag(nodes.bag).metadata["dropped platform/vibration"] == "4"
     run_offline(scene, tmp_path / "offline")
     assert messages(nodes.bag) == messages(tmp_path / "offline")
 
