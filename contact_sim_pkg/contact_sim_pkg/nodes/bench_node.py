@@ -108,6 +108,15 @@ class LifecycleBenchNode(LifecycleNode):
             if publisher not in self._endpoints_before:
                 self.destroy_publisher(publisher)
 
+    def destroy_node(self) -> None:
+        """Destroy the node and the state machine, which rclpy leaves to the garbage collector.
+
+        It would hold the middleware until the libraries are taken down at the end of the process,
+        while threads of the middleware are still at work: a segmentation fault, rarely.
+        """
+        super().destroy_node()
+        self._state_machine.destroy_when_not_in_use()
+
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Release everything and end the process."""
         self.close()

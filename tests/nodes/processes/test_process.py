@@ -39,6 +39,37 @@ def test_a_node_that_computes_on_behind_a_signal_ends_its_run_within_two_seconds
             process.kill()
 
 
+ENDS = """
+import gc, os
+gc.disable()
+from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
+from contact_sim_pkg.nodes.processes.process import run
+from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments
+
+class Short(LifecycleBenchNode):
+    def __init__(self):
+        super().__init__("short")
+
+    def configure(self):
+        pass
+
+    def tick(self, now):
+        print(len(mapped_segments(os.getpid())) > 0)
+        self.exit_status = 0
+        return 0.0
+
+assert run(Short, args=[]) == 0
+print(len(mapped_segments(os.getpid())) > 0)
+"""
+
+
+@needs_ros
+def test_the_middleware_is_gone_when_the_nodes_have_ended():
+    """Its threads must not run on while the libraries of the process are taken down."""
+    done = subprocess.run([sys.executable, "-c", ENDS], env=ENVIRONMENT, capture_output=True, text=True, timeout=60.0)
+    assert done.stdout.split() == ["True", "False"], done.stderr
+
+
 POLICIES = """
 import os, threading
 from contact_sim_pkg.nodes.processes.process import use_batch_policy, use_usual_policy
