@@ -1,4 +1,7 @@
-"""Each module of the laws and the pressure stands in a table of property tests, or here with its test."""
+"""Each module of the laws and the pressure stands in a table of property tests, or here with its test.
+
+A part that has no test of its own, as the steps of a rolling field, stands beside the test of the whole it belongs to.
+"""
 
 import pkgutil
 from pathlib import Path
@@ -21,7 +24,7 @@ TESTED_IN = {
     "laws.normal_force": "laws/test_force_laws.py",
     "laws.one_mass.belt_slider": "laws/test_friction.py",
     "laws.one_mass.impact_works": "laws/test_force_laws.py",
-    "laws.one_mass.parameters": "laws/test_force_laws.py",
+    "laws.one_mass.parameters": "laws/test_absent_effects.py",
     "laws.one_mass.point_contact": "rigid/test_free_flight.py",
     "laws.one_mass.runs": "laws/test_absent_effects.py",
     "laws.one_mass.single": "integrate/test_orders.py",
@@ -35,21 +38,21 @@ TESTED_IN = {
     "pressure.closed_form.lame_domain": "pressure/closed_form/test_lame_domain.py",
     "pressure.closed_form.lame_points": "pressure/closed_form/test_lame_points.py",
     "pressure.closed_form.lame_pressure": "pressure/closed_form/test_lame_pressure.py",
-    "pressure.cushion.bonded_layer": "pressure/cushion/test_sitter.py",
+    "pressure.cushion.bonded_layer": "pressure/cushion/test_bonded_layer.py",
     "pressure.cushion.foam_layer": "pressure/cushion/test_foam_layer.py",
     "pressure.cushion.force_table": "pressure/cushion/test_force_table.py",
     "pressure.cushion.sitter": "pressure/cushion/test_sitter.py",
     "pressure.field.belt": "pressure/field/test_belt.py",
-    "pressure.field.follow": "pressure/field/test_solver.py",
-    "pressure.field.instant": "pressure/field/test_solver.py",
-    "pressure.field.nested": "pressure/field/test_solver.py",
-    "pressure.field.outside": "pressure/field/test_solver.py",
-    "pressure.field.prediction": "pressure/field/test_solver.py",
+    "pressure.field.follow": "pressure/field/test_rolling.py",
+    "pressure.field.instant": "pressure/field/test_rolling.py",
+    "pressure.field.nested": "pressure/field/test_rolling.py",
+    "pressure.field.outside": "pressure/field/test_rolling.py",
+    "pressure.field.prediction": "pressure/field/test_rolling.py",
     "pressure.field.rolling": "pressure/field/test_rolling.py",
     "pressure.field.window": "pressure/field/test_window.py",
     "pressure.field.winkler": "pressure/field/test_winkler.py",
     "pressure.kept_arrays": "pressure/cushion/test_force_table.py",
-    "pressure.mat": "pressure/field/test_field_invariants.py",
+    "pressure.mat": "pressure/test_mat.py",
     "pressure.settings": "pressure/field/test_halfspace.py",
 }
 
