@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from contact_sim_pkg.records.work import STEP_COST, Work
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.laws import FrictionSection, GeneralDissipation, HuntCrossley, PowerLaw
+from contact_sim_pkg.scene.schema.laws import Foam, FrictionSection, GeneralDissipation, HuntCrossley, PowerLaw
 from contact_sim_pkg.scene.timing import make_timing
 
 if TYPE_CHECKING:
@@ -61,7 +61,10 @@ def links_of_laws(
     """
     for record, keys in scene.effects_at(contact):
         if isinstance(keys, PowerLaw) and load > 0.0:
-            yield power_law_link(record.name, mass, load, keys.coefficient, keys.exponent)
+            if scene.effect(contact, Foam) is None:  # foam carries in its place
+                yield power_law_link(record.name, mass, load, keys.coefficient, keys.exponent)
+        elif isinstance(keys, Foam) and load > 0.0:
+            yield Link(record.name, mass, _stiffness(scene, contact, load), 0.0)
         elif isinstance(keys, GeneralDissipation) and load > 0.0:
             yield Link(record.name, mass, 0.0, _damping(keys, _depth(scene, contact, load, build_cushion)))
         else:
@@ -77,6 +80,15 @@ def _depth(
 
     cushion = build_cushion(scene, load)
     return approach_of_force(elastic_law(scene, contact) if cushion is None else cushion.law, load)
+
+
+def _stiffness(scene: ResolvedScene, contact: str, load: float) -> float:
+    """Slope [N/m] of the elastic law of a contact without cushion at the ``load`` [N]."""
+    from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness  # brings the compiler
+    from contact_sim_pkg.run.contact_laws import elastic_law
+
+    law = elastic_law(scene, contact)
+    return elastic_stiffness(law, approach_of_force(law, load))
 
 
 def _damping(law: GeneralDissipation, depth: float) -> float:
