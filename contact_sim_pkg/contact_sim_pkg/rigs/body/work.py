@@ -30,6 +30,8 @@ def work_of_block(scene: ResolvedScene) -> Iterator[Work]:
             ),
             Link("compliant_contact", block.mass, compliant.tangential_stiffness, compliant.tangential_damping or 0.0),
         ]
+        if compliant.tangential_damping:  # a sliding point: its spring relaxes against its damper
+            links.append(Link("compliant_contact", compliant.tangential_damping, 0.0, compliant.tangential_stiffness))
         yield from integrator_steps(scene, "block", links)
     law = scene.effect("block", RigidContact) or RigidContact()
     if law.scheme == "stepping":
