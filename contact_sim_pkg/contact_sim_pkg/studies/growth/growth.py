@@ -164,7 +164,8 @@ def page(rows: list[dict[str, Any]], picture: str | None) -> str:
         "Made by `bench growth --page docs/performance.md --plot docs/images/growth.png --overwrite`.", "",
         "Processor time of an offline run for a simulated second, on one core; the fastest of three. *Slope*:",
         "of the last three points on logarithmic axes. *Counted floor*: of a field the transforms of its",
-        "iterations on its own grid, not on the coarser ones that it starts from, there and back on twice the", "cells of the contact, timed alone; of a recording its bytes, copied once.",
+        "iterations on its own grid, not on the coarser ones that it starts from, there and back on twice the",
+        "cells of the contact, timed alone; of a recording its bytes, copied once.",
         "Speed of whole runs: `bench goals`.", "",
     ]  # fmt: skip
     if picture is not None:
