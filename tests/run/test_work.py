@@ -1,5 +1,6 @@
 """The work of a run is estimated before it, and a computation that does not come back does not hold a run."""
 
+import math
 import re
 import signal
 import threading
@@ -70,6 +71,17 @@ def test_a_loss_is_estimated_at_the_depth_of_the_law_that_carries():
     expected = 1e12 * depth**2 / (model.masses[0] or model.mass) / 3.3 * scene.duration
     found = {part.what: part.number for part in estimated_work(scene)}
     assert found["steps of the integrator for seat.general_dissipative"] == pytest.approx(expected, rel=0.01)
+    swing = math.sqrt(1e6 / 2.0 / (model.masses[0] or model.mass))  # of the mass on the stiffness S E / h
+    assert found["steps of the integrator for seat.foam"] == pytest.approx(swing / 1.2 * scene.duration, rel=0.01)
+    assert "steps of the integrator for seat.normal_elastic" not in found
+
+
+def test_a_block_that_slides_is_estimated_by_how_fast_its_spring_relaxes():
+    """At the rate C / D of a spring of 2e6 N/m on a damper of 1e-3 N s/m."""
+    contact = "{rigid_contact: {}, compliant_contact: {tangential_stiffness: 2e6, tangential_damping: 1e-3}}"
+    scene = resolved("block_fall", f"effects.block={contact}")
+    found = [part.number for part in estimated_work(scene) if part.what.endswith("block.compliant_contact")]
+    assert max(found) == pytest.approx(2e9 / 3.3 * scene.duration)
 
 
 def test_the_time_that_a_run_lasts_anyway_is_no_reason_to_refuse_it():

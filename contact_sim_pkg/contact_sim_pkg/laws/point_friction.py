@@ -33,7 +33,8 @@ def point_friction(friction, normal, s_1, s_2, v_1, v_2):
     limit, size = friction.coefficient_kinetic * normal, math.hypot(trial_1, trial_2)
     if size <= limit:
         return trial_1, trial_2, v_1, v_2
-    force_1, force_2 = limit * trial_1 / size, limit * trial_2 / size
+    share = limit / size  # first, for the product of limit and trial may underflow
+    force_1, force_2 = share * trial_1, share * trial_2
     return force_1, force_2, (force_1 - stiffness * s_1) / damping, (force_2 - stiffness * s_2) / damping
 
 

@@ -56,39 +56,33 @@ def links_of_laws(
     """The laws of a contact as springs and dampers of the ``mass`` [kg], linear at the ``load`` [N]
     at rest.
 
-    build_cushion: scene, load -> its foam cushion, None where it has none; called for where a loss
-    depends on the depth. Errors as those of ``build_cushion``.
+    build_cushion: scene, load -> its foam cushion, None where it has none; called for where foam
+    carries or a loss depends on the depth. Errors as those of ``build_cushion``.
     """
     for record, keys in scene.effects_at(contact):
         if isinstance(keys, PowerLaw) and load > 0.0:
             if scene.effect(contact, Foam) is None:  # foam carries in its place
                 yield power_law_link(record.name, mass, load, keys.coefficient, keys.exponent)
         elif isinstance(keys, Foam) and load > 0.0:
-            yield Link(record.name, mass, _stiffness(scene, contact, load), 0.0)
+            yield Link(record.name, mass, _tangent_at_rest(scene, contact, load, build_cushion)[1], 0.0)
         elif isinstance(keys, GeneralDissipation) and load > 0.0:
-            yield Link(record.name, mass, 0.0, _damping(keys, _depth(scene, contact, load, build_cushion)))
+            depth, _stiffness = _tangent_at_rest(scene, contact, load, build_cushion)
+            yield Link(record.name, mass, 0.0, _damping(keys, depth))
         else:
             yield Link(record.name, mass, *_tangent(keys, load))
 
 
-def _depth(
+def _tangent_at_rest(
     scene: ResolvedScene, contact: str, load: float, build_cushion: Callable[[ResolvedScene, float], Cushion | None]
-) -> float:
-    """Approach [m] at the ``load`` [N] of the elastic law that carries it."""
-    from contact_sim_pkg.laws.elastic_law import approach_of_force  # brings the compiler
-    from contact_sim_pkg.run.contact_laws import elastic_law
-
-    cushion = build_cushion(scene, load)
-    return approach_of_force(elastic_law(scene, contact) if cushion is None else cushion.law, load)
-
-
-def _stiffness(scene: ResolvedScene, contact: str, load: float) -> float:
-    """Slope [N/m] of the elastic law of a contact without cushion at the ``load`` [N]."""
+) -> tuple[float, float]:
+    """Approach [m] and stiffness [N/m] at the ``load`` [N] of the elastic law that carries it."""
     from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness  # brings the compiler
     from contact_sim_pkg.run.contact_laws import elastic_law
 
-    law = elastic_law(scene, contact)
-    return elastic_stiffness(law, approach_of_force(law, load))
+    cushion = build_cushion(scene, load)
+    law = elastic_law(scene, contact) if cushion is None else cushion.law
+    depth = approach_of_force(law, load)
+    return depth, elastic_stiffness(law, depth)
 
 
 def _damping(law: GeneralDissipation, depth: float) -> float:
