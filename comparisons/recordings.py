@@ -24,6 +24,8 @@ from typing import Any
 import numpy
 from rosbags.highlevel import AnyReader
 
+from contact_sim_pkg.python_process import python_command
+
 SHORT = {
     "tire_bump": 0.6, "tire_braking": 0.2, "seat_ride": 0.5, "seat_slap": 0.5, "seat_ride_full": 0.2, "car_full_bench": 0.2,
     "impact_rubber_drop": 1.2, "roller_flutter": 0.5, "roller_corrugation": 0.1, "block_fall": 0.5,
@@ -51,8 +53,8 @@ def record(folder: Path, checkout: Path, every: bool, hard: bool) -> int:
 
 
 def _bench(checkout: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    path = os.pathsep.join([str(checkout / "contact_sim_pkg"), os.environ.get("PYTHONPATH", "")])
-    command = [sys.executable, "-m", "contact_sim_pkg.cli.main", *arguments]
+    path = os.pathsep.join(filter(None, [str(checkout / "contact_sim_pkg"), os.environ.get("PYTHONPATH")]))
+    command = python_command("contact_sim_pkg.cli.main", *arguments)
     return subprocess.run(command, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, check=False)
 
 

@@ -30,6 +30,11 @@ PREFIXES
   case "$options" in *u*) set -u ;; esac
   case "$options" in *e*) set -e ;; esac
 
+  # Python takes an empty entry for the current folder, and would import what a stranger's bag was unpacked with.
+  case ":${PYTHONPATH:-}:" in
+    *::*) PYTHONPATH="$(printf '%s' "${PYTHONPATH:-}" | sed -E 's/:+/:/g; s/^:|:$//g')" ;;
+  esac
+
   export COLCON_DEFAULTS_FILE="$workspace/colcon_defaults.yaml"
   export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"
   export FASTRTPS_DEFAULT_PROFILES_FILE="${FASTRTPS_DEFAULT_PROFILES_FILE:-$workspace/fastdds_profile.xml}"

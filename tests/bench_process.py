@@ -3,7 +3,6 @@
 import os
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.nodes.processes.children import Children
 from contact_sim_pkg.nodes.processes.scene_file import write_scene
+from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
@@ -22,7 +22,7 @@ needs_ros = pytest.mark.ros
 PACKAGE = Path(__file__).resolve().parents[1] / "contact_sim_pkg"
 ENVIRONMENT = {
     **os.environ,
-    "PYTHONPATH": os.pathsep.join([str(PACKAGE), os.environ.get("PYTHONPATH", "")]),
+    "PYTHONPATH": os.pathsep.join(filter(None, [str(PACKAGE), os.environ.get("PYTHONPATH")])),
     "RCUTILS_CONSOLE_OUTPUT_FORMAT": "{severity} {name}: {message}",
 }
 LONGEST = 120.0  # [s] for what a test waits for; kernels of one vehicle may have to be compiled
@@ -45,7 +45,7 @@ def start_bench(*arguments: object, environment: dict[str, str] | None = None) -
 
 
 def _command(arguments: tuple[object, ...]) -> list[str]:
-    return [sys.executable, "-m", "contact_sim_pkg.cli.main", *map(str, arguments)]
+    return python_command("contact_sim_pkg.cli.main", *map(str, arguments))
 
 
 def resolved(name: str, *assignments: str) -> ResolvedScene:
@@ -70,7 +70,7 @@ class Nodes:
         own = {"bag": self.bag} if node == "bag_logger" else {}
         values = {**({} if node == "bag_replay" else {"scene": self._scene}), **own, **parameters}
         arguments = [text for name, value in values.items() for text in ("-p", f"{name}:={value}")]
-        command = [sys.executable, "-m", f"contact_sim_pkg.nodes.{node}", "--ros-args", "--disable-external-lib-logs"]
+        command = python_command(f"contact_sim_pkg.nodes.{node}", "--ros-args", "--disable-external-lib-logs")
         self._started.append(self._children.start(node, [*command, *arguments, *self._remapped]))
         return self._started[-1]
 

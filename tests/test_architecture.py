@@ -7,7 +7,8 @@ import pytest
 from tests.house.source import PACKAGE, circles, imports, modules
 
 ORDER = (
-    ("files",), ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid", "reference"), ("excitation",),
+    ("files", "python_process"),
+    ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid", "reference"), ("excitation",),
     ("scene",), ("bag",), ("run",), ("report",), ("rigs", "identify"), ("papers",), ("studies",), ("nodes",), ("cli",),
 )  # fmt: skip
 """A room imports from those before it, and from none beside it."""

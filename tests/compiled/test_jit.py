@@ -270,6 +270,23 @@ def test_g3_a_directory_of_another_user_is_refused(root: Path, which: str) -> No
         kernel_cache.open_cache_directory("name")
 
 
+FOREIGN = {"mode": lambda path: path.chmod(0o666), "owner": lambda path: os.chown(path, 12345, 12345)}
+
+
+@pytest.mark.parametrize("which", FOREIGN)
+def test_g9_a_file_that_others_own_or_may_write_is_not_read_but_compiled_anew(warm: Start, which: str) -> None:
+    if which == "owner" and os.getuid() != 0:
+        pytest.skip("only root can give a file to another user")
+    for path in warm.directory().iterdir():
+        FOREIGN[which](path)
+    answer = warm()
+    assert (answer["value"], answer["hits"]) == (6.0, 0)
+    assert len(warm.warnings()) == 1
+    assert "it is not read, and compiled again" in warm.log
+    assert warm()["hits"] == 1  # what was compiled has taken its place
+    assert warm.log == ""
+
+
 def test_g3_a_link_in_place_of_the_directory_is_refused(root: Path) -> None:
     directory = kernel_cache.open_cache_directory("name")
     directory.rename(root / "elsewhere")

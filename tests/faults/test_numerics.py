@@ -21,6 +21,7 @@ from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.solver import make_workspace, solve_at_load
+from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.records.messages import VibrationBlock
 from contact_sim_pkg.run import offline
 
@@ -91,7 +92,7 @@ def test_the_same_scene_gives_the_same_bits_with_one_thread_and_with_two(tmp_pat
     hashes = set()
     for threads in ("1", "2"):
         bag = tmp_path / threads
-        command = [sys.executable, "-m", "contact_sim_pkg.cli.main", "run", "seat_ride", "--offline"]
+        command = python_command("contact_sim_pkg.cli.main", "run", "seat_ride", "--offline")
         subprocess.run(
             [*command, "--set", "duration=0.2", "--out", str(bag)],
             env={**ENVIRONMENT, "NUMBA_NUM_THREADS": threads, "OPENBLAS_NUM_THREADS": threads, "OMP_NUM_THREADS": threads},

@@ -5,7 +5,6 @@ import os
 import pty
 import signal
 import subprocess
-import sys
 import termios
 import time
 
@@ -13,6 +12,7 @@ import pytest
 from tests.bench_process import ENVIRONMENT, LONGEST, Nodes, needs_ros, resolved
 
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.run.offline import run_offline
 
 pytestmark = needs_ros
@@ -123,7 +123,7 @@ def test_a_service_pauses_and_resumes_at_the_same_message(bag, replay, listener)
 def test_the_command_remaps_begins_at_a_message_shows_progress_and_pauses_by_the_space_key(bag, listener):
     forces = listener.hear("seat/force", "pan/load")
     first, second = pty.openpty()
-    command = [sys.executable, "-m", "contact_sim_pkg.cli.main", "replay", bag, "--topics", "seat/force"]
+    command = python_command("contact_sim_pkg.cli.main", "replay", str(bag), "--topics", "seat/force")
     options = ["--remap", "seat/force:=pan/load", "--start-message", "10", "--rate", "0.2", "--loop"]
     process = subprocess.Popen(
         [*map(str, command), *options], env=ENVIRONMENT, stdin=second, stderr=subprocess.PIPE, text=True,

@@ -5,9 +5,9 @@ The directory is `<root>/<fingerprint>`, root = $CONTACT_BENCH_CACHE or
 $XDG_CACHE_HOME/contact_bench or ~/.cache/contact_bench. The fingerprint hashes every module with
 kernels and what it imports, the versions of everything that takes part in compiling and the
 processor: an edited helper in another file, which numba itself does not notice, gives a new
-directory. Cache files are pickles, and loading a pickle can run code, so a directory that anyone
-else can write to is not used. Each file starts with the hash of its content, which is checked
-before it is unpickled.
+directory. Cache files are pickles, and loading a pickle can run code, so a directory or a file that
+anyone else owns or can write to is not used. Each file starts with the hash of its content, which
+is checked before it is unpickled.
 """
 
 # numba.core.caching has no types.
@@ -150,6 +150,12 @@ class _Session:
             _log.warning("compiled kernels are not kept on disk (each start takes some seconds longer): %s", error)
         self.directory = None
 
+    def pass_over(self, reason: str) -> None:
+        """Report once that a file is not read; its kernel is compiled again and replaces it."""
+        if not self._warned:
+            self._warned = True
+            _log.warning("%s; it is not read, and compiled again", reason)
+
     def rebuild(self, error: Exception) -> None:
         """Remove a damaged cache; kernels are compiled again and kept anew."""
         if self.directory is not None:
@@ -227,6 +233,15 @@ class _CheckedCacheImpl(CompileResultCacheImpl):
         return linking.rebuild(target_context, payload)
 
 
+def _why_untrusted(status: os.stat_result) -> str:
+    """Why an open file of the cache is not to be unpickled; empty where nothing speaks against it."""
+    if status.st_uid != os.getuid():
+        return f"belongs to user {status.st_uid}, not to user {os.getuid()}"
+    if status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        return f"can be written by other users (mode {stat.S_IMODE(status.st_mode):04o})"
+    return ""
+
+
 class _CheckedFiles:
     """One file for each overload of a function, led by the hash of its content.
 
@@ -240,7 +255,12 @@ class _CheckedFiles:
     def load(self, key: Any) -> Any:
         """What was saved under ``key``; None where nothing was."""
         try:
-            content = self._path(key).read_bytes()
+            with self._path(key).open("rb") as file:
+                reason = _why_untrusted(os.fstat(file.fileno()))
+                if reason:
+                    _session.pass_over(f"{self._path(key)} {reason}")
+                    return None
+                content = file.read()
         except FileNotFoundError:
             return None
         digest, payload = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
@@ -256,6 +276,7 @@ class _CheckedFiles:
         written = path.with_name(f"{path.name}.{os.getpid()}")
         try:
             written.write_bytes(hashlib.sha256(payload).digest() + payload)
+            written.chmod(0o600)
             written.replace(path)
         except BaseException:
             written.unlink(missing_ok=True)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
+from contact_sim_pkg.python_process import drop_empty_entries
+
 DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
     "NUMBA_NUM_THREADS": "1",
@@ -14,7 +16,10 @@ DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
 
 
 def set_default_environment() -> None:
-    """Set the environment of every process of the bench, where the caller has not."""
+    """Set the environment of every process of the bench, where the caller has not; see also
+    `drop_empty_entries`.
+    """
+    drop_empty_entries()
     for name, value in DEFAULT_ENVIRONMENT.items():
         os.environ.setdefault(name, value)
 

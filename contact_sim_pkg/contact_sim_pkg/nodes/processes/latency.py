@@ -26,6 +26,7 @@ from contact_sim_pkg.nodes.processes.environment import set_default_environment
 from contact_sim_pkg.nodes.processes.process import handle_messages, make_executor
 from contact_sim_pkg.nodes.processes.scene_file import block_length_ns, queue_depth
 from contact_sim_pkg.nodes.protocol.endpoints import informed_subscription, raise_kept
+from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.run.bag_content import input_names, result_names
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -75,7 +76,7 @@ def measure(name: str, seconds: float) -> dict[str, float]:
     try:
         with tempfile.TemporaryDirectory() as folder:
             bag = Path(folder) / "bag"
-            command = [sys.executable, "-m", "contact_sim_pkg.cli.main", "run", name, "--duration", str(seconds)]
+            command = python_command("contact_sim_pkg.cli.main", "run", name, "--duration", str(seconds))
             command += ["--pace", "realtime", "--allow-long", "--json", "--out", str(bag)]
             with subprocess.Popen(
                 command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True

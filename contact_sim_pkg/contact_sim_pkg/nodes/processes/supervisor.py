@@ -5,7 +5,6 @@ launch`.
 from __future__ import annotations
 
 import os
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +19,7 @@ from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments
 from contact_sim_pkg.nodes.processes.stop_requests import StopRequests
 from contact_sim_pkg.nodes.processes.supervised_run import Report, SupervisedRun, report_of
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED, NodeError, RunState
+from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ class Supervisor:
         nodes = planned_nodes(self._scene, scene, self._directory, self._from_bag, clock=self._clock)
         for node in in_processes(nodes):
             arguments = node_arguments({**node.parameters, "supervisor": os.getpid()})
-            children.start(node.name, [sys.executable, "-m", f"contact_sim_pkg.nodes.{node.name}", *arguments])
+            children.start(node.name, python_command(f"contact_sim_pkg.nodes.{node.name}", *arguments))
 
     def _watch(
         self, children: Children, monitor: RunMonitor, on_report: Callable[[Report], None], folder: RunFolder

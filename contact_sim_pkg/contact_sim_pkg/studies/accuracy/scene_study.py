@@ -13,11 +13,11 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from typing import Any
 
+from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.records.accuracy import AccuracyStudy
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.errors import Fault, SceneError
@@ -75,7 +75,7 @@ def first_call_times(scene_name: str) -> tuple[dict[str, float | None], dict[str
 
 
 def _first_call(scene_name: str, environment: dict[str, str]) -> dict[str, float | None]:
-    command = [sys.executable, "-m", "contact_sim_pkg.studies.first_call", scene_name]
+    command = python_command("contact_sim_pkg.studies.first_call", scene_name)
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         return {"simulation": None, "field": None}

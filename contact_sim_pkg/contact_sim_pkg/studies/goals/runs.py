@@ -7,13 +7,13 @@ from __future__ import annotations
 import json
 import statistics
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.records.goal import GoalPart, Measured, median_time
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.run.offline import run_offline
@@ -37,7 +37,7 @@ def on_nodes() -> list[Measured]:
     note = ""
     with tempfile.TemporaryDirectory() as folder:
         for number in range(RUNS + 1):
-            command = [sys.executable, "-m", "contact_sim_pkg.cli.main", "run", SCENE, "--pace", "max", "--json"]
+            command = python_command("contact_sim_pkg.cli.main", "run", SCENE, "--pace", "max", "--json")
             command += ["--out", str(Path(folder) / str(number))]
             # away from the checkout, whose folder of message files has the name of the package made
             # from them
@@ -62,7 +62,7 @@ def latency(seconds: float = LATENCY_SECONDS) -> list[Measured]:
     module = "contact_sim_pkg.nodes.processes.latency"  # a process of its own, with ROS
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(
-            [sys.executable, "-m", module, SCENE, str(seconds)],
+            python_command(module, SCENE, str(seconds)),
             cwd=folder, capture_output=True, text=True, timeout=LONGEST + seconds, check=False,
         )  # fmt: skip
     found: dict[str, float] = json.loads(done.stdout) if done.returncode == 0 else {}
@@ -96,7 +96,7 @@ def report() -> list[Measured]:
         bags = {duration: Path(folder) / str(duration) for duration in REPORTED}
         for duration, bag in bags.items():
             run_offline(load_resolved(SCENE, f"duration={duration}"), bag)
-        command = [sys.executable, "-m", "contact_sim_pkg.cli.main", "report", str(bags[short])]
+        command = python_command("contact_sim_pkg.cli.main", "report", str(bags[short]))
         for _ in range(2):  # the first one may compile
             began = time.perf_counter()
             subprocess.run(command, cwd=folder, capture_output=True, timeout=LONGEST, check=True)

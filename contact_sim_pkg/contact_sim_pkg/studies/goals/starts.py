@@ -7,13 +7,13 @@ from __future__ import annotations
 import os
 import resource
 import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.records.registry import shipped_scenes
 from contact_sim_pkg.records.table import Section
 
@@ -62,7 +62,7 @@ def sections(rows: list[dict[str, Any]]) -> list[Section]:
 def _start(name: str, cache: str) -> _Start:
     before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     subprocess.run(
-        [sys.executable, "-m", "contact_sim_pkg.studies.first_call", name, "--no-field"],
+        python_command("contact_sim_pkg.studies.first_call", name, "--no-field"),
         env={**os.environ, "CONTACT_BENCH_CACHE": cache},
         stdout=subprocess.DEVNULL,
         check=True,
