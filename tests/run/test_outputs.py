@@ -5,7 +5,7 @@ import pytest
 
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.messages import ContactForce
-from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_ledger, largest, solver_cost
+from contact_sim_pkg.run.outputs import BlockStamps, Centre, contact_outputs, energy_ledger, largest, solver_cost
 from contact_sim_pkg.scene.timing import Timing
 
 TIMING = Timing(0.01, 5, 2, 6, 1, 1, 4)  # 12 samples and 4 wrenches in 10 ms
@@ -25,11 +25,23 @@ def test_samples_lie_evenly_in_their_block():
 
 def test_a_wrench_is_the_resultant_of_its_sample_impulses_included():
     lateral = numpy.column_stack([numpy.full(12, 7.0), numpy.full(12, 8.0)])
-    rows = list(contact_outputs("tire", STAMPS, force(impulses=numpy.full(12, 100.0)), lateral))
+    rows = list(contact_outputs("tire", STAMPS, force(impulses=numpy.full(12, 100.0)), lateral=lateral))
     assert [row.topic for row in rows] == ["tire/force", *["tire/wrench"] * 4]
     last = rows[-1].record.wrench
     assert (tuple(last.force), tuple(last.torque)) == ((9.0, 7.0, 109.0), (0.0, 0.0, 8.0))
     assert rows[-1].stamp == STAMPS.at(9)
+
+
+def test_the_torque_is_that_of_the_normal_force_in_the_last_centre_of_pressure():
+    """r x F of a force F_z at (x, y, 0): (y F_z, -x F_z, 0); the first centre comes with sample 3."""
+    centres = [Centre(3, 0.1, 0.2), Centre(8, -0.5, 0.0)]
+    rows = [
+        row.record.wrench for row in contact_outputs("seat", STAMPS, force(), centres=centres) if "wrench" in row.topic
+    ]
+    assert [tuple(row.torque) for row in rows] == [
+        pytest.approx(expected, abs=1e-15)
+        for expected in ((0.0, 0.0, 0.0), (0.6, -0.3, 0.0), (1.2, -0.6, 0.0), (0.0, 4.5, 0.0))
+    ]
 
 
 def test_the_residual_is_supplied_energy_that_is_nowhere():

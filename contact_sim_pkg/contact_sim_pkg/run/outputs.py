@@ -9,7 +9,15 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.block_encoder import Output
-from contact_sim_pkg.records.messages import ContactForce, EnergyLedger, SolverCost, Vector3, Wrench, WrenchStamped
+from contact_sim_pkg.records.messages import (
+    ContactForce,
+    ContactPatch,
+    EnergyLedger,
+    SolverCost,
+    Vector3,
+    Wrench,
+    WrenchStamped,
+)
 from contact_sim_pkg.scene.timing import Timing
 
 NANOSECONDS = 1_000_000_000
@@ -50,20 +58,55 @@ def wrench_of(force: Sequence[float], torque: Sequence[float]) -> WrenchStamped:
     return WrenchStamped(wrench=Wrench(force=Vector3(x=fx, y=fy, z=fz), torque=Vector3(x=tx, y=ty, z=tz)))
 
 
-def contact_outputs(
-    name: str, stamps: BlockStamps, force: ContactForce, lateral: NDArray[numpy.float64] | None = None
-) -> Iterator[Output]:
-    """Resultant of a contact at the full rate, and its wrench at the display rate.
+class Centre(NamedTuple):
+    """Centre of pressure of a contact from a sample on, in the contact's frame."""
 
-    ``lateral`` [samples, 2]: force along y [N] and moment about z [N m] on the upper body; 0 where
-    it is not given.
+    sample: int
+    x: float  # [m]
+    y: float  # [m]
+
+
+def contact_outputs(
+    name: str,
+    stamps: BlockStamps,
+    force: ContactForce,
+    patches: Sequence[tuple[int, ContactPatch]] = (),
+    *,
+    centres: Sequence[Centre] | None = None,
+    lateral: NDArray[numpy.float64] | None = None,
+) -> Iterator[Output]:
+    """Resultant of a contact at the full rate, its wrench at the display rate, its pressure fields.
+
+    The wrench is about the origin of the contact's frame, with every force in the plane z = 0: the
+    normal force F_z at the centre of pressure (x_c, y_c) gives the torque (y_c F_z, -x_c F_z).
+    Between two centres the earlier one holds; without any the force acts at the origin.
+
+    Args:
+        name: name of the contact, in front of its topics.
+        stamps: stamps of the block.
+        force: the resultant at all samples.
+        patches: sample and pressure field, in order.
+        centres: centres of pressure, in order; None: those of ``patches``.
+        lateral: [samples, 2], force along y [N] and moment about z [N m] on the upper body; None: 0.
     """
     yield Output(f"{name}/force", stamps.start, force)
+    if centres is None:
+        centres = [Centre(sample, patch.centre_x, patch.centre_y) for sample, patch in patches]
     vertical = force.normal + force.impulses if len(force.impulses) else force.normal
     for sample in stamps.displayed():
         force_y, moment_z = (0.0, 0.0) if lateral is None else (float(part) for part in lateral[sample])
-        along = (float(force.tangential[sample]), force_y, float(vertical[sample]))
-        yield Output(f"{name}/wrench", stamps.at(sample), wrench_of(along, (0.0, 0.0, moment_z)))
+        normal, at = float(vertical[sample]), _centre_at(centres, sample)
+        torque = (at.y * normal, -at.x * normal, moment_z)
+        yield Output(
+            f"{name}/wrench", stamps.at(sample), wrench_of((float(force.tangential[sample]), force_y, normal), torque)
+        )
+    for sample, patch in patches:
+        yield Output(f"{name}/patch", stamps.at(sample), patch)
+
+
+def _centre_at(centres: Sequence[Centre], sample: int) -> Centre:
+    """The last centre that is not later than a sample."""
+    return next((each for each in reversed(centres) if each.sample <= sample), Centre(0, 0.0, 0.0))
 
 
 def energy_ledger(

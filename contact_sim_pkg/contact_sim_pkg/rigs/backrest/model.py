@@ -35,7 +35,7 @@ NEWTON_STEPS = 100
 
 
 class Mat(NamedTuple):
-    """Cells of the pressure map, in the contact's frame: x up, y left, the crown at the origin."""
+    """Cells of the pressure map, in the contact's frame: x up, y to the right of the occupant, the crown at the origin."""
 
     cell_x: float  # [m]
     cell_y: float  # [m]

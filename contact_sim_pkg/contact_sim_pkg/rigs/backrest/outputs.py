@@ -16,7 +16,7 @@ from contact_sim_pkg.rigs.backrest import parameters as episode
 from contact_sim_pkg.rigs.backrest.model import BackrestModel
 from contact_sim_pkg.rigs.backrest.parameters import BackrestMode
 from contact_sim_pkg.run.contact_patch import contact_patch
-from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_ledger, solver_cost
+from contact_sim_pkg.run.outputs import BlockStamps, Centre, contact_outputs, energy_ledger, solver_cost
 
 Array = NDArray[numpy.float64]
 
@@ -80,22 +80,36 @@ def block_outputs(model: BackrestModel, record: BackrestRecord, wall_time: float
     cost = solver_cost(stamps, wall_time, steps=steps, rejected_steps=rejected, events=events)
     episodes = [Output("bench/episodes", stamps.start, _episodes(model, record))] if len(record.ended) else []
     return [
-        *contact_outputs("backrest", stamps, force), *_fields(model, record, stamps), *episodes,
+        *_contact(model, record, stamps, force), *episodes,
         Output("bench/motion", stamps.start, motion), Output("bench/energy", stamps.start, _ledger(record)),
         Output("bench/cost", stamps.start, cost),
     ]  # fmt: skip
 
 
-def _fields(model: BackrestModel, record: BackrestRecord, stamps: BlockStamps) -> Iterator[Output]:
-    """Pressure map and contact points at the field rate."""
-    mat = model.mat
+def _contact(
+    model: BackrestModel, record: BackrestRecord, stamps: BlockStamps, force: ContactForce
+) -> Iterator[Output]:
+    """Force and wrench; pressure map and contact points at the field rate."""
+    mat, patches = model.mat, []
     grid = (mat.cell_x, mat.cell_y, float(mat.x[0]), float(mat.y[0]))
     if model.cushion is not None:
         grid = model.cushion.cells
     for sample, pressure in record.maps:
         patch = contact_patch(record.block, grid, float(record.forces[sample, columns.APPROACH]), pressure)
-        yield Output("backrest/patch", stamps.at(sample), patch)
+        patches.append((sample, patch))
         yield Output("backrest/points", stamps.at(sample), _points(model, record, sample))
+    if record.points.shape[1] == 1:  # the whole contact in one point: its map tells where it acts
+        yield from contact_outputs("backrest", stamps, force, patches)
+        return
+    x, y, normal = (record.points[:, :, k] for k in (columns.POINT_UP, columns.POINT_ACROSS, columns.POINT_NORMAL))
+    x, y = model.point_x + x, model.point_y + y
+    total = numpy.where(normal.sum(axis=1) > 0.0, normal.sum(axis=1), 1.0)
+    at = (x * normal).sum(axis=1) / total, (y * normal).sum(axis=1) / total
+    centres = [Centre(sample, float(at[0][sample]), float(at[1][sample])) for sample in stamps.displayed()]
+    # friction acts up the back
+    turning = -(y * record.points[:, :, columns.POINT_TANGENTIAL]).sum(axis=1)
+    lateral = numpy.column_stack([numpy.zeros_like(turning), turning])
+    yield from contact_outputs("backrest", stamps, force, patches, centres=centres, lateral=lateral)
 
 
 def _points(model: BackrestModel, record: BackrestRecord, sample: int) -> ContactPoints:

@@ -22,7 +22,7 @@ from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs
 
 
 class BackMap(NamedTuple):
-    """Pressure map of the seat back: x up, y left."""
+    """Pressure map of the seat back: x up, y to the right of the occupant."""
 
     cells: tuple[float, float, float, float]  # [m] sizes of a cell along x and y, centre of cell (0, 0)
     pressure: Callable[[float, float], NDArray[numpy.float64]]  # approach [m], force [N] -> [rows, cols] [Pa]
@@ -51,16 +51,13 @@ def back_outputs(model: Model, shown: BackMap, record: BlockRecord) -> Iterator[
         block=record.block, sample_period=stamps.period, normal=normal, tangential=none, approach=approach,
         effective_height=none,
     )  # fmt: skip
-    yield from contact_outputs("backrest", stamps, force)
+    patches = []
     for interval in range(model.timing.intervals):
         sample = interval * model.timing.segments // model.timing.sample_every
         pressure = shown.pressure(float(approach[sample]), float(normal[sample]))
-        yield Output(
-            "backrest/patch",
-            stamps.at(sample),
-            contact_patch(record.block, shown.cells, float(approach[sample]), pressure),
-        )
+        patches.append((sample, contact_patch(record.block, shown.cells, float(approach[sample]), pressure)))
         yield Output("backrest/points", stamps.at(sample), _point(record, sample))
+    yield from contact_outputs("backrest", stamps, force, patches)
 
 
 def _point(record: BlockRecord, sample: int) -> ContactPoints:

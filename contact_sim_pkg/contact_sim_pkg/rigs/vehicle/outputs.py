@@ -10,7 +10,14 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.block_encoder import Output
-from contact_sim_pkg.records.messages import AxleForce, BodyMotion, ContactForce, ContactShear, EnergyLedger
+from contact_sim_pkg.records.messages import (
+    AxleForce,
+    BodyMotion,
+    ContactForce,
+    ContactPatch,
+    ContactShear,
+    EnergyLedger,
+)
 from contact_sim_pkg.rigs.vehicle import entries as columns
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
 from contact_sim_pkg.rigs.vehicle.model import Model
@@ -98,7 +105,7 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
     """Outputs of a block, computed in ``wall_time`` [s]."""
     stamps, forces = BlockStamps(record.block, model.timing), record.forces
     outputs: list[Output] = []
-    # contacts: force and wrenches of the resultant, then the fields under it
+    # contacts: force and wrenches of the resultant, and the fields under it
     if model.rig.tire_contact is not None:
         shear = forces[:, columns.TIRE_SHEAR : columns.TIRE_SHEAR + 3]
         impulses = {} if model.asperities is None else {"impulses": forces[:, columns.TIRE_PUSH]}
@@ -107,9 +114,9 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
             tangential=shear[:, 0], approach=forces[:, columns.TIRE_APPROACH],
             effective_height=forces[:, columns.TIRE_HEIGHT], **impulses,
         )  # fmt: skip
-        outputs += contact_outputs("tire", stamps, force, shear[:, 1:])
+        patches = _fields(stamps, model.tire_field, record.tire_fields)
+        outputs += contact_outputs("tire", stamps, force, patches, lateral=shear[:, 1:])
         outputs.append(Output("tire/axle", stamps.start, _axle_force(model, stamps, record)))
-        outputs += _patches("tire", stamps, model.tire_field, record.tire_fields)
         outputs += _shears(stamps, model.tire_field, record)
     if model.rig.seat_contact is not None:
         force = ContactForce(
@@ -117,9 +124,8 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
             tangential=forces[:, columns.SEAT_TANGENTIAL], approach=forces[:, columns.SEAT_APPROACH],
             effective_height=forces[:, columns.SEAT_HEIGHT],
         )  # fmt: skip
-        outputs += contact_outputs("seat", stamps, force)
-        outputs += _patches("seat", stamps, model.seat_field, record.seat_fields)
-        outputs += _maps(model, stamps, record)
+        patches = _fields(stamps, model.seat_field, record.seat_fields) or _maps(model, stamps, record)
+        outputs += contact_outputs("seat", stamps, force, patches)
     # the rig as a whole
     motion = BodyMotion(
         block=record.block, sample_period=stamps.period, bodies=model.bodies, **_motion_rows(model, record)
@@ -153,24 +159,25 @@ def _axle_force(model: Model, stamps: BlockStamps, record: BlockRecord) -> AxleF
     return AxleForce(block=record.block, sample_period=stamps.period, vertical=vertical, **on_axle)
 
 
-def _patches(
-    name: str, stamps: BlockStamps, grids: FieldGrids | None, fields: list[tuple[int, FieldRecord]]
-) -> Iterator[Output]:
-    """Pressure fields of a contact."""
-    for sample, found in fields:
-        grid = (*_cells(grids), found.origin_x, found.origin_y)
-        patch = contact_patch(stamps.block, grid, found.approach, found.pressure)
-        yield Output(f"{name}/patch", stamps.at(sample), patch)
+def _fields(
+    stamps: BlockStamps, grids: FieldGrids | None, fields: list[tuple[int, FieldRecord]]
+) -> list[tuple[int, ContactPatch]]:
+    """Sample and pressure field of a contact."""
+    found = []
+    for sample, field_ in fields:
+        grid = (*_cells(grids), field_.origin_x, field_.origin_y)
+        found.append((sample, contact_patch(stamps.block, grid, field_.approach, field_.pressure)))
+    return found
 
 
-def _maps(model: Model, stamps: BlockStamps, record: BlockRecord) -> Iterator[Output]:
-    """Pressure maps of the seat."""
+def _maps(model: Model, stamps: BlockStamps, record: BlockRecord) -> list[tuple[int, ContactPatch]]:
+    """Sample and pressure map of the seat."""
+    found = []
     for sample, pressure in record.seat_maps:
         assert model.seat_map is not None
         approach = float(record.forces[sample, columns.SEAT_APPROACH])
-        yield Output(
-            "seat/patch", stamps.at(sample), contact_patch(stamps.block, model.seat_map.cells, approach, pressure)
-        )
+        found.append((sample, contact_patch(stamps.block, model.seat_map.cells, approach, pressure)))
+    return found
 
 
 def _shears(stamps: BlockStamps, grids: FieldGrids | None, record: BlockRecord) -> Iterator[Output]:
