@@ -79,6 +79,28 @@ def test_a_fine_patch_gives_its_curve(exponent: float) -> None:
     assert fit.fitted
 
 
+@pytest.mark.parametrize("exponent", [0.7, 2.0, 4.0])
+def test_holes_inside_the_contact_are_no_boundary(exponent: float) -> None:
+    """Cells without pressure that the contact surrounds, as between the grains of a texture."""
+    pressure, cell_x, cell_y = disc(exponent, 128, 96)
+    whole = fit_patch(pressure, cell_x, cell_y, 0.0, 0.0)
+    inner, _, _ = disc(exponent, 128, 96)
+    inner = inner > 0.3
+    holes = inner & (numpy.random.default_rng(4).random(pressure.shape) < 0.6)
+    assert holes.sum() > 0.1 * (pressure > 0.0).sum()
+    assert fit_patch(numpy.where(holes, 0.0, pressure), cell_x, cell_y, 0.0, 0.0) == whole
+
+
+def test_the_outline_of_a_textured_contact_is_that_of_its_outermost_cells() -> None:
+    """Half of the cells of an ellipse without pressure, to its edge: the half axes stay within two cells."""
+    pressure, cell_x, cell_y = disc(2.0, 128, 96)
+    bare = numpy.random.default_rng(5).random(pressure.shape) < 0.5
+    fit = fit_patch(numpy.where(bare, 0.0, pressure), cell_x, cell_y, 0.0, 0.0)
+    assert 0.06 - 2.0 * cell_x < fit.a < 0.06 + 0.5 * cell_x
+    assert 0.05 - 2.0 * cell_y < fit.b < 0.05 + 0.5 * cell_y
+    assert fit.deviation < 0.05
+
+
 def test_a_patch_at_the_grid_s_edge_keeps_the_edge_as_boundary() -> None:
     fit = fit_patch(numpy.ones((40, 20)), 1e-3, 1e-3, 0.0, 0.0)
     assert (fit.a, fit.b) == pytest.approx((0.02, 0.01), rel=0.02)

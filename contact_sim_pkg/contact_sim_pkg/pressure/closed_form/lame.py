@@ -27,6 +27,7 @@ __all__ = [
 ]
 
 Field = NDArray[numpy.float64]
+Places = NDArray[numpy.int64]
 
 SMALLEST_EXPONENT = 0.1
 """Below it the curve is a cross of four needles."""
@@ -108,16 +109,19 @@ def fit_patch(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
     """Lame curve through the boundary of the cells under pressure.
 
     pressure: float64 [rows, cols], rows along x; cell_x, cell_y [m]; origin_x, origin_y: centre of
-    cell (0, 0) [m]. The boundary points are the midpoints of the edges between a cell inside and
-    one outside. Zeros without contact.
+    cell (0, 0) [m]. The boundary points are the midpoints of the outermost edges of each row and
+    each column: holes inside the contact, as on texture, do not count. Zeros without contact.
     """
     rows, cols = pressure.shape
-    cells, points, low_row, high_row, low_col, high_col = extents(pressure)
+    in_rows, in_cols = numpy.empty((rows, 2), numpy.int64), numpy.empty((cols, 2), numpy.int64)
+    cells = find_outermost(pressure, in_rows, in_cols)
     # No contact.
     if cells == 0:
         centre_x, centre_y = origin_x + 0.5 * (rows - 1) * cell_x, origin_y + 0.5 * (cols - 1) * cell_y
         return LameFit(0.0, 0.0, 2.0, centre_x, centre_y, 0.0, False)
     # Rectangle around the contact; too few cells have no shape.
+    low_row, high_row, lines = extent_of(in_rows)
+    low_col, high_col, columns = extent_of(in_cols)
     half_x = 0.5 * (high_row - low_row + 1) * cell_x
     half_y = 0.5 * (high_col - low_col + 1) * cell_y
     if cells < FEWEST_CELLS:
@@ -125,8 +129,10 @@ def fit_patch(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
         centre_y = origin_y + 0.5 * (low_col + high_col) * cell_y
         return LameFit(half_x, half_y, 2.0, centre_x, centre_y, 0.0, False)
     # Curve through the boundary.
+    points = 2 * (lines + columns)
     x, y = numpy.empty(points), numpy.empty(points)
-    boundary_points(pressure, cell_x, cell_y, x, y)
+    lay_points(in_rows, cell_y, cell_x, y[: 2 * lines], x[: 2 * lines])
+    lay_points(in_cols, cell_x, cell_y, x[2 * lines :], y[2 * lines :])
     fit = fit_boundary(x, y, half_x, half_y)
     return LameFit(
         fit.a,
@@ -200,74 +206,52 @@ def take_logarithms(x: Field, y: Field, centre_x: float, centre_y: float) -> Non
 
 
 @borrowing_kernel
-def extents(pressure: Field) -> tuple[int, int, int, int, int, int]:
-    """Number of cells in contact, number of their outer edges, first and last row, first and last
-    column.
+def find_outermost(pressure: Field, in_rows: Places, in_cols: Places) -> int:
+    """Write the first and last cell in contact of each row into ``in_rows`` [rows, 2], of each column
+    into ``in_cols`` [cols, 2], (-1, -1) where there is none; returns the number of cells in contact.
 
     pressure: [rows, cols] [Pa].
     """
     rows, cols = pressure.shape
-    cells, edges, low_row, high_row, low_col, high_col = 0, 0, rows, -1, cols, -1
+    cells = 0
+    for j in range(cols):
+        in_cols[j, 0], in_cols[j, 1] = -1, -1
     for i in range(rows):
-        first, last = cols, -1
+        in_rows[i, 0], in_rows[i, 1] = -1, -1
         for j in range(cols):
             if pressure[i, j] > 0.0:
                 cells += 1
-                edges += 0 if surrounded(pressure, i, j) else 4 - neighbours(pressure, i, j)
-                first, last = min(first, j), j
-        if last >= 0:
-            low_row, high_row = min(low_row, i), i
-            low_col, high_col = min(low_col, first), max(high_col, last)
-    return cells, edges, low_row, high_row, low_col, high_col
+                if in_rows[i, 0] < 0:
+                    in_rows[i, 0] = j
+                if in_cols[j, 0] < 0:
+                    in_cols[j, 0] = i
+                in_rows[i, 1], in_cols[j, 1] = j, i
+    return cells
 
 
 @borrowing_kernel
-def surrounded(pressure: Field, i: int, j: int) -> bool:
-    """Whether all four neighbours of cell (i, j) are in contact, as most are; pressure: [rows, cols]
-    [Pa].
+def extent_of(outermost: Places) -> tuple[int, int, int]:
+    """First and last line with contact, and the number of lines with contact; outermost: [lines, 2]."""
+    first, last, count = -1, -1, 0
+    for k in range(outermost.shape[0]):
+        if outermost[k, 0] >= 0:
+            first, last, count = (k if first < 0 else first), k, count + 1
+    return first, last, count
+
+
+@borrowing_kernel
+def lay_points(outermost: Places, cell: float, spacing: float, along: Field, across: Field) -> None:
+    """Midpoints [m] of the outer edges of each line's outermost cells, from the centre of cell (0, 0).
+
+    outermost: [lines, 2]; cell [m] along the lines, spacing [m] from line to line; along, across:
+    [points], overwritten.
     """
-    rows, cols = pressure.shape
-    if not (0 < i < rows - 1 and 0 < j < cols - 1):
-        return False
-    along = pressure[i - 1, j] > 0.0 and pressure[i + 1, j] > 0.0
-    return bool(along and pressure[i, j - 1] > 0.0 and pressure[i, j + 1] > 0.0)
-
-
-@borrowing_kernel
-def neighbours(pressure: Field, i: int, j: int) -> int:
-    """Number of the four neighbours of cell (i, j) in contact; pressure: [rows, cols] [Pa]."""
-    return (
-        inside(pressure, i - 1, j)
-        + inside(pressure, i + 1, j)
-        + inside(pressure, i, j - 1)
-        + inside(pressure, i, j + 1)
-    )
-
-
-@borrowing_kernel
-def inside(pressure: Field, i: int, j: int) -> int:
-    """1 where cell (i, j) lies on the grid and carries pressure, else 0; pressure: [rows, cols]
-    [Pa].
-    """
-    rows, cols = pressure.shape
-    return 1 if 0 <= i < rows and 0 <= j < cols and pressure[i, j] > 0.0 else 0
-
-
-@borrowing_kernel
-def boundary_points(pressure: Field, cell_x: float, cell_y: float, x: Field, y: Field) -> None:
-    """Midpoints [m] of the edges between a cell in contact and one without, from the centre of cell
-    (0, 0).
-    """
-    rows, cols = pressure.shape
     count = 0
-    for i in range(rows):
-        for j in range(cols):
-            if pressure[i, j] > 0.0 and not surrounded(pressure, i, j):
-                for step_i, step_j in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-                    if inside(pressure, i + step_i, j + step_j) == 0:
-                        x[count] = (i + 0.5 * step_i) * cell_x
-                        y[count] = (j + 0.5 * step_j) * cell_y
-                        count += 1
+    for k in range(outermost.shape[0]):
+        if outermost[k, 0] >= 0:
+            along[count], along[count + 1] = (outermost[k, 0] - 0.5) * cell, (outermost[k, 1] + 0.5) * cell
+            across[count], across[count + 1] = k * spacing, k * spacing
+            count += 2
 
 
 @kernel
