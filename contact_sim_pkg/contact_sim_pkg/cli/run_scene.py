@@ -168,7 +168,9 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
     stop = StopRequest()
     before = time.monotonic() - BEGAN
     computing = Computing[RunOutcome]()
-    worker = Worker(run_offline, scene, directory, display.show, stop, sources, computing, display.show_set_up)
+    worker = Worker(
+        run_offline, scene, directory, display.show, stop, sources, computing, display.show_set_up, display.print_line
+    )  # fmt: skip
     broken_off: RunOutcome | None = None
     # the run has a thread of its own: this one waits for signals, and gives a block `GRACE` to end
     with _signals_call(stop.on_signal):

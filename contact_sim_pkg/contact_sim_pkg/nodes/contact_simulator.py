@@ -20,6 +20,7 @@ from contact_sim_pkg.nodes.protocol.simulated_run import SimulatedRun
 from contact_sim_pkg.nodes.protocol.states import DONE, RunState
 from contact_sim_pkg.nodes.simulator_publishers import SimulatorPublishers
 from contact_sim_pkg.records.messages import BenchRecorded
+from contact_sim_pkg.run.block_simulation import cautions_of
 from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.rigs import make_simulation
 
@@ -66,6 +67,8 @@ class ContactSimulatorNode(LifecycleBenchNode):
             progress = out.progress.publisher
             self._peers = Peers(self, inputs, out.results, progress, answers, supervised=self.supervisor > 0)
             self._computing.call(simulation.prepare)
+        for sentence in cautions_of(simulation):
+            self.get_logger().warning(sentence)
 
     def tick(self, now: float) -> float:
         """Look for peers before ready; advance until the end; then leave once the bag is closed."""

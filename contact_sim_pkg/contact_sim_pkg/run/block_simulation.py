@@ -34,6 +34,13 @@ def refuse_out_of_turn(block: int, due: int) -> None:
         raise RunError(f"block {block} came, block {due} was due")
 
 
+def cautions_of(simulation: BlockSimulation) -> tuple[str, ...]:
+    """What is to be said once before the run, a sentence each: the attribute ``cautions`` of a
+    simulation that has one.
+    """
+    return tuple(getattr(simulation, "cautions", ()))
+
+
 class BlockSimulation(Protocol):
     """The simulation of one scene, block by block. It owns the state of the run."""
 

@@ -17,7 +17,7 @@ from contact_sim_pkg.compiled.jit import closed
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.run.bag_content import attachments, recorded_names
-from contact_sim_pkg.run.block_simulation import BlockSimulation
+from contact_sim_pkg.run.block_simulation import BlockSimulation, cautions_of
 from contact_sim_pkg.run.compilation import reported_compilation
 from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.errors import RunError
@@ -61,6 +61,7 @@ def run_offline(
     sources: dict[str, Source] | None = None,
     computing: Computing[RunOutcome] | None = None,
     on_set_up: Callable[[str], None] = lambda _sentence: None,
+    on_caution: Callable[[str], None] = lambda _sentence: None,
 ) -> RunOutcome:
     """Run ``scene`` and record it in ``directory``, which must not exist (None: no recording).
 
@@ -69,13 +70,12 @@ def run_offline(
     physics or of the excitation ends the run, as does a write that fails: the bag is closed and the
     outcome names it. Raises what a bad scene, file or directory raises, before anything is created.
     ``computing`` lets another thread end it within a block. ``on_set_up`` gets a sentence each
-    second in which kernels are compiled, from a thread of its own.
+    second in which kernels are compiled, from a thread of its own; ``on_caution`` what is to be
+    said once before the run.
     """
     began, computing = time.perf_counter(), computing or Computing()
     sources = make_sources(scene) if sources is None else sources
-    with reported_compilation(scene, on_set_up):
-        simulation = make_simulation(scene)
-        simulation.prepare()
+    simulation = _prepared(scene, on_set_up, on_caution)
     descriptions = {topic: source.describe() for topic, source in sources.items()}
     if stop is not None and stop():
         return RunOutcome(0, time.perf_counter() - began, 0.0, None, True, "", descriptions)
@@ -125,6 +125,18 @@ def run_offline(
         ended()
         raise
     return ended()
+
+
+def _prepared(
+    scene: ResolvedScene, on_set_up: Callable[[str], None], on_caution: Callable[[str], None]
+) -> BlockSimulation:
+    """The simulation, all that it needs compiled."""
+    with reported_compilation(scene, on_set_up):
+        simulation = make_simulation(scene)
+        simulation.prepare()
+    for sentence in cautions_of(simulation):
+        on_caution(sentence)
+    return simulation
 
 
 def _unexpected(error: BaseException, block: int) -> str:

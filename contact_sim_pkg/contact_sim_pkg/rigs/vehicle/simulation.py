@@ -18,6 +18,7 @@ from contact_sim_pkg.rigs.vehicle.model import Model, build
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord, block_outputs
 from contact_sim_pkg.rigs.vehicle.seat.response import RunningResponse
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
+from contact_sim_pkg.rigs.vehicle.tire.static_stiffness import stiffness_cautions
 from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
 from contact_sim_pkg.run.outputs import BlockStamps, largest
 from contact_sim_pkg.run.sources import make_travel
@@ -40,8 +41,16 @@ class Simulation:
         self.inputs = tuple(inputs)
         self._travel = make_travel(scene) if self.model.tire_geometry is not None else None
         self._coupling = Coupling(self.model)
+        self.cautions = self._cautions()
         self._next_block = 0
         self._reset()
+
+    def _cautions(self) -> tuple[str, ...]:
+        """See `cautions_of`."""
+        rig = self.model.rig
+        if rig.tire_contact is None:
+            return ()
+        return stiffness_cautions(rig.tire_contact.elastic, rig.rigid_ring, self._coupling.bodies.weight())
 
     def _reset(self) -> None:
         self._start_energy: Vector | None = None  # of the run

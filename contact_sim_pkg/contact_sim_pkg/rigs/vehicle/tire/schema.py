@@ -45,14 +45,17 @@ class HertzElastic(Section):
 
     radius_rolling: float = number(0.02, 3.0, "m", "radius in the plane of the wheel", default=0.30)
     radius_lateral: float = number(0.02, 30.0, "m", "radius of the crown across the tread", default=1.0)
-    young_modulus: float = number(
-        1e4,
-        1e12,
-        "Pa",
-        "modulus of the half-space for tread and sidewalls together, fitted to the footprint",
-        default=3.0e6,
-    )
+    young_modulus: float | None = number(
+        1e4, 1e12, "Pa",
+        "modulus of the half-space for tread and sidewalls together; 6.8e5 by default, 3.0e6 with rigid_ring: as stiff "
+        "as the inflated default at 3335 N",
+        default=None,
+    )  # fmt: skip
     poisson_ratio: float = number(0.0, 0.5, "", "Poisson's ratio of that half-space; rubber is 0.5", default=0.5)
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        # Hertz: K = 1.5 A^(2/3) F^(1/3), A in proportion to the modulus; a ring is a spring of 3.1e5 N/m in series.
+        return {"young_modulus": 6.8e5 if scene.effect("tire", RigidRingSection) is None else 3.0e6}
 
 
 class Inflation(Section):
