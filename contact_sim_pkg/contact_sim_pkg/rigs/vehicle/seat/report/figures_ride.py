@@ -14,6 +14,7 @@ from contact_sim_pkg.report.signal.spectrum import (
     Transmissibility,
     band,
     power_density,
+    shortage,
     transmissibility,
 )
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals
@@ -98,7 +99,8 @@ def peak_sentence(result: Transmissibility, trusted: NDArray[np.bool_]) -> str:
     peak = peak_of(result, trusted)
     if peak is None:
         return "No peak can be read from this record: none lies between trusted lines."
-    return f"Peak: {peak[0]:.3g} at {peak[1]:.3g} Hz."
+    caution = shortage(result.segments, 1.0 / float(result.frequency[1]))
+    return f"Peak: {peak[0]:.3g} at {peak[1]:.3g} Hz{f' ({caution})' if caution else ''}."
 
 
 def response_figure(result: Transmissibility, trusted: NDArray[np.bool_], label: str) -> tuple[Figure, list[Axes]]:

@@ -38,6 +38,8 @@ def vibration_table(numbers: dict[str, Any]) -> Table:
         "Vertical acceleration over the whole run, mean removed. Weighted with Wk of ISO 2631-1 in the frequency domain. "
         "SEAT is the seat's value over the floor's; a crest factor above 9 makes the rms doubtful."
     )
+    if caution := numbers.get("seat_factor_caution"):
+        caption += f" SEAT is {caution}."
     return Table(caption, header, [*rows, ("SEAT, %", "", *factors, "")])
 
 
