@@ -5,8 +5,16 @@ use.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
-__all__ = ["ContactReport", "SeriesReader"]
+__all__ = ["ContactReport", "LedgerScope", "SeriesReader"]
+
+
+class LedgerScope(NamedTuple):
+    """What an energy ledger is of, where that is not the whole rig."""
+
+    motion: str  # "vertical motion"
+    outside: tuple[str, ...]  # what the run turns over beside it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +47,7 @@ class ContactReport:
         numbers: (recording) -> further sections of the summary by their keys.
         tiles: (summary) -> key numbers at the head of the page.
         warnings: (recording) -> sentences that stand before the numbers.
+        ledger: (recording) -> `LedgerScope` of its energy ledger, where that is not of the whole rig.
         drive_period: (scene) -> period [s] of a drive that is not the vibration, or None.
         comparison: (key, contact, runs) -> pictures that compare several runs.
     """
@@ -51,5 +60,6 @@ class ContactReport:
     numbers: str = ""
     tiles: str = ""
     warnings: str = ""
+    ledger: str = ""
     drive_period: str = ""
     comparison: str = ""

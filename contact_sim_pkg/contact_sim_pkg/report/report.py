@@ -100,7 +100,8 @@ def sections(recording: Recording, on_section: OnSection = lambda *_: None) -> l
             drawn.append((report.contact, partial(load(report.closing_sections), recording)))
     ledger, cost = recording.ledger, recording.cost
     if ledger is not None:
-        drawn.append(("energy", lambda: [Section("energy", "Energy", [energy_balance(ledger)])]))
+        scope = rig_reports.ledger_scope(recording)
+        drawn.append(("energy", lambda: [Section("energy", "Energy", [energy_balance(ledger, scope)])]))
     if cost is not None:
         drawn.append(("cost", lambda: [Section("cost", "Cost", [real_time_factor(cost)])]))
     found: list[Section] = []

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from contact_sim_pkg.records.registry import contact_reports, rigs
-from contact_sim_pkg.records.report import ContactReport, SeriesReader
+from contact_sim_pkg.records.report import ContactReport, LedgerScope, SeriesReader
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.report.signal.loops import vibration_period
@@ -55,6 +55,13 @@ def rig_tiles(recording: Recording, summary: dict[str, Any]) -> list[Tile]:
 def rig_warnings(recording: Recording) -> list[str]:
     """Sentences of the rigs that stand before the numbers."""
     return [text for each in reports_of(recording) if each.warnings for text in load(each.warnings)(recording)]
+
+
+def ledger_scope(recording: Recording) -> LedgerScope | None:
+    """What the energy ledger is of; None for the whole rig."""
+    named = next((each.ledger for each in reports_of(recording) if each.ledger), "")
+    scope: LedgerScope | None = load(named)(recording) if named else None
+    return scope
 
 
 def drive_period(recording: Recording) -> float | None:

@@ -14,7 +14,7 @@ import numpy as np
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.report.energy import relative_residual, throughput
 from contact_sim_pkg.report.reading import read_recording
-from contact_sim_pkg.report.rig_reports import contact_numbers, rig_warnings, summary_numbers
+from contact_sim_pkg.report.rig_reports import contact_numbers, ledger_scope, rig_warnings, summary_numbers
 from contact_sim_pkg.report.series import ContactSeries, CostSeries, FieldSeries, LedgerSeries, Recording
 from contact_sim_pkg.report.signal.episodes import slap_numbers
 
@@ -54,7 +54,7 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     if warnings := rig_warnings(recording):
         summary["warnings"] = warnings
     if recording.ledger is not None:
-        summary["energy"] = energy_numbers(recording.ledger)
+        summary["energy"] = energy_numbers(recording.ledger) | _scope(recording)
     if recording.cost is not None:
         summary["solver"] = solver_numbers(recording.cost)
     summary["messages"] = {topic.name: topic.messages for topic in recording.topics}
@@ -100,6 +100,12 @@ def energy_numbers(ledger: LedgerSeries) -> dict[str, Any]:
         "residual_max_J": float(np.abs(ledger.residual).max()),
         "residual_relative": relative_residual(ledger),
     }
+
+
+def _scope(recording: Recording) -> dict[str, Any]:
+    """Motion that the ledger is of, and what is outside it; empty where it is of the whole rig."""
+    scope = ledger_scope(recording)
+    return {} if scope is None else {"of": scope.motion, "outside": list(scope.outside)}
 
 
 def solver_numbers(cost: CostSeries) -> dict[str, Any]:

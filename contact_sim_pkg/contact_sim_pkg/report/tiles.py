@@ -32,7 +32,11 @@ def tiles(summary: dict[str, Any], of_rigs: Sequence[Tile] = ()) -> list[Tile]:
     if energy.get("residual_relative") is not None:
         scale = max(energy["throughput_J"], AT_REST)
         detail = f"{number(energy['residual_max_J'])} J of {number(scale)} J"
-        found.append(Tile("energy balance residual", number(energy["residual_relative"]), "", detail))
+        label = "energy balance residual"
+        if "of" in energy:
+            label = f"{label}, {energy['of']}"
+            detail = "; outside: ".join([detail, *filter(None, [", ".join(energy["outside"])])])
+        found.append(Tile(label, number(energy["residual_relative"]), "", detail))
     solver = summary.get("solver", {})
     if solver.get("physics_real_time_factor") is not None:
         detail = f"without recording and messages; {solver['steps']} steps, {solver['events']} events"

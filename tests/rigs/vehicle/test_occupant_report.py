@@ -85,7 +85,7 @@ def test_a_peak_lies_between_lower_lines_that_are_trusted_too(magnitude, trusted
 
 
 def test_a_short_ride_that_does_not_show_its_peak_names_none(tmp_path):
-    run_offline(resolved("seat_ride"), tmp_path / "bag")
+    run_offline(resolved("seat_ride", "duration=5"), tmp_path / "bag")
     short = read_recording(open_bag(tmp_path / "bag"))
     # its model peaks at 77.3 kg and 4.59 Hz, and loses its coherence there
     assert "apparent_mass_peak_kg" not in summary_numbers(short)["occupant"]

@@ -33,7 +33,9 @@ def number_table(runs: Sequence[Run], summaries: Sequence[dict[str, Any]]) -> Ta
             (f"{name}: {label}", *(read(each["contacts"][name]) for each in summaries)) for label, read in _CONTACT
         ]
     rows += [(label, *(read(run) for run in runs)) for label, read in _EPISODES]
-    rows += [("largest energy residual over throughput", *(_residual(each) for each in summaries))]
+    scopes = {each.get("energy", {}).get("of", "") for each in summaries} - {""}
+    of = f" ({', '.join(sorted(scopes))})" if scopes else ""
+    rows += [(f"largest energy residual over throughput{of}", *(_residual(each) for each in summaries))]
     kept = [row for row in rows if any(value != NONE for value in row[1:])]
     return Table("Main numbers of the whole runs.", ("", *(run.label for run in runs)), kept)
 

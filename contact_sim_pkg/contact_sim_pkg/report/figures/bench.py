@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from contact_sim_pkg.records.report import LedgerScope
 from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, draw_series, new_figure, picture
 from contact_sim_pkg.report.energy import AT_REST, relative_residual, residual_scale, throughput
 from contact_sim_pkg.report.series import CostSeries, LedgerSeries
@@ -11,8 +12,10 @@ from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.report.summary import solver_numbers
 
 
-def energy_balance(ledger: LedgerSeries) -> Picture:
-    """Work in, energy stored and dissipated, and below them the residual over the throughput."""
+def energy_balance(ledger: LedgerSeries, scope: LedgerScope | None = None) -> Picture:
+    """Work in, energy stored and dissipated, and below them the residual over the throughput; ``scope``
+    None: of the whole rig.
+    """
     figure, axes = new_figure(4.0, 2, sharex=True, height_ratios=[2, 1])
     held = ledger.kinetic + ledger.potential + ledger.stored
     axes[0].plot(*envelope(ledger.time, ledger.supplied), color=INK, label="supplied")
@@ -38,7 +41,12 @@ def energy_balance(ledger: LedgerSeries) -> Picture:
         f"the end. The residual is at most {np.abs(ledger.residual).max():.2g} J, "
         f"{relative_residual(ledger):.1e} of {named}: the error of the time integration."
     )
-    return picture("bench-energy", figure, "Energy ledger over time and its residual", caption)
+    title = "Energy ledger over time and its residual"
+    if scope is not None:
+        title = f"{title}: {scope.motion}"
+        caption += f" This is the balance of the {scope.motion}"
+        caption += f"; outside it: {', '.join(scope.outside)}." if scope.outside else "."
+    return picture("bench-energy", figure, title, caption)
 
 
 def real_time_factor(cost: CostSeries) -> Picture:

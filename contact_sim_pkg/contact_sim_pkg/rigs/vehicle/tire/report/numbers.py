@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from contact_sim_pkg.records.report import LedgerScope
 from contact_sim_pkg.report.series import ContactSeries, Recording
+from contact_sim_pkg.report.tiles import number
 from contact_sim_pkg.rigs.vehicle.lattice import plain_load
+from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
 
 TIRE = "tire"
 """Name of its contact."""
@@ -26,6 +29,27 @@ def contact_numbers(recording: Recording) -> dict[str, Any]:
     """Ratios of the load to that at rest; see `load_numbers`."""
     contact = recording.contacts.get(TIRE)
     return {} if contact is None else load_numbers(contact, standing_load_of(recording.scene))
+
+
+OUTSIDE = {
+    "brush": "friction of the bristles",
+    "sidewall_compliance": "the belt in the plane of the road",
+    "wheel_spin": "rotation of the wheel, drive and brake",
+    "tread_viscoelasticity": "rolling resistance of the tread",
+}
+"""By effect: what turns energy over beside the vertical motion."""
+
+
+def ledger_scope(recording: Recording) -> LedgerScope:
+    """The ledger of a rolling tire is that of the vertical motion; what the scene's effects turn over
+    beside it, the work of friction with its figure.
+    """
+    effects = (recording.scene.get("effects") or {}).get(TIRE) or {}
+    outside = {name: text for name, text in OUTSIDE.items() if effects.get(name) is not None}
+    shear = shear_of(recording)
+    if shear is not None and "brush" in outside:
+        outside["brush"] += f" ({number(float(shear.dissipated.sum()))} J in tire/shear)"
+    return LedgerScope("vertical motion", tuple(outside.values()))
 
 
 def load_numbers(contact: ContactSeries, standing: float | None) -> dict[str, Any]:
