@@ -32,6 +32,8 @@ class Content:
     quality: str | None = None  # offered profiles of all topics
     seal: bool = True
     compression: CompressionType = CompressionType.ZSTD
+    names: Mapping[str, str] = field(default_factory=dict)  # by topic, in place of its full name
+    encodings: Mapping[str, str] = field(default_factory=dict)  # by topic, in place of CDR
 
 
 def seat_ride(blocks: int = 2, **changes: Any) -> Content:
@@ -71,5 +73,6 @@ def _channels(writer: Writer, content: Content, names: Iterable[str]) -> dict[st
         schema = writer.register_schema(row.type, "ros2msg", text.encode())
         quality = row.offered_qos if content.quality is None else content.quality
         kept = {"offered_qos_profiles": quality, "topic_type_hash": "" if text != row.definition else row.type_hash}
-        numbers[row.key] = writer.register_channel(row.name, "cdr", schema, kept)
+        name, encoding = content.names.get(row.key, row.name), content.encodings.get(row.key, "cdr")
+        numbers[row.key] = writer.register_channel(name, encoding, schema, kept)
     return numbers

@@ -17,6 +17,7 @@ from tests.report.synthetic_bag import car_bag
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import encode
+from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.typestore import store_of_definition
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main as bench
@@ -171,6 +172,16 @@ def test_a_definition_that_contains_itself_or_is_none_is_refused(text):
         store_of_definition("seat/msg/Own", text)
 
 
+@pytest.mark.fault("G10")
+def test_messages_of_another_encoding_are_refused_by_name_and_recovered_as_they_are(capsys, tmp_path, ride):
+    file = write(tmp_path / "bag", dataclasses.replace(ride, encodings={VIBRATION: "json"}))
+    assert "/platform/vibration are encoded as 'json'" in ends_in_a_sentence(capsys, tmp_path, file, "run")
+    ends_in_a_sentence(capsys, tmp_path, file, "recover", (0,))
+    kept = open_bag(tmp_path / "recovered").topic(VIBRATION)
+    assert kept.encoding == "json"
+    assert "serialization_format: json" in (tmp_path / "recovered" / "metadata.yaml").read_text()
+
+
 @pytest.mark.fault("E10", "E11")
 @pytest.mark.parametrize("seed", range(12))
 def test_a_bag_with_any_bytes_changed_or_cut_off_ends_in_a_sentence(capsys, tmp_path, ride, seed):
@@ -230,3 +241,27 @@ def test_a_replay_refuses_what_it_cannot_publish_before_it_begins(tmp_path, ride
         assert ended.returncode == 2, ended.stderr
         assert "Traceback" not in ended.stderr
         assert {"quality": "the stored quality of service", "scene": "is another than"}[name] in ended.stderr
+
+
+@needs_ros
+@pytest.mark.fault("G10")
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"names": {VIBRATION: "/no name"}}, "'/no name' is no name of a topic of ROS"),
+        ({"names": {VIBRATION: "/{node}/~"}}, "'/{node}/~' is no name of a topic of ROS"),
+        ({"encodings": {VIBRATION: "json"}}, "the messages of /platform/vibration are encoded as 'json'"),
+    ],
+)
+def test_a_topic_that_ros_cannot_carry_is_refused_by_name_and_the_others_go_out_without_it(
+    tmp_path, ride, change, sentence
+):
+    file = write(tmp_path / "bag", dataclasses.replace(ride, **change))
+    ended = run_bench("replay", file, "--delay", "0")
+    assert ended.returncode == 2, ended.stderr
+    assert sentence in ended.stderr
+    assert "Traceback" not in ended.stderr
+    assert "went out" not in ended.stderr
+    others = run_bench("replay", file, "--delay", "0", "--topics", "bench/scene")
+    assert others.returncode == 0, others.stderr
+    assert "1 of 1 messages went out" in others.stderr

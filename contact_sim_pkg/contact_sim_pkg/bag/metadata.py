@@ -28,6 +28,7 @@ ROSBAG2 = "rosbag2"  # of the one that rosbag2 reads
 SCENE_KEY = "scene"
 RELATIVE_NAME = "relative_name"  # key of a channel's metadata
 CHECKSUM_KEY = "texts_sha256"
+CDR = "cdr"  # encoding of the messages that are written, read and replayed
 
 
 class RecordedTopic(NamedTuple):
@@ -40,6 +41,7 @@ class RecordedTopic(NamedTuple):
     type_hash: str
     offered_qos: str  # YAML list of profiles
     relative_name: str = ""  # of the table, where a namespace or a remapping has made another of it
+    encoding: str = CDR  # of the messages; others are copied, and never read
 
 
 def recorded_topics(
@@ -192,7 +194,7 @@ def _topic(topic: RecordedTopic, count: int) -> dict[str, Any]:
         "topic_metadata": {
             "name": topic.name,
             "type": topic.type,
-            "serialization_format": "cdr",
+            "serialization_format": topic.encoding,
             "offered_qos_profiles": values_of_text(topic.offered_qos, topic.name) if topic.offered_qos.strip() else [],
             "type_description_hash": topic.type_hash,
         },

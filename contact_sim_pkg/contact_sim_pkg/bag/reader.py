@@ -20,6 +20,7 @@ from contact_sim_pkg.bag.errors import BagError, CorruptChunkError
 from contact_sim_pkg.bag.mcap.append_file import is_being_written
 from contact_sim_pkg.bag.mcap.layout import Layout, chunk_records, read_layout
 from contact_sim_pkg.bag.metadata import (
+    CDR,
     LACKING,
     OUTCOME,
     RECORD,
@@ -114,7 +115,8 @@ class Bag:
         without one.
         """
         for name, row in self.topics.items():
-            if SCENE_TOPIC in (row.relative_name, _relative(name)) and row.type == SCENE_TYPE and self.count(name):
+            known = row.type == SCENE_TYPE and row.encoding == CDR
+            if SCENE_TOPIC in (row.relative_name, _relative(name)) and known and self.count(name):
                 first = next(self.messages(name), None)
                 return None if first is None else str(deserialize(SCENE_TYPE, first.data).data)
         return None
@@ -244,6 +246,10 @@ class Bag:
         return stacked(messages, self._types(row), row.type, fields, partial(self._decode, row))
 
     def _types(self, row: RecordedTopic) -> Typestore:
+        if row.encoding != CDR:
+            raise BagError(
+                f"{self.path}: the messages of {row.name} are encoded as {row.encoding!r:.20}, and only {CDR} is read"
+            )
         if row.type not in self._stores:
             self._stores[row.type] = store_of_definition(row.type, row.definition)
         return self._stores[row.type]
@@ -311,6 +317,10 @@ def _topics(layout: Layout, path: Path) -> dict[str, RecordedTopic]:
         if not name.isprintable() or len(name) > LONGEST_NAME:
             raise BagError(f"{path} has a topic whose name cannot be one: {name[:40]!r}")
         first = found.setdefault(name, row)
+        if first.encoding != row.encoding:
+            raise BagError(
+                f"{path} has two encodings of the topic {name}: {first.encoding!r:.20} and {row.encoding!r:.20}"
+            )
         if (first.type, first.definition) != (row.type, row.definition):
             raise BagError(f"{path} has two definitions of the topic {name}: {first.type[:40]!r} and {row.type[:40]!r}")
     return found
@@ -327,6 +337,7 @@ def _topic(channel: Channel, schema: Schema | None) -> RecordedTopic:
         kept.get("topic_type_hash", ""),
         kept.get("offered_qos_profiles", ""),
         kept.get(RELATIVE_NAME, ""),
+        channel.message_encoding,
     )
 
 

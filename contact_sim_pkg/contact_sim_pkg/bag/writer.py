@@ -134,7 +134,7 @@ class BagWriter:
             kept = {"offered_qos_profiles": topic.offered_qos, "topic_type_hash": topic.type_hash}
             if topic.relative_name:
                 kept[RELATIVE_NAME] = topic.relative_name
-            channels[topic.key] = self._writer.register_channel(topic.name, "cdr", schemas[topic.type], kept)
+            channels[topic.key] = self._writer.register_channel(topic.name, topic.encoding, schemas[topic.type], kept)
         return channels
 
     @property

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.metadata import RecordedTopic
+from contact_sim_pkg.bag.metadata import CDR, RecordedTopic
 from contact_sim_pkg.bag.texts import values_of_text
 from contact_sim_pkg.nodes.protocol.endpoints import message_type
 from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
@@ -40,9 +42,11 @@ def profile_of_recorded(text: str) -> QoSProfile:
 def recorded_publisher(node: Node, row: RecordedTopic, least_depth: int) -> Publisher:
     """A publisher of `node` for a topic of a bag, in the node's namespace.
 
-    A volatile topic keeps at least `least_depth` messages. Raises NodeError (refused) where the
-    topic was recorded with another definition of its type than the installed one.
+    A volatile topic keeps at least `least_depth` messages. Raises NodeError (refused) where its name
+    is none of ROS, its messages are not CDR, or the topic was recorded with another definition of
+    its type than the installed one.
     """
+    _refuse_foreign(row)
     profile, name = profile_of_recorded(row.offered_qos), row.name.lstrip("/")
     if profile.durability != DurabilityPolicy.TRANSIENT_LOCAL:
         profile.depth = max(profile.depth, least_depth)
@@ -56,3 +60,17 @@ def recorded_publisher(node: Node, row: RecordedTopic, least_depth: int) -> Publ
                 REFUSED,
             )
     return made
+
+
+def _refuse_foreign(row: RecordedTopic) -> None:
+    """Refuse what another recorder may keep in a bag, and ROS cannot carry."""
+    others = "leave it out: give the others with --topics"
+    if row.encoding != CDR:
+        raise NodeError(
+            f"the messages of {row.name} are encoded as {row.encoding!r:.20}, and ROS carries {CDR}; {others}", REFUSED
+        )
+    try:
+        validate_full_topic_name(row.name if row.name.startswith("/") else f"/{row.name}")
+    except InvalidTopicNameException as error:
+        reason = str(error).splitlines()[0].partition(": ")[2]
+        raise NodeError(f"{row.name!r} is no name of a topic of ROS: {reason}; {others}", REFUSED) from None
