@@ -14,8 +14,12 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, BinaryIO
 
-__all__ = ["FileRefusedError", "check_output", "new_file", "open_regular_file", "read_regular_file"]
+__all__ = [
+    "FileRefusedError", "check_output", "new_file", "open_regular_file", "printable", "read_regular_file", "wrong_name",
+]  # fmt: skip
 
+LONGEST_COMPONENT = 255  # bytes between two slashes, on every usual file system
+LONGEST_PATH = 4095  # bytes
 EXISTS = "exists already and is not written over; give another name or --overwrite"
 _KINDS = (
     (stat.S_ISDIR, "is a directory"),
@@ -32,6 +36,23 @@ class FileRefusedError(OSError):
     def __init__(self, path: str | Path, reason: str, number: int = errno.EINVAL) -> None:
         """The error of a path; `number` is its errno, for who asks."""
         super().__init__(number, reason, str(path))
+
+
+def printable(text: str, longest: int = 200) -> str:
+    """A text from outside as it may stand in a sentence: on one line, without escape sequences, cut to `longest` characters."""
+    shown = text if len(text) <= longest else text[: longest - 1] + "…"
+    return "".join(each if each.isprintable() else repr(each)[1:-1] for each in shown)
+
+
+def wrong_name(path: Path) -> str:
+    """Why a file or directory of this name is not made, with the cure; empty where nothing speaks against the name."""
+    if not str(path).isprintable():
+        return "has a line break or another control character in its name; give another name"
+    longest = max(len(os.fsencode(part)) for part in path.absolute().parts)
+    if longest > LONGEST_COMPONENT:
+        return f"has {longest} bytes in one name, {LONGEST_COMPONENT} are possible; give a shorter one"
+    whole = len(os.fsencode(path.absolute()))
+    return f"has {whole} bytes, {LONGEST_PATH} are possible; give a shorter one" if whole > LONGEST_PATH else ""
 
 
 def open_regular_file(path: str | Path) -> BinaryIO:
@@ -91,8 +112,10 @@ def check_output(
         ours: whether an existing file is one that the same command made and may make again; None: no file is.
 
     Raises:
-        FileRefusedError: it exists, is an input, or its directory is not there.
+        FileRefusedError: it exists, is an input, its directory is not there, or it has no possible name.
     """
+    if reason := wrong_name(path):
+        raise FileRefusedError(path, reason)
     remade = ours is not None and path.is_file() and ours(path)
     for each in inputs:
         if each is not None and not remade and _belongs_to(path, each):

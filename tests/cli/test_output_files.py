@@ -4,6 +4,8 @@ import click
 import pytest
 from tests.report import synthetic_bag as known
 
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.names import new_directory
 from contact_sim_pkg.cli.main import COMMANDS, bench, main
 
 IMPACTS = "m,R,V0,tau,k\n0.02,0.01,1,0.001,0.5\n0.02,0.01,1,0.001,0.51\n"
@@ -53,6 +55,33 @@ def test_a_file_of_somebody_else_stays_as_it_is(bag, tmp_path, capsys, output):
     assert "exists already" in said
     assert said.splitlines()[-1].startswith("bench: ")
     assert theirs.read_text() == "a week's work"
+
+
+NAMES = {
+    "line break": "a\nb.png",
+    "escape": "a\x1b[2J.png",
+    "component": "a" * 300 + ".png",
+    "path": "b/" * 2100 + "c.png",
+}
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("output", OUTPUTS, ids=" ".join)
+def test_a_name_that_no_file_can_have_is_refused_before_anything_starts(bag, tmp_path, capsys, output, name):
+    assert call(bag, tmp_path, [output[0], *OUTPUTS[output]], tmp_path / NAMES[name]) == 2
+    printed, said = capsys.readouterr()
+    assert printed == ""
+    reason = "control character in its name; give another" if name in ("line break", "escape") else "give a shorter one"
+    assert said.splitlines()[-1].startswith("bench: ")  # a note on the bag may stand in front
+    assert said.endswith(f"{reason}{' name' if 'another' in reason else ''}\n")
+    assert "\x1b" not in said
+    assert [entry.name for entry in tmp_path.iterdir()] == ["impacts.csv"]
+
+
+def test_room_is_kept_for_the_file_in_the_directory_of_a_bag(tmp_path):
+    with pytest.raises(BagError, match=r"has 256 bytes in one name, 255 are possible"):
+        new_directory(tmp_path / ("é" * 124 + "a"), "")  # 249 bytes, and _0.mcap
+    new_directory(tmp_path / ("é" * 124), "")
 
 
 @pytest.mark.parametrize("name", ["impacts.csv", "impacts_groups.csv"])

@@ -9,6 +9,7 @@ from contact_sim_pkg.bag.metadata import software_versions
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.bag.typestore import type_hash
+from contact_sim_pkg.files import printable
 
 __all__ = ["differences_from", "differences_of_bags", "installed_versions", "version_differences", "versions_of"]
 
@@ -33,7 +34,7 @@ def installed_versions(kernel_fingerprint: str) -> dict[str, str]:
 def version_differences(first: Mapping[str, str], second: Mapping[str, str]) -> dict[str, str]:
     """By what differs, of all that both name: the two versions, as in `0.1.0 and 0.2.0`."""
     return {
-        key: f"{_shown(first[key])} and {_shown(second[key])}"
+        key: f"{printable(first[key], 80)} and {printable(second[key], 80)}"
         for key in first
         if key in second and first[key] != second[key]
     }
@@ -65,7 +66,3 @@ def differences_of_bags(bags: Sequence[Bag], *, across: bool = False) -> list[st
 
 def _listed(found: Mapping[str, str]) -> str:
     return ", ".join(f"{key} ({versions})" for key, versions in found.items())
-
-
-def _shown(text: str) -> str:
-    return text[:80] if text.isprintable() else repr(text[:80])

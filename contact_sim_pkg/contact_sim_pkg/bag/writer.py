@@ -31,6 +31,7 @@ from contact_sim_pkg.bag.metadata import (
     sealed,
     serialized_metadata,
 )
+from contact_sim_pkg.bag.names import file_name, refuse_wrong_name
 
 CHUNK_SECONDS = 0.1  # age at which a chunk is closed
 CHUNK_BYTES = 1 << 20
@@ -78,9 +79,10 @@ class BagWriter:
             background: run `maintain` every 0.05 s in a thread; without it the caller does.
 
         Raises:
-            BagError: the directory exists or cannot be created, or less than the reserve is free;
+            BagError: the directory exists, cannot be created or have its name, or less than the reserve is free;
                 nothing is left.
         """
+        refuse_wrong_name(directory)
         free = free_bytes() if free_bytes else free_bytes_at(directory)
         if free < reserve_bytes:
             raise BagError(
@@ -92,7 +94,7 @@ class BagWriter:
         self._reserve, self._clock = reserve_bytes, clock
         create_directory(directory)
         self.path = directory
-        self._name = f"{directory.name}_0.mcap"
+        self._name = file_name(directory)
         self._file: AppendFile = create_file(directory, self._name)
         self._free_bytes = free_bytes or self._file.free_bytes
         self._writer = Writer(self._file, chunk_size=CHUNK_BYTES)  # type: ignore[arg-type]  # write, tell, flush are all it needs

@@ -80,9 +80,17 @@ def main(arguments: list[str] | None = None) -> int:
         known = refusal(error)
         if known is None:
             raise
-        print(f"bench: {known[0]}" if "\n" not in known[0] else known[0], file=sys.stderr)
+        print(_sentences(known[0]), file=sys.stderr)
         return known[1]
     return int(status or 0)
+
+
+def _sentences(text: str) -> str:
+    """One sentence, or one a line, as they are printed: what was read from a file cannot move the cursor."""
+    from contact_sim_pkg.files import printable
+
+    lines = [printable(line, longest=len(line)) for line in text.split("\n")]
+    return f"bench: {lines[0]}" if len(lines) == 1 else "\n".join(lines)
 
 
 def refusal(error: Exception) -> tuple[str, int] | None:
@@ -91,7 +99,7 @@ def refusal(error: Exception) -> tuple[str, int] | None:
     """
     from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.excitation.errors import ExcitationError
-    from contact_sim_pkg.files import FileRefusedError
+    from contact_sim_pkg.files import FileRefusedError, printable
     from contact_sim_pkg.identify.errors import IdentificationError
     from contact_sim_pkg.rigs.impact.material.errors import MaterialError
     from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileError
@@ -107,7 +115,11 @@ def refusal(error: Exception) -> tuple[str, int] | None:
     if isinstance(error, MemoryError):
         return f"memory ran out: {error or 'an allocation failed'}; shorten the run or lower limits.memory", 1
     if isinstance(error, OSError):
-        sentence = f"{error.filename}: {error.strerror}" if error.filename else str(error.strerror or error)
+        sentence = (
+            f"{printable(str(error.filename), 500)}: {error.strerror}"
+            if error.filename
+            else str(error.strerror or error)
+        )
         return sentence, 2 if isinstance(error, FileRefusedError) else 1
     if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in (
         "rclpy",
