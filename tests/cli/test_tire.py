@@ -18,6 +18,19 @@ def run(*arguments):
     return CliRunner().invoke(command, [str(a) for a in arguments], catch_exceptions=False)
 
 
+def test_names_of_sections_and_units_are_printed_without_their_control_characters(tmp_path, capsys):
+    file = write(tmp_path)
+    text = file.read_text()
+    file.write_text(text + "[\x1b[2JEVIL\x07]\n1 2 3\n")
+    assert main(["tire", str(file)]) == 0
+    assert "tables skipped: \\x1b[2JEVIL\\x07" in capsys.readouterr().err
+    file.write_text(text.replace("TIME = 'second'", "TIME = '\x1b[31m'"))
+    assert main(["tire", str(file)]) == 2
+    said = capsys.readouterr().err
+    assert "\\x1b[31m" in said
+    assert "\x1b" not in said
+
+
 SCENE = """\
 rig: tire
 description: a test

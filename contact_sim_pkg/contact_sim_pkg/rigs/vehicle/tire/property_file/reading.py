@@ -11,7 +11,7 @@ import re
 from pathlib import Path
 from typing import NamedTuple
 
-from contact_sim_pkg.files import read_regular_file
+from contact_sim_pkg.files import printable, read_regular_file
 from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileError
 from contact_sim_pkg.rigs.vehicle.tire.property_file.keys import DIMENSIONS, KEYS, UNITS
 
@@ -72,7 +72,7 @@ def read_property_file(path: Path) -> PropertyFile:
     if not values:
         raise PropertyFileError(f"{path}: none of the keys of a tire is there, such as UNLOADED_RADIUS; no .tir file?")
     if lines.tables:
-        notes.append(f"tables skipped: {', '.join(lines.tables)}")
+        notes.append(f"tables skipped: {', '.join(map(printable, lines.tables))}")
     return PropertyFile(str(path), units, values, tuple(lines.unread), (*lines.notes, *notes))
 
 
@@ -139,7 +139,7 @@ class _Lines:
             raise self.fail(number, f"{name[:40]!r} is no name of a key; KEY = value is read")
         if section == "MDI_HEADER":
             if key == "FILE_TYPE" and _word(text) != "tir":
-                raise self.fail(number, f"FILE_TYPE is {text[:40]}; 'tir', a tire property file, is read")
+                raise self.fail(number, f"FILE_TYPE is {printable(text, 40)}; 'tir', a tire property file, is read")
             return
         known = self.named_units if section == "UNITS" else self.found
         if key not in (UNITS if section == "UNITS" else KEYS):
@@ -155,7 +155,9 @@ class _Lines:
         for quantity, (text, line) in self.named_units.items():
             unit = _word(text)
             if unit not in UNITS[quantity]:
-                raise self.fail(line, f"{quantity} in {text[:40]} is not read; {', '.join(UNITS[quantity])} are")
+                raise self.fail(
+                    line, f"{quantity} in {printable(text, 40)} is not read; {', '.join(UNITS[quantity])} are"
+                )
             units[quantity] = unit
         missing = [quantity for quantity in SI if quantity not in units]
         notes = [f"[UNITS] names no {', '.join(missing)}; taken in SI"] if missing else []
