@@ -9,19 +9,19 @@ import random
 import time
 
 import pytest
-from tests.bag.hand_made import VIBRATION, seat_ride, write
+from tests.bag.hand_made import BLOCK, VIBRATION, seat_ride, write
 from tests.bench_process import bench as run_bench
 from tests.bench_process import needs_ros
 from tests.report.rolling_bag import rolling_bag
 from tests.report.synthetic_bag import car_bag
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.messages import encode
+from contact_sim_pkg.bag.messages import decode, encode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.typestore import store_of_definition
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main as bench
-from contact_sim_pkg.records.messages import String
+from contact_sim_pkg.records.messages import String, VibrationBlock
 from contact_sim_pkg.run import offline
 
 SECONDS = 20.0  # for one command, on a busy machine
@@ -180,6 +180,18 @@ def test_messages_of_another_encoding_are_refused_by_name_and_recovered_as_they_
     kept = open_bag(tmp_path / "recovered").topic(VIBRATION)
     assert kept.encoding == "json"
     assert "serialization_format: json" in (tmp_path / "recovered" / "metadata.yaml").read_text()
+
+
+@pytest.mark.fault("B3")
+@pytest.mark.parametrize("number", [0, 1])
+def test_an_excitation_beyond_its_bound_is_refused_by_the_bound(capsys, tmp_path, ride, number):
+    messages = list(ride.messages)
+    block = decode(VibrationBlock, messages[1 + number][2])
+    block.acceleration_z[3] = 1e300
+    messages[1 + number] = (VIBRATION, number * BLOCK, encode(block, number * BLOCK))
+    write(tmp_path / "bag", dataclasses.replace(ride, messages=messages))
+    said = ends_in_a_sentence(capsys, tmp_path, tmp_path / "bag", "run")
+    assert f"acceleration_z of block {number} reaches 1e+300 m/s^2; allowed: up to 10000 m/s^2" in said
 
 
 @pytest.mark.fault("E10", "E11")

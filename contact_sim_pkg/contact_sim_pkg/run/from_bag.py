@@ -7,12 +7,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.excitation import DECODERS
+from contact_sim_pkg.bag.errors import BagError, MessageError
+from contact_sim_pkg.bag.excitation import DECODERS, Block
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.bag.texts import excitation_of_text, scene_of_text, values_of_text
 from contact_sim_pkg.bag.versions import differences_from, installed_versions
-from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
+from contact_sim_pkg.records.messages import RoadPatch
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names, kernel_fingerprint
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import Source, road_lattice
@@ -27,13 +27,15 @@ class BagSource:
     """The blocks of one excitation topic of a bag, kept as recorded bytes."""
 
     def __init__(self, bag: Bag, topic: str) -> None:
-        """Read the topic; BagError where the bag does not have it or skips a block."""
+        """Read the topic; BagError where the bag does not have it, skips a block or holds one that
+        cannot drive a rig.
+        """
         self._path, self._topic = bag.path, topic
         self._messages = [message.data for message in bag.messages(topic)]
         described = excitation_of_text(bag.metadata.get(EXCITATION_KEY), f"excitation of {bag.path}")
         self._description: dict[str, Any] = described.get(topic, {})
         for expected, data in enumerate(self._messages):
-            found = DECODERS[topic](data).block
+            found = _decoded(bag.path, topic, data).block
             if found != expected:
                 raise BagError(
                     f"{bag.path}: {topic} has block {found} where block {expected} was due; it cannot be run again"
@@ -42,7 +44,7 @@ class BagSource:
     def __len__(self) -> int:
         return len(self._messages)
 
-    def block(self, block: int) -> RoadPatch | VibrationBlock:
+    def block(self, block: int) -> Block:
         """Block number ``block``; RunError beyond the recording."""
         if block >= len(self._messages):
             raise RunError(f"{self._path}: {self._topic} ends before block {block}; it holds {len(self._messages)}")
@@ -95,7 +97,14 @@ def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:
         if first is None or count < blocks:
             cure = f"; ask for --duration {count * scene.block_length:g}" if count else ""
             raise BagError(f"{path}: {topic} holds {count} blocks, the scene needs {blocks}{cure}")
-        _refuse_misfit(path, topic, DECODERS[topic](first.data), scene)
+        _refuse_misfit(path, topic, _decoded(path, topic, first.data), scene)
+
+
+def _decoded(path: Path, topic: str, data: bytes) -> Block:
+    try:
+        return DECODERS[topic](data)
+    except MessageError as error:
+        raise BagError(f"{path}: {topic}: {error}") from None
 
 
 def _changed_keys(bag: Bag, scene: ResolvedScene) -> list[str]:
@@ -125,7 +134,7 @@ def _differences(recorded: dict[str, Any], data: dict[str, Any]) -> list[str]:
     return changed
 
 
-def _refuse_misfit(path: Path, topic: str, first: RoadPatch | VibrationBlock, scene: ResolvedScene) -> None:
+def _refuse_misfit(path: Path, topic: str, first: Block, scene: ResolvedScene) -> None:
     if isinstance(first, RoadPatch):
         lattice = road_lattice(scene)
         found = (first.height.shape[1], first.cell_x, first.cell_y)

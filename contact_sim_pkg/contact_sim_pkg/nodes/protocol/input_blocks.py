@@ -7,67 +7,35 @@ the run waits for a good one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-
-import numpy
-from numpy.typing import NDArray
+from collections.abc import Iterable
 
 from contact_sim_pkg.bag.errors import MessageError
-from contact_sim_pkg.bag.excitation import decode_road, decode_vibration
+from contact_sim_pkg.bag.excitation import DECODERS, Block
 from contact_sim_pkg.bag.messages import stamp_of
-from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
-
-Block = RoadPatch | VibrationBlock
+from contact_sim_pkg.records.messages import VibrationBlock
 
 FARTHEST_AHEAD = 64  # blocks kept per input; the window of a well-behaved source is 8
-LARGEST_HEIGHT = 1.0e3  # [m]
-LARGEST_ACCELERATION = 1.0e4  # [m/s^2]
 
 
-def check_road(data: bytes, block_length: float) -> RoadPatch:
-    """The decoded strip, heights [m] as [rows, cols]; `block_length` [s] has no part in it.
-
-    Raises MessageError where it is malformed or a height is beyond `LARGEST_HEIGHT`.
-    """
-    patch = decode_road(data)
-    _within("height", patch.block, patch.height, LARGEST_HEIGHT, "m")
-    return patch
-
-
-def check_vibration(data: bytes, block_length: float) -> VibrationBlock:
-    """The decoded samples [m/s^2] of a block of `block_length` [s].
-
-    Raises MessageError where they are malformed, beyond `LARGEST_ACCELERATION`, or do not fill the
-    block.
-    """
-    vibration = decode_vibration(data)
+def _refuse_unfilled(vibration: VibrationBlock, block_length: float) -> None:
+    """MessageError where the samples do not fill a block of `block_length` [s]."""
     intervals = len(vibration.acceleration_x) - 1
     if abs(intervals * vibration.sample_period - block_length) > 1e-6 * block_length:
         raise MessageError(
             f"block {vibration.block} has {intervals + 1} samples every {vibration.sample_period} s, which do not fill a block "
             f"of {block_length} s; its last sample lies at the block's end"
         )
-    for name in ("acceleration_x", "acceleration_z"):
-        _within(name, vibration.block, getattr(vibration, name), LARGEST_ACCELERATION, "m/s^2")
-    return vibration
-
-
-_CHECKS: dict[str, Callable[[bytes, float], Block]] = {"road/patch": check_road, "platform/vibration": check_vibration}
-
-
-def _within(name: str, block: int, values: NDArray[numpy.floating], bound: float, unit: str) -> None:
-    largest = float(numpy.abs(values).max(initial=0.0))
-    if largest > bound:
-        raise MessageError(f"{name} of block {block} reaches {largest:.6g} {unit}; allowed: up to {bound:.6g} {unit}")
 
 
 def check_block(topic: str, data: bytes, block_length_ns: int, blocks: int) -> Block:
     """The decoded block.
 
-    Raises MessageError where they are malformed, a value is not finite or absurd, the number is not
+    Raises MessageError where it is malformed, does not fill its time, a value is not finite or absurd, the number is not
     one of the scene, or number and stamp disagree (stamp = number x block length).
     """
-    block = _CHECKS[topic](data, block_length_ns * 1e-9)
+    block = DECODERS[topic](data)
+    if isinstance(block, VibrationBlock):
+        _refuse_unfilled(block, block_length_ns * 1e-9)
     stamp = stamp_of(data)
     if not 0 <= block.block < blocks:
         raise MessageError(f"block {block.block} is none of the scene's blocks 0 to {blocks - 1}")
