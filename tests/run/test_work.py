@@ -76,6 +76,27 @@ def test_a_loss_is_estimated_at_the_depth_of_the_law_that_carries():
     assert "steps of the integrator for seat.normal_elastic" not in found
 
 
+NEEDLE = ("block.sides=[1,1e-3,1e-3]", "block.mass=1", "block.angular_velocity=[0,0,0]", "duration=0.1")
+ALONG = 1e-6 / 6.0  # [kg m^2] of the needle, about its length
+
+
+@pytest.mark.parametrize(
+    ("values", "acceleration"),
+    [
+        (("block.rotation=[0,0,0]", "block.torque=[1000,0,0]"), 1000.0 / ALONG),
+        (("block.rotation=[0,0,1.5707963267948966]", "block.torque=[0,1000,0]"), 1000.0 / ALONG),
+        (("block.rotation=[0,0,1.5707963267948966]", "block.torque=[1000,0,0]"), 12_000.0 / (1.0 + 1e-6)),
+        (("block.rotation=[0,0,0]", "block.torque=[1000,0,0]", "block.force=[0,0,-1e12]"), 0.0),  # pressed down
+        (("block.rotation=[0,0,0]", "block.torque=[1e-3,0,0]", "block.force=[0,0,10]"), 1e-3 / ALONG),  # lifted off
+    ],
+)
+def test_a_torque_is_estimated_about_the_axis_that_it_turns(values, acceleration):
+    """A slender box turns about its length 500 000 times as fast as across it; angle alpha T^2 / 2 in parts of 0.02 rad."""
+    parts = {part.what: part.number for part in estimated_work(resolved("box_3d_tumble", *NEEDLE, *values))}
+    expected = 0.5 * acceleration * 0.1**2 / 0.02
+    assert parts["sub-steps of flight of a body that spins"] == pytest.approx(expected, rel=1e-6)
+
+
 def test_a_block_that_slides_is_estimated_by_how_fast_its_spring_relaxes():
     """At the rate C / D of a spring of 2e6 N/m on a damper of 1e-3 N s/m."""
     contact = "{rigid_contact: {}, compliant_contact: {tangential_stiffness: 2e6, tangential_damping: 1e-3}}"

@@ -48,12 +48,39 @@ def work_of_block(scene: ResolvedScene) -> Iterator[Work]:
 
 def _turned(block: Block, duration: float) -> float:
     """Angle [rad] that a body turns in ``duration`` [s]: the faster, the longer a known torque
-    turns it.
+    turns it about an axis that its weight does not hold.
     """
-    plane = block.motion == "plane"
-    corners = [block.sides, [0.0, 0.0, 0.0]] if block.points is None else block.points
-    size = 2.0 * block.radius if block.shape == "sphere" else max(math.dist(corners[0], other) for other in corners)
-    torque, spin = (abs(each[1]) if plane else math.hypot(*each) for each in (block.torque, block.angular_velocity))
-    if torque <= 0.5 * block.mass * block.gravity * size:  # it may rest
-        torque = 0.0
-    return spin * duration + 0.5 * torque / (block.mass * size**2 / 12.0) * duration**2
+    spin, torque = list(block.angular_velocity), _body_axes(block)
+    pressed = max(0.0, block.mass * block.gravity - block.force[2])  # onto the ground
+    accelerations = [
+        about / inertia if abs(about) > 0.5 * pressed * width else 0.0  # below, it may rest on an edge
+        for about, inertia, width in zip(torque, *_inertia(block), strict=True)
+    ]
+    if block.motion == "plane":
+        spin, accelerations = [spin[1]], [accelerations[1]]
+    return math.hypot(*spin) * duration + 0.5 * math.hypot(*accelerations) * duration**2
+
+
+def _body_axes(block: Block) -> list[float]:
+    """Known torque [N m] in the axes of the body at the start, by Rodrigues' formula."""
+    angle = math.hypot(*block.rotation)
+    if block.motion == "plane" or angle == 0.0:
+        return list(block.torque)
+    axis, torque = [each / angle for each in block.rotation], block.torque
+    along = sum(a * b for a, b in zip(axis, torque, strict=True)) * (1.0 - math.cos(angle))
+    across = [axis[i - 2] * torque[i - 1] - axis[i - 1] * torque[i - 2] for i in range(3)]
+    return [math.cos(angle) * torque[i] - math.sin(angle) * across[i] + along * axis[i] for i in range(3)]
+
+
+def _inertia(block: Block) -> tuple[list[float], list[float]]:
+    """Moments of inertia [kg m^2] about the body's axes, of a hull those of the box around it, and
+    its width [m] across each.
+    """
+    if block.shape == "sphere":
+        return [0.4 * block.mass * block.radius**2] * 3, [2.0 * block.radius] * 3
+    sides = list(block.sides)
+    if block.points is not None:
+        sides = [max(each) - min(each) for each in zip(*block.points, strict=True)]
+        sides = [sides[0], 0.0, sides[1]] if len(sides) == 2 else sides  # a polygon: about y alone
+    widths = [math.hypot(sides[1], sides[2]), math.hypot(sides[0], sides[2]), math.hypot(sides[0], sides[1])]
+    return [block.mass * width**2 / 12.0 for width in widths], widths
