@@ -63,6 +63,23 @@ def test_blocks_done_late_are_counted_and_reported_after_a_hundred_in_a_row(late
 
 
 @pytest.mark.fault("C3")
+def test_a_constant_delay_is_called_one_and_the_pace_held(lateness):
+    """A source that began 0.5 s late, and a run that stood still for 1 s; each delay stays as it is from then on."""
+    printed = [lateness.block_done(block, 100.51 + 0.01 * (block + 1), 1.0) for block in range(1000)]
+    assert printed[98] == ""
+    assert printed[99] == "held with a constant delay, 0.5 s behind after block 99 (100 blocks late)"
+    stood = [lateness.block_done(block, 101.51 + 0.01 * (block + 1), 0.9) for block in range(1000, 3000)]
+    assert stood[0] == "slower than its pace: 0.9x real time, 1.5 s behind after block 1000 (1001 blocks late)"
+    assert stood[-1] == "held with a constant delay, 1.5 s behind after block 2999 (3000 blocks late)"
+
+
+@pytest.mark.fault("C3")
+def test_a_run_one_in_two_hundred_too_slow_is_called_slow_in_the_end(lateness):
+    printed = [lateness.block_done(block, 100.5 + 0.01005 * (block + 1), 0.995) for block in range(1000)]
+    assert "slower than its pace" in printed[-1]
+
+
+@pytest.mark.fault("C3")
 def test_a_run_that_has_caught_up_is_not_late_any_more(lateness):
     assert all(not lateness.block_done(block, 105.0, 0.1) for block in range(99))
     assert lateness.block_done(99, 101.01, 1.0) == ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 
 
 def parse_pace(pace: str | float) -> float:
@@ -25,6 +26,7 @@ def parse_pace(pace: str | float) -> float:
 
 
 LATE_IN_A_ROW = 100  # blocks done late, one after the other, before it is reported
+GROWTH_BLOCKS = 1000  # within which a delay has to grow by more than a block's time to be called slow
 
 
 class Pacer:
@@ -66,21 +68,25 @@ class Lateness:
     def __init__(self, pacer: Pacer) -> None:
         """No block done."""
         self._pacer = pacer
-        self.late = self._in_a_row = 0
+        self.late = 0
+        self._delays = deque[float](maxlen=GROWTH_BLOCKS)  # [s] of the late blocks in a row
 
     def block_done(self, block: int, now: float, factor: float) -> str:
         """Count a block done at `now` of the steady clock, [s], at `factor` simulated seconds per
         second so far.
 
-        Returns a sentence from the hundredth late block in a row on; empty where the run is in
-        time, or has no pace.
+        Returns a sentence from the hundredth late block in a row on, which calls a delay that does
+        not grow no slowness; empty where the run is in time, or has no pace.
         """
         interval = self._pacer.interval
         behind = now - interval * (block + 2) - self._pacer.began
         if interval <= 0.0 or behind <= 0.0:
-            self._in_a_row = 0
+            self._delays.clear()
             return ""
-        self.late, self._in_a_row = self.late + 1, self._in_a_row + 1
-        if self._in_a_row < LATE_IN_A_ROW:
+        self.late += 1
+        self._delays.append(behind)
+        if len(self._delays) < LATE_IN_A_ROW:
             return ""
-        return f"slower than its pace: {factor:.2g}x real time, {behind:.3g} s behind after block {block} ({self.late} blocks late)"
+        slow = behind - self._delays[0] > interval
+        state = f"slower than its pace: {factor:.2g}x real time" if slow else "held with a constant delay"
+        return f"{state}, {behind:.3g} s behind after block {block} ({self.late} blocks late)"
