@@ -49,7 +49,8 @@ class Outcome(Protocol):
 
 def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
     """The object that `--json` prints; `bag` is None and `summary` empty where nothing was
-    recorded.
+    recorded, `summary` also where the run has failed: who waits for a failure is not kept waiting
+    for numbers, and `bench report` has them.
     """
     # `ended` and `failure` repeat the texts that the bag ends with
     simulated = round(outcome.blocks * scene.block_length, 9)
@@ -66,7 +67,7 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
         "excitation": outcome.excitation,
         "bag": None if outcome.bag is None else str(outcome.bag),
         "summary": {}
-        if outcome.bag is None or not outcome.blocks
+        if outcome.bag is None or not outcome.blocks or outcome.exit_status == 1
         else _summary(outcome.bag, lossy=outcome.exit_status != 0),
     }
 
