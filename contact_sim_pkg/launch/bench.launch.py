@@ -3,22 +3,24 @@
     ros2 launch contact_sim_pkg bench.launch.py scene:=seat_ride duration:=10.0 pace:=max
 
 A refused scene or bag, and a node that ends badly, end the launch with status 1 (launch has no other)
-and a sentence. `bench run` does the same where launch is not installed, and shows progress.
+and a sentence, which the bag keeps. `bench run` does the same where launch is not installed, and shows progress.
 """
 
-import shutil
-import tempfile
+import atexit
+from collections.abc import Callable
 from pathlib import Path
 
-from launch.actions import DeclareLaunchArgument, OpaqueFunction, RegisterEventHandler, SetEnvironmentVariable
-from launch.event_handlers import OnShutdown
+from launch.actions import DeclareLaunchArgument, LogInfo, OpaqueFunction, SetEnvironmentVariable
 from launch.events.process import ProcessExited
 from launch.substitutions import EnvironmentVariable, LaunchConfiguration
 from launch_ros.actions import Node
 
+from contact_sim_pkg.bag.mcap.unfinished import leave_metadata
 from contact_sim_pkg.bag.names import new_directory
+from contact_sim_pkg.nodes.processes.children import how_ended
+from contact_sim_pkg.nodes.processes.run_folder import RunFolder
 from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
-from contact_sim_pkg.nodes.processes.scene_file import write_scene
+from contact_sim_pkg.nodes.processes.scene_file import read_reason, write_reason, write_scene
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_duration, set_pace
 from contact_sim_pkg.scene.resolve import resolve
@@ -38,16 +40,18 @@ SWITCHES = ("record", "publish_clock", "use_sim_time")
 DISCOVERY = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
 
-def start_nodes(context: LaunchContext) -> list[Node | RegisterEventHandler]:
+def start_nodes(context: LaunchContext) -> list[Node]:
     """Resolve the scene once, and start the nodes that it needs; the first one that ends badly ends all."""
     given = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}
     changes = [make(given[name]) for name, make in (("duration", set_duration), ("pace", set_pace)) if given[name]]
     scene = resolve(load_scene(given["scene"], changes))
-    folder = Path(tempfile.mkdtemp(prefix="contact_bench_"))
     record, clock, sim_time = (given[name].lower() == "true" for name in SWITCHES)
     bag = Path(given["bag"]) if given["bag"] else None
     directory = new_directory(bag, str(scene.data["name"])) if record else None
-    nodes = [
+    folder = RunFolder()
+    atexit.register(folder.remove)  # not at the shutdown: the logger reads there why its run has ended
+    path = write_scene(scene, folder.path)
+    return [
         Node(
             package="contact_sim_pkg",
             executable=node.name,
@@ -55,21 +59,34 @@ def start_nodes(context: LaunchContext) -> list[Node | RegisterEventHandler]:
             namespace=given["namespace"],
             parameters=[{**node.parameters, "use_sim_time": sim_time}],
             output="screen",
-            on_exit=end_if_failed,
+            on_exit=end_of(node.name, path, directory),
         )
-        for node in planned_nodes(scene, write_scene(scene, folder), directory, clock=clock)
+        for node in planned_nodes(scene, path, directory, clock=clock)
     ]
-    return [*nodes, RegisterEventHandler(OnShutdown(on_shutdown=lambda *_: shutil.rmtree(folder, ignore_errors=True)))]
 
 
-def end_if_failed(event: ProcessExited, context: LaunchContext) -> None:
-    """No node is started again: its state is gone, and the bits would differ.
+def end_of(node: str, scene: Path, bag: Path | None) -> Callable[[ProcessExited, LaunchContext], list[LogInfo]]:
+    """What is done at the end of a node. No node is started again: its state is gone, and the bits would differ.
 
     An exception is what makes launch end the other nodes and return another status than 0; a Shutdown would return 0.
     """
-    ended_by_launch = context.is_shutdown and event.returncode < 0  # a signal, before the node had learnt to catch it
-    if event.returncode and not ended_by_launch:
-        raise RuntimeError(f"{event.process_name} ended with status {event.returncode}; the run has failed")
+
+    def on_exit(event: ProcessExited, context: LaunchContext) -> list[LogInfo]:
+        sentence = how_ended(node, event.returncode)
+        ended_by_launch = (
+            context.is_shutdown and event.returncode < 0
+        )  # a signal, before the node had learnt to catch it
+        failed = event.returncode != 0 and not ended_by_launch
+        if failed:
+            write_reason(scene, sentence)  # the logger, which ends last, keeps it
+        hint = ""
+        if node == "bag_logger" and bag is not None:
+            hint = leave_metadata(bag, {"ended": "failed", "failure": read_reason(str(scene)) or sentence})
+        if failed:
+            raise RuntimeError("; ".join(filter(None, [sentence, "the run has failed", hint])))
+        return [LogInfo(msg=hint)] if hint else []
+
+    return on_exit
 
 
 def generate_launch_description() -> LaunchDescription:

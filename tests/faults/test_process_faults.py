@@ -75,7 +75,7 @@ def test_a_killed_node_is_named_and_the_others_end(running, victim):
     assert set(nodes) == NODES
     segments = set().union(*(mapped_segments(node) for node in nodes.values())) - mapped_segments(os.getpid())
     os.kill(nodes[victim], signal.SIGKILL)
-    _, said = process.communicate(timeout=LONGEST)
+    printed, said = process.communicate(timeout=LONGEST)
     assert process.returncode == 1
     assert f"{victim} was ended by SIGKILL" in said
     assert "Traceback" not in said
@@ -87,6 +87,7 @@ def test_a_killed_node_is_named_and_the_others_end(running, victim):
     assert kept["message_count"] == left.count()
     assert kept["custom_data"]["ended"] == "failed"
     assert f"{victim} was ended by SIGKILL" in kept["custom_data"]["failure"]
+    assert "messages on" not in printed  # numbers of a failed run would keep its user waiting
     if victim == "bag_logger":
         assert said.splitlines()[-1].endswith(f"make it whole: bench recover {bag} {bag}_recovered")
     else:
@@ -107,7 +108,10 @@ def test_nodes_whose_supervisor_is_killed_end_by_themselves_and_leave_nothing(ru
     process.kill()
     process.wait()
     wait_until(lambda: not any(lives(node) for node in nodes.values()), 20.0)
-    assert open_bag(bag).complete
+    left = open_bag(bag)
+    assert left.complete
+    assert left.metadata["ended"] == "failed"
+    assert left.metadata["failure"] == f"bench run (process {process.pid}), which watched the nodes, is gone"
     assert not folder.exists()
     left = {name for name in segments if re.fullmatch(r"fastrtps_[0-9a-f]+", name) and Path("/dev/shm", name).exists()}
     assert left == set()

@@ -11,10 +11,12 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from tests.bench_process import ENVIRONMENT, LONGEST, PACKAGE, needs_ros, wait_until
+from ruamel.yaml import YAML
+from tests.bench_process import ENVIRONMENT, LONGEST, PACKAGE, Nodes, needs_ros, resolved, wait_until
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.nodes.processes.scene_file import read_reason
 
 FILE = PACKAGE / "launch" / "bench.launch.py"
 MODULES = ("", ".actions", ".event_handlers", ".events", ".events.process", ".substitutions")
@@ -70,7 +72,7 @@ def test_the_arguments_are_declared_and_reach_the_nodes_of_the_plan(launch_file,
         use_sim_time="True",
         namespace="rig1",
     )
-    *nodes, _ = launch_file.start_nodes(asked)
+    nodes = launch_file.start_nodes(asked)
     parameters = {node.named["name"]: node.named["parameters"][0] for node in nodes}
     assert list(parameters) == ["bag_logger", "vibration", "contact_simulator"]
     assert parameters["contact_simulator"]["publish_clock"] is False
@@ -85,18 +87,59 @@ def test_a_bag_that_exists_is_refused_before_a_node_is_started(launch_file, tmp_
     launch_file.start_nodes(context(launch_file, scene="seat_ride", bag=str(tmp_path), record="false"))
 
 
+NAMED = {1: "ended with status 1", 3: "ended with status 3", -9: "was ended by SIGKILL"}
+
+
 @pytest.mark.fault("F2")
 @pytest.mark.parametrize(
     ("status", "is_shutdown", "fails"),
     [(0, False, False), (1, False, True), (3, True, True), (-9, False, True), (-2, True, False), (0, True, False)],
 )
-def test_a_node_that_ends_badly_is_an_error_of_the_launch(launch_file, status, is_shutdown, fails):
-    ended = SimpleNamespace(process_name="bag_logger-1", returncode=status)
+def test_a_node_that_ends_badly_is_an_error_of_the_launch(launch_file, tmp_path, status, is_shutdown, fails):
+    """The first one of a run is the reason that its bag keeps."""
+    scene = tmp_path / "scene.resolved.yaml"
+    on_exit = launch_file.end_of("vibration", scene, tmp_path / "bag")
+    ended = SimpleNamespace(returncode=status)
     if fails:
-        with pytest.raises(RuntimeError, match=f"bag_logger-1 ended with status {status}"):
-            launch_file.end_if_failed(ended, context(launch_file))
+        with pytest.raises(RuntimeError, match=f"vibration {NAMED[status]}; the run has failed"):
+            on_exit(ended, context(launch_file))
+        with pytest.raises(RuntimeError):
+            launch_file.end_of("contact_simulator", scene, None)(ended, context(launch_file))
+        assert read_reason(str(scene)) == f"vibration {NAMED[status]}"
     else:
-        launch_file.end_if_failed(ended, context(launch_file, is_shutdown=is_shutdown))
+        assert on_exit(ended, context(launch_file, is_shutdown=is_shutdown)) == []
+        assert read_reason(str(scene)) == ""
+
+
+@pytest.mark.fault("F2")
+@needs_ros
+@pytest.mark.parametrize("victim", ["bag_logger", "contact_simulator", "vibration"])
+def test_the_bag_names_a_killed_node_where_launch_has_started_them(launch_file, tmp_path, victim):
+    """As launch does it: `end_of` at the end of a node, then SIGINT to the others."""
+    nodes = Nodes(resolved("seat_ride", "duration=60", "pace=realtime"), tmp_path)
+    scene = tmp_path / "scene.resolved.yaml"
+    try:
+        started = {name: nodes.start(name) for name in ("bag_logger", "vibration", "contact_simulator")}
+        file = nodes.bag / "bag_0.mcap"
+        nodes.wait_until(lambda: file.exists() and file.stat().st_size > 30_000)
+        started[victim].process.kill()
+        status = started[victim].process.wait()
+        with pytest.raises(RuntimeError, match=f"{victim} was ended by SIGKILL; the run has failed") as raised:
+            launch_file.end_of(victim, scene, nodes.bag)(SimpleNamespace(returncode=status), context(launch_file))
+        for child in started.values():
+            if child.name != victim:
+                child.process.send_signal(signal.SIGINT)
+        nodes.wait()
+    finally:
+        nodes.end()
+    told = YAML(typ="safe").load((nodes.bag / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
+    assert told["custom_data"]["ended"] == "failed"
+    assert told["custom_data"]["failure"] == f"{victim} was ended by SIGKILL"
+    assert told["message_count"] == open_bag(nodes.bag).count() > 0
+    if victim == "bag_logger":
+        assert str(raised.value).endswith(f"make it whole: bench recover {nodes.bag} {nodes.bag}_recovered")
+    else:
+        assert open_bag(nodes.bag).complete
 
 
 def start_launch(folder: Path, **given: object) -> subprocess.Popen[str]:
@@ -142,5 +185,8 @@ def test_the_status_of_launch_distinguishes_a_killed_node_from_an_interrupt(tmp_
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
     assert process.returncode == status, printed
-    assert (f"{node}-" in printed and "ended with status -9; the run has failed" in printed) == bool(node)
+    assert (f"{node} was ended by SIGKILL; the run has failed" in printed) == bool(node)
     assert open_bag(tmp_path / "bag").count("seat/force") > 0
+    told = YAML(typ="safe").load((tmp_path / "bag" / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
+    assert told["custom_data"]["failure"] == (f"{node} was ended by SIGKILL" if node else "")
+    assert ("bench recover" in printed) == (node == "bag_logger")

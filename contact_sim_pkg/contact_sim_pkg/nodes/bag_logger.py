@@ -30,6 +30,7 @@ from contact_sim_pkg.records.messages import BenchProgress
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
 STOP_SECONDS = 0.5  # from a signal to closing, for the simulator's last messages
 SETTLE_SECONDS = 1.0  # for the last answer to be acknowledged
+DEAD_SETTLE_SECONDS = 0.2  # for the same once a process of the run has died
 
 
 class BagLoggerNode(LifecycleBenchNode):
@@ -38,7 +39,7 @@ class BagLoggerNode(LifecycleBenchNode):
     def __init__(self) -> None:
         """Declare the parameters; everything else is done in `configure`."""
         super().__init__("bag_logger")
-        self._scene_name = declare_scene(self)
+        self.scene_name = declare_scene(self)
         self._directory = declare(self, "bag", "", BAG_TEXT)
         self._patience = declare_input_timeout(self)
         self._recording: Recording | None = None
@@ -48,7 +49,7 @@ class BagLoggerNode(LifecycleBenchNode):
         """Subscribe to what the scene records. The bag is created when the run is ready, so a
         refused run leaves none.
         """
-        scene = read_scene(self._scene_name)
+        scene = read_scene(self.scene_name)
         path = new_directory(Path(self._directory) if self._directory else None, scene.name)
         self._run, self._news, self._leave_at = Follower(), time.monotonic(), float("inf")
         self._scene, self._recording = scene, Recording(path, scene, block_length_ns(scene))
@@ -73,7 +74,7 @@ class BagLoggerNode(LifecycleBenchNode):
             return
         self._news = time.monotonic()
         if self._run.state >= RunState.READY and not recording.created:
-            recording.open(self.resolve_topic_name, read_descriptions(self._scene_name, self._scene))
+            recording.open(self.resolve_topic_name, read_descriptions(self.scene_name, self._scene))
             self.announce(f"recording to {recording.path}")
         recording.order.on_progress(progress.block, progress.messages_sent)
         self.gather = self._gather.on_block(progress.block, self._news)
@@ -122,13 +123,14 @@ class BagLoggerNode(LifecycleBenchNode):
         recording = self._recording
         if recording is None:
             return False
-        reason = read_reason(self._scene_name) if recording.is_open else ""
+        reason = read_reason(self.scene_name) if recording.is_open else ""
         end = recording.close(self._run, reason, lambda: self._answers.publish(recording.answer()))
         if end is None:
             return False
         summary = end.summary
         self._answers.publish(recording.answer(closed=True, sentence=end.describe(sentence)))
-        self._answers.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
+        # a node that has died acknowledges nothing
+        self._answers.wait_for_all_acked(Duration(seconds=DEAD_SETTLE_SECONDS if reason else SETTLE_SECONDS))
         self.announce(f"bag: {recording.path}, {summary.messages} messages")
         if not summary.complete:
             self.get_logger().error(summary.sentence)

@@ -28,6 +28,7 @@ class LifecycleBenchNode(LifecycleNode):
     """
 
     exit_status: int | None = None
+    scene_name = ""
     gather = 0.0
     computes = False
 

@@ -37,7 +37,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
     def __init__(self) -> None:
         """Declare the parameters; everything else is done in `configure`."""
         super().__init__("contact_simulator")
-        self._scene_name = declare_scene(self)
+        self.scene_name = declare_scene(self)
         self._logged = declare_record(self)
         self._input_timeout = declare_input_timeout(self)
         self._publish_clock = declare(self, "publish_clock", True, CLOCK_TEXT)
@@ -48,7 +48,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
     def configure(self) -> None:
         """Create publishers and subscriptions, and compile all kernels while the nodes are matched."""
         self._run = None
-        scene = read_scene(self._scene_name)
+        scene = read_scene(self.scene_name)
         pace, depth = declare_pace(self, scene.data["pace"]), queue_depth(scene)
         if math.isfinite(pace):
             use_usual_policy(everywhere=True)

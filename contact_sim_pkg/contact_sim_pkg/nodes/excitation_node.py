@@ -49,11 +49,11 @@ class ExcitationNode(Node):
         """Make the source of the scene, or open the bag, and wait for the simulator."""
         super().__init__(name)
         self.supervisor = declare(self, "supervisor", 0, SUPERVISOR_TEXT)
-        scene_name = declare_scene(self)
-        scene = read_scene(scene_name)
+        self.scene_name = declare_scene(self)
+        scene = read_scene(self.scene_name)
         bag = declare(self, "from_bag", "", FROM_BAG_TEXT)
         self._source = _source_of_bag(topic, bag, scene) if bag else make_source(scene)
-        write_description(scene_name, topic, self._source.describe())
+        write_description(self.scene_name, topic, self._source.describe())
         self._block_length_ns = block_length_ns(scene)
         logged = declare_record(self)
         self._listeners = 1 + logged  # simulator, logger

@@ -110,15 +110,9 @@ class Child:
 
     def describe_end(self) -> str:
         """Exit status and last line, for a person."""
-        status = self.status
-        how = (
-            f"was ended by {_signal_name(-status)}"
-            if status is not None and status < 0
-            else f"ended with status {status}"
-        )
         self._reader.join(timeout=0.5)
         said = f"; it said last: {self.last_line}" if self.last_line else "; it said nothing"
-        return f"{self.name} {how}{said}"
+        return f"{how_ended(self.name, self.status)}{said}"
 
 
 class Children:
@@ -185,6 +179,13 @@ def _wait(child: Child, seconds: float) -> bool:
     except subprocess.TimeoutExpired:
         return False
     return True
+
+
+def how_ended(name: str, status: int | None) -> str:
+    """Sentence on the end of a process by its exit status, negative for a signal."""
+    if status is not None and status < 0:
+        return f"{name} was ended by {_signal_name(-status)}"
+    return f"{name} ended with status {status}"
 
 
 def _signal_name(number: int) -> str:

@@ -27,6 +27,7 @@ from rclpy.task import Future
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.nodes.processes.run_folder import leave
+from contact_sim_pkg.nodes.processes.scene_file import write_reason
 from contact_sim_pkg.nodes.protocol.endpoints import raise_kept
 from contact_sim_pkg.nodes.protocol.states import FAULT, REFUSED, NodeError
 from contact_sim_pkg.run.errors import RunError
@@ -46,6 +47,7 @@ class BenchNode(Protocol):
     """Interface of a node for `run`, beside that of rclpy."""
 
     exit_status: int | None  # set when the process shall end
+    scene_name: str  # of the run that it takes part in, as `read_scene` takes it; empty: of none
     gather: float  # [s] between two batches of messages; 0 handles each message at once
     computes: bool  # the others make way for this node's thread
 
@@ -228,6 +230,8 @@ def _spin(nodes: Sequence[Any], signals: StopSignals) -> int:
             for node in nodes:
                 _guarded(node, raise_kept, node)
         orphaned = _orphaned(supervisor)
+        if orphaned:
+            write_reason(nodes[0].scene_name, f"bench run (process {supervisor}), which watched the nodes, is gone")
         if signals.count > seen or orphaned:
             seen, supervisor = signals.count, 0 if orphaned else supervisor
             signals.answered = seen

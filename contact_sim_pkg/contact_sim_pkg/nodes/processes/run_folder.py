@@ -58,6 +58,10 @@ class RunFolder:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Remove the folder."""
+        self.remove()
+
+    def remove(self) -> None:
+        """Remove the folder, at the end of the run."""
         os.close(_locks.pop(self.path))
         shutil.rmtree(self.path, ignore_errors=True)
 

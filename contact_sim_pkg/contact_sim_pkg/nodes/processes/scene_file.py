@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+import os
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -73,11 +75,16 @@ def descriptions_beside(scene: Path) -> dict[str, dict[str, Any]]:
     return found
 
 
-def write_reason(scene: Path, reason: str) -> None:
+def write_reason(scene: str | Path, reason: str) -> None:
     """Leave why a run ends early beside a scene of the supervisor, for the logger, before the nodes
     are asked to end.
+
+    The first reason stays: a process that fails takes others with it. Nothing where there is no
+    supervisor.
     """
-    _write_beside(scene, REASON, {"reason": reason})
+    if str(scene).endswith(RESOLVED):
+        with suppress(OSError):
+            _write_beside(Path(scene), REASON, {"reason": reason}, only_first=True)
 
 
 def read_reason(scene: str) -> str:
@@ -110,8 +117,14 @@ def _beside(path: Path, ending: str) -> Path:
     return path.with_name(path.name.removesuffix(RESOLVED) + ending)
 
 
-def _write_beside(path: Path, ending: str, content: dict[str, Any]) -> None:
-    """In one go: a reader finds the whole file or none."""
-    part = _beside(path, ending + ".part")
+def _write_beside(path: Path, ending: str, content: dict[str, Any], *, only_first: bool = False) -> None:
+    """In one go: a reader finds the whole file or none. `only_first`: FileExistsError where there
+    is one.
+    """
+    part = _beside(path, f"{ending}.{os.getpid()}.part")
     part.write_text(json.dumps(content), encoding="utf-8")
-    part.replace(_beside(path, ending))
+    if only_first:
+        _beside(path, ending).hardlink_to(part)
+        part.unlink()
+    else:
+        part.replace(_beside(path, ending))
