@@ -10,7 +10,7 @@ from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force, elas
 from contact_sim_pkg.pressure.cushion.force_table import ForceTable, kept_table, make_table
 from contact_sim_pkg.pressure.kept_arrays import MOST_KEPT
 
-F_TABLE = (5.6, 18.2, 40.4, 88.8, 183.1, 293.4, 402.6, 512.2, 628.8, 759.6, 920.3, 1140.0, 1504.0)  # at 5, 10 ... 65 mm
+F_TABLE = (5.9, 20.7, 46.3, 95.0, 179.1, 280.5, 386.5, 496.3, 613.3, 746.8, 910.1, 1136.6, 1515.0)  # at 5, 10 ... 65 mm
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,8 @@ def test_between_the_nodes_the_law_is_the_layer(layer, table):
     law = table.law()
     for approach in (0.00325, 0.01025, 0.02025, 0.03525, 0.05025, 0.06225):
         found = layer.solve(approach)
-        assert elastic_force(law, approach) == pytest.approx(found.force, rel=2e-3)
+        # A cell that enters between two nodes bends the force: seen where few touch.
+        assert elastic_force(law, approach) == pytest.approx(found.force, rel=2e-3, abs=0.02)
         assert elastic_energy(law, approach) == pytest.approx(layer.energy(found), rel=2e-3)
     for approach in (0.02, 0.0395, 0.055):
         mean = numpy.mean([elastic_stiffness(law, approach + d) for d in numpy.linspace(-1e-3, 1e-3, 21)])

@@ -4,7 +4,7 @@ import math
 
 import numpy
 import pytest
-from scipy.ndimage import label
+from scipy.ndimage import binary_erosion, label
 from tests.pressure.cushion.cushions import SENSITIVITY, back_layer, figures, pan_layer, under
 
 from contact_sim_pkg.pressure.cushion import bonded_layer, sitter
@@ -12,10 +12,10 @@ from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, LumbarSupport, 
 from contact_sim_pkg.pressure.field import belt
 
 PAN_TABLE = {  # sink mm, stiffness kN/m, area cm^2, peak kPa, mean kPa
-    (50, 498.0): (39.4, 22.0, 1096, 10.6, 4.54),
-    (50, 559.0): (42.1, 22.9, 1168, 11.4, 4.78),
-    (5, 358.0): (36.4, 17.5, 830, 10.4, 4.31),
-    (95, 731.0): (44.5, 29.0, 1482, 11.9, 4.93),
+    (50, 498.0): (40.1, 22.4, 1106, 10.4, 4.50),
+    (50, 559.0): (42.7, 23.4, 1176, 11.3, 4.75),
+    (5, 358.0): (37.3, 17.8, 826, 10.3, 4.33),
+    (95, 731.0): (45.0, 30.0, 1492, 11.8, 4.90),
 }
 BACK_TABLE = {
     (50, 80.0): (10.3, 11.4, 384, 3.0, 2.06),
@@ -48,6 +48,61 @@ def test_the_median_sits_as_pressure_mats_in_cars_show():
     assert 4.0 < pan["mean"] < 5.0
     layer = back_layer()
     assert 1.0 < figures(layer, under(layer, 80.0))["mean"] < 3.0
+
+
+@pytest.mark.parametrize("percentile", PERCENTILES)
+def test_height_and_slope_of_the_body_are_continuous(percentile):
+    """Between neighbouring differences of a continuous slope the step falls with the spacing; a kink keeps its own."""
+
+    def steepest_step(spacing, axis):
+        fine, coarse = numpy.arange(-0.15, 0.35, spacing), numpy.arange(-0.15, 0.35, 5e-3)
+        x, y = (fine, coarse[10:]) if axis == 0 else (coarse, fine)
+        gap = pan_gap(PERCENTILES[percentile], x, y)
+        steps = numpy.abs(numpy.diff(gap, 2, axis=axis)) / spacing
+        touched = numpy.take(gap, range(1, len(fine) - 1), axis=axis) < 0.06
+        return steps[touched].max()
+
+    for axis in (0, 1):
+        coarse, fine = steepest_step(5e-4, axis), steepest_step(2.5e-4, axis)
+        assert fine <= 0.6 * coarse, f"a kink of {fine:.3g} along axis {axis}"
+
+
+@pytest.mark.parametrize("percentile", PERCENTILES)
+def test_the_outline_has_no_waist_between_buttock_and_thigh(percentile):
+    """At every depth the outer edge goes outwards once and inwards once, from behind to the knee."""
+    x, y = numpy.arange(-0.2, 0.45, 2e-3), numpy.arange(0.0, 0.3, 5e-4)
+    gap = pan_gap(PERCENTILES[percentile], x, y)
+    for depth in (0.01, 0.02, 0.03, 0.04, 0.05, 0.06):
+        edge = numpy.array([y[row < depth].max() for row in gap if (row < depth).any()])
+        widest = int(edge.argmax())
+        assert (numpy.diff(edge[: widest + 1]) >= 0.0).all(), f"at {depth} m"
+        assert (numpy.diff(edge[widest:]) <= 0.0).all(), f"at {depth} m"
+
+
+@pytest.mark.parametrize(("percentile", "load"), PAN_TABLE)
+def test_the_map_is_whole_and_falls_from_the_tuberosities_to_hip_and_knee(percentile, load):
+    """Loaded cells of a side are one run in every row and column, and the largest pressure of a row falls both ways. From one
+    inner cell to the next the pressure changes by no more than foam at its first modulus and half as much for the layer's
+    remainder make of the difference in depth.
+    """
+    layer = pan_layer(percentile)
+    found = under(layer, load)
+    side = found.pressure[:, 32:]
+    for cells in (side > 0.0, (side > 0.0).T):
+        starts = numpy.diff(cells.astype(int), axis=1, prepend=0) == 1
+        assert (starts.sum(axis=1) <= 1).all()
+    along = side.max(axis=1)
+    peak = int(along.argmax())
+    assert (numpy.diff(along[: peak + 1]) >= 0.0).all()
+    assert (numpy.diff(along[peak:]) <= 0.0).all()
+    # 40 mm before the tuberosity a sixth to a third of what it adds to the pressure of the thigh remains.
+    thigh = along[peak + 15]
+    assert 0.15 < (along[peak + 4] - thigh) / (along[peak] - thigh) < 0.33
+    inner = binary_erosion(found.pressure > 0.0)
+    for axis in (0, 1):
+        both = numpy.delete(inner & numpy.roll(inner, -1, axis), -1, axis)
+        jump, deeper = (numpy.abs(numpy.diff(field, axis=axis))[both] for field in (found.pressure, layer.gap))
+        assert (jump <= 100.0 + 1.5 * layer.first_modulus / 0.08 * deeper).all()
 
 
 def test_each_side_of_the_contact_is_one_piece():

@@ -74,12 +74,12 @@ def test_every_map_adds_up_to_the_force(amplitude):
 
 
 def test_the_occupant_stands_as_deep_as_its_weight_presses_the_layer():
-    """50.8 kg at 39.4 mm (``tests/pressure/cushion``), on 1100 cm^2 at 4.5 kPa mean."""
+    """50.8 kg at 40.1 mm (``tests/pressure/cushion``), on 1100 cm^2 at 4.5 kPa mean."""
     found = messages("seat_ride", "duration=0.02", WITH_MAP, "vibration={kind: sine, frequency: 4, amplitude: 0}")
-    assert joined(found["seat/force"], "approach") == pytest.approx(0.0394, rel=5e-3)
+    assert joined(found["seat/force"], "approach") == pytest.approx(0.0401, rel=5e-3)
     assert joined(found["seat/force"], "normal") == pytest.approx(50.8 * 9.81, rel=1e-6)
     patch = found["seat/patch"][0]
-    assert patch.peak == pytest.approx(10.6e3, rel=0.01)
+    assert patch.peak == pytest.approx(10.5e3, rel=0.01)
     assert patch.centre_x == pytest.approx(0.060, abs=0.002)
 
 

@@ -1,11 +1,18 @@
 """Lower surface of a seated person, and the surface of the back, as gaps over a flat cushion.
 
-Buttocks, thighs and back are superellipsoids: ``S(rho; c, n) = c (1 - (1 - rho)^(1/n))`` is the
-height over the lowest point, continued along its tangent from rho = 0.95. The pan: under each
-tuberosity a buttock, ``i + S(|x/a_x|^n + |Y/a_y|^n; a_z, n) - i exp(-(x^2 + Y^2)/(2 r^2))``, whose
-last term is the tuberosity; before it a thigh, ``rise + slope x + S((|y - y_c|/w)^m; c, m)``, that
-bends up at knee and hip; all joined by a smooth minimum of width 4 mm. x forward from the
-tuberosities, y left. The back: x up from its lower edge, y left.
+Sections of buttocks, thighs and back are superellipses: ``S(rho; c, n) = c (1 - (1 - rho)^(1/n))``
+is the height over the lowest point, continued along its tangent from rho = 0.95.
+
+The pan: each side is one surface from hip to knee,
+``S(|x-/a|^n + |(y - y_c)/w|^n; c, n) + floor - t/(1 + (x^2 + Y^2)/r^2)``, x forward from the
+tuberosities, y left. x- is the part of x behind them, so that the buttock closes as a superellipsoid
+and the thigh goes on from it; its middle ``y_c``, half width ``w`` and lowest line ``floor`` turn
+from their courses under the buttock into those of the thigh over 80 mm, by
+``(x + sqrt(x^2 + l^2))/2`` in place of the larger of x and 0. The last term is the tuberosity, Y
+from its middle: half its depth at r, a fifth at 2 r. A smooth minimum of width 4 mm joins the
+sides. Height and slope are continuous everywhere, and the outline at every depth has no waist.
+
+The back: x up from its lower edge, y left.
 
 The shape is that under load: soft tissue is not compressed again. Its form is a choice of this
 project; the sizes scale with body dimensions: hip breadth sitting (Pheasant and Haslegrave,
@@ -29,6 +36,7 @@ __all__ = ["PERCENTILES", "LumbarSupport", "Sitter", "back_gap", "pan_gap", "pan
 
 Field = NDArray[numpy.float64]
 BLEND = 0.004  # [m] width of the smooth minimum
+TURN = 0.08  # [m] over which the buttock turns into the thigh, of the 50th percentile
 FINE = 0.002  # [m] lattice on which the lowest point is sought
 TANGENT_FROM = 0.95
 FARTHEST = 10.0  # [m] of a cell from the origin
@@ -112,20 +120,23 @@ def _places(name: str, values: Field) -> Field:
 def _lower_surface(sitter: Sitter, along: Field, across: Field) -> Field:
     """Height [m] of buttocks and thighs over any plane."""
     b, s = sitter.breadth, sitter.length
-    half, length = 0.5 * 0.125 * b, 0.32 * s
-    part = numpy.clip(along / length, 0.0, 1.3)
-    # A thigh rises towards the knee and behind the hip.
-    ends = numpy.maximum(along - 0.6 * length, 0.0) ** 2 / (2.0 * 0.30 * s)
-    ends = 0.016 + 0.03 * numpy.maximum(along, 0.0) + ends + numpy.maximum(-along, 0.0) ** 2 / (2.0 * 0.08)
-    pieces = []
+    half, forward = 0.5 * 0.125 * b, _ahead(along, s)
+    # Along the thigh the middle goes outwards, the section grows narrower, the lowest line rises.
+    part = forward / (0.32 * s)
+    outwards, width = half + 0.05 * b * part, 0.130 * b / (1.0 + 0.12 * part)
+    floor = 0.012 * forward + _ahead(along - 0.18 * s, s) ** 2 / (2.0 * 0.30 * s)
+    behind = (numpy.maximum(-along, 0.0) / (0.166 * s)) ** 2.4
+    sides = []
     for side in (-1.0, 1.0):
-        lateral = across - side * half
-        rho = numpy.abs(along / (0.185 * s)) ** 2.4 + numpy.abs(lateral / (0.130 * b)) ** 2.4
-        tuberosity = 0.014 * (1.0 - numpy.exp(-(along**2 + lateral**2) / (2.0 * (0.024 * s) ** 2)))
-        pieces.append(_superellipsoid(rho, 0.100 * s, 2.4) + tuberosity)
-        middle, width = side * (half + 0.05 * b * part), 0.105 * b * (1.0 - 0.15 * part)
-        pieces.append(_superellipsoid((numpy.abs(across - middle) / width) ** 2.6, 0.080 * s, 2.6) + ends)
-    return _smooth_minimum(pieces)
+        section = numpy.abs((across - side * outwards) / width) ** 2.4
+        distance = (along**2 + (across - side * half) ** 2) / (0.042 * s) ** 2
+        sides.append(_superellipsoid(behind + section, 0.092 * s, 2.4) + floor - 0.019 / (1.0 + distance))
+    return _smooth_minimum(sides)
+
+
+def _ahead(along: Field, length: float) -> Field:
+    """The larger of ``along`` [m] and 0, rounded over ``length`` times TURN."""
+    return numpy.asarray(0.5 * (along + numpy.hypot(along, TURN * length)))
 
 
 def _over_lowest(surface: Callable[[Field, Field], Field], x: Field, y: Field) -> Field:
