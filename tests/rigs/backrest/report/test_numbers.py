@@ -139,3 +139,19 @@ def test_a_coarse_loop_stands_for_the_second_half_of_the_run():
     whole, dots = loops.Loop(time[:50], time[:50], time[:50]).steady(0.0)
     assert not dots
     assert whole.time.size == 50
+
+
+def test_the_lumbar_part_and_the_height_are_those_of_the_mean_map(kept):
+    """Rows of a map by hand: 3, 1, 2 and 4 N at 0.10, 0.15, 0.20 and 0.25 m; lumbar within 60 mm of 0.2 m."""
+    pressure = np.repeat(np.array([[3.0], [1.0], [2.0], [4.0]]), 5, axis=1)
+    average = kept.fields["backrest"].average._replace(pressure=pressure, cell_x=0.05, origin_x=0.10)
+    field = kept.fields["backrest"]._replace(average=average)
+    scene = {**kept.scene, "effects": {"backrest": {"cushion": {"lumbar_height": 0.2}}}}
+    recording = kept._replace(scene=scene, fields={"backrest": field})
+    found = numbers.back_numbers(recording)
+    assert found == pytest.approx({"centre_height_m": 0.185, "lumbar_share": 0.7})
+    (tile,) = numbers.back_tiles({"contacts": {"backrest": found}})
+    assert (tile.value, tile.unit) == ("70", "%")
+    assert "185 mm" in tile.detail
+    assert numbers.back_numbers(kept) == {}
+    assert numbers.back_tiles({"contacts": {"backrest": {}}}) == []

@@ -1,5 +1,5 @@
 """Numbers behind the pictures of the backrest: loops, area ratio, shares of stick and slip,
-duration of slaps.
+duration of slaps, where a cushion carries.
 """
 
 from __future__ import annotations
@@ -8,15 +8,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from contact_sim_pkg.pressure.cushion.sitter import LumbarSupport
 from contact_sim_pkg.report.cushions import cushion_warnings
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.series import EpisodeSeries, FloatArray, Recording
 from contact_sim_pkg.report.signal.loops import period_of, vibration_period
+from contact_sim_pkg.report.tiles import Tile, number
 
 BACKREST = "backrest"
 """Name of the contact that these numbers belong to."""
 SHARE_ROWS = 200
 """Most intervals over which shares are taken where nothing drives in cycles."""
+LUMBAR_REACH = LumbarSupport().length
+"""[m] of the back above and below the middle of the lumbar support that counts as lumbar."""
 
 
 class Shares(NamedTuple):
@@ -66,6 +70,32 @@ def _interval(time: FloatArray) -> float:
 def heaviest_slap(slaps: EpisodeSeries) -> int | None:
     """Number of the slap with the largest force; None without slaps."""
     return int(slaps.peak_force.argmax()) if slaps.peak_force.size else None
+
+
+def back_numbers(recording: Recording) -> dict[str, Any]:
+    """Where the mean map of a cushion carries: height of the centre of pressure over the lower edge
+    of the seat back, and the part of the load (0 .. 1) within 60 mm of the height of the lumbar
+    support. Load, area and largest pressure change little with a support. Empty without a cushion.
+    """
+    keys = ((recording.scene.get("effects") or {}).get(BACKREST) or {}).get("cushion")
+    field = recording.fields.get(BACKREST)
+    if not keys or field is None:
+        return {}
+    average = field.average
+    line = average.pressure.sum(axis=1)
+    height = average.origin_x + average.cell_x * np.arange(line.size)
+    total = float(line.sum()) or np.nan
+    lumbar = np.abs(height - float(keys["lumbar_height"])) < LUMBAR_REACH
+    return {"centre_height_m": float(line @ height) / total, "lumbar_share": float(line[lumbar].sum()) / total}
+
+
+def back_tiles(summary: dict[str, Any]) -> list[Tile]:
+    """Load at the lumbar support; none without a cushion, or where nothing touches."""
+    back = summary["contacts"].get(BACKREST, {})
+    if back.get("lumbar_share") is None:
+        return []
+    detail = f"of the load; centre of pressure {number(1e3 * back['centre_height_m'])} mm above the lower edge"
+    return [Tile("lumbar part of the back", number(100.0 * back["lumbar_share"]), "%", detail)]
 
 
 def backrest_warnings(recording: Recording) -> list[str]:
