@@ -6,8 +6,9 @@ from __future__ import annotations
 
 import math
 
+from contact_sim_pkg.bag.excitation import Block
 from contact_sim_pkg.nodes.processes.scene_file import block_length_ns
-from contact_sim_pkg.nodes.protocol.input_blocks import Block, InputBlocks
+from contact_sim_pkg.nodes.protocol.input_blocks import InputBlocks
 from contact_sim_pkg.nodes.protocol.logger_answers import LoggerAnswers
 from contact_sim_pkg.nodes.protocol.pacing import Lateness, Pacer
 from contact_sim_pkg.nodes.protocol.progress_report import ProgressReport
