@@ -45,9 +45,9 @@ lint:  ## check style, format and types
 bench:  ## measure start-up, real-time factor and error against their goals, and error beside time
 	@SECONDS=0; $(ENTER) && bench goals && echo && bench accuracy tire_bump; $(REPORT_TIME)
 
-hard:  ## run the hard cases: value, expectation, margin, verdict; and every number of the schema at and beside its bounds
-	@SECONDS=0; $(ENTER) && bench hard && CONTACT_BENCH_FUZZ=all $(TEST_ENVIRONMENT) python -m pytest -s tests/faults/test_schema_fuzz.py; \
-	$(REPORT_TIME)
+hard:  ## run the hard cases: value, expectation, margin, verdict; every number of the schema at and beside its bounds; random draws
+	@SECONDS=0; $(ENTER) && bench hard && export $(TEST_ENVIRONMENT) && \
+	CONTACT_BENCH_FUZZ=all python -m pytest -s tests/faults/test_schema_fuzz.py && python -m pytest tests --random $(PARALLEL); $(REPORT_TIME)
 
 KERNEL_TESTS = $(addprefix tests/,compiled integrate laws pressure rigid papers rigs studies/hard)
 

@@ -1,4 +1,6 @@
-"""What all tests share: a ROS domain of their own, one thread a process, one cache of kernels; and `pytest --check`."""
+"""What all tests share: a ROS domain of their own, one thread a process, one cache of kernels, the same draws in every run;
+and `pytest --check`, `pytest --random`.
+"""
 
 import gc
 import importlib.util
@@ -10,6 +12,8 @@ from importlib.abc import MetaPathFinder
 from types import ModuleType
 
 import pytest
+from hypothesis import settings
+from hypothesis.internal.conjecture import providers
 
 LAST_DOMAIN = 100  # 101, the last that needs no other ports than the system keeps free, is for one test alone
 REFUSED = ("numba", "rclpy")  # modules of the compiler and of ROS
@@ -28,6 +32,11 @@ os.environ["ROS_DOMAIN_ID"] = str(
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# Every test with `@given` draws the same in every run; `pytest --random` draws anew.
+settings.register_profile("same", derandomize=True, deadline=None, database=None)
+settings.register_profile("random", deadline=None, database=None, print_blob=True)
+settings.load_profile("same")
+
 gc.set_threshold(20_000, 50, 1000)  # a compiler makes many objects that stay: 5 % of its time went into looking at them
 
 
@@ -47,6 +56,16 @@ def skip_programs(event: str, arguments: tuple[object, ...]) -> None:
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--check", action="store_true", help="skip what compiles kernels, uses ROS or starts a program")
+    parser.addoption(
+        "--random", action="store_true", help="only tests with `@given` and tables of properties, drawn anew"
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if config.getoption("random"):
+        settings.load_profile("random")
+    else:  # hypothesis mixes in constants of the modules imported so far: draws would change with the tests before
+        providers.HypothesisProvider._local_constants = providers.Constants()
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -71,6 +90,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
     Workers that come from both ends have compiled in themselves by then what a command would wait for.
     """
+    if config.getoption("random"):
+        items[:] = [item for item in items if hasattr(item.obj, "hypothesis") or _takes_from("tests.properties", item)]
     if config.getoption("check"):
         reason = "uses ROS: in `make test`"
     elif any(importlib.util.find_spec(name) is None for name in ("rclpy", "contact_msgs_defs")):
@@ -82,14 +103,14 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             item.add_marker(pytest.mark.skip(reason))
     files = list(dict.fromkeys(item.path for item in items))
     place = {path: 0 if number < len(files) / 2 else 2 for number, path in enumerate(files)}
-    starting = {item.path for item in items if _starts_commands(item)}
+    starting = {item.path for item in items if _takes_from("tests.bench_process", item)}
     items.sort(key=lambda item: 1 if item.path in starting else place[item.path])
 
 
-def _starts_commands(item: pytest.Item) -> bool:
-    """Whether the file of a test takes anything from `tests/bench_process.py`."""
+def _takes_from(module: str, item: pytest.Item) -> bool:
+    """Whether the file of a test takes anything from a module."""
     names = vars(item.getparent(pytest.Module).obj).values()
-    return any(getattr(each, "__module__", None) == "tests.bench_process" for each in names)
+    return any(getattr(each, "__module__", None) == module for each in names)
 
 
 def pytest_collection(session: pytest.Session) -> None:

@@ -102,7 +102,7 @@ def rows(values: Any, least: int = 1, most: int = 6) -> Any:
 def check_domain(case: Property) -> None:
     """The independent check, over the domain."""
 
-    @settings(max_examples=case.examples, deadline=None, derandomize=True, database=None)
+    @settings(max_examples=case.examples)
     @given(st.fixed_dictionaries(case.domain))
     def over(arguments: dict[str, Any]) -> None:
         case.check(case.function(**arguments), **arguments)
@@ -113,7 +113,7 @@ def check_domain(case: Property) -> None:
 def check_refusals(case: Property, trusted: tuple[type, ...] = ()) -> None:
     """Hostile numbers and words at every place of the arguments; records of `trusted` types are made by the package itself."""
 
-    @settings(max_examples=2 if case.examples > 5 else 1, deadline=None, derandomize=True, database=None)
+    @settings(max_examples=2 if case.examples > 5 else 1)
     @given(st.fixed_dictionaries(case.domain))
     def over(arguments: dict[str, Any]) -> None:
         real = not any(isinstance(value, complex) for value in _numbers(case.function(**arguments)))

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from mcap.records import Schema
 from mcap_ros2.decoder import DecoderFactory
@@ -102,7 +102,6 @@ def test_a_wrench_reads_back_by_an_independent_decoder() -> None:
     assert (read.wrench.torque.x, read.wrench.torque.y, read.wrench.torque.z) == value.wrench.torque
 
 
-@settings(deadline=None)
 @given(block=st.integers(0, 2**64 - 1), values=st.lists(FINITE, min_size=6, max_size=6))
 def test_an_energy_ledger_reads_back_bit_for_bit(block: int, values: list[float]) -> None:
     given = dict(zip(EnergyLedger._fields, (block, *values), strict=True))
@@ -111,7 +110,6 @@ def test_an_energy_ledger_reads_back_bit_for_bit(block: int, values: list[float]
     assert struct.pack("<Q6d", *(getattr(read, name) for name in given)) == struct.pack("<Q6d", block, *values)
 
 
-@settings(deadline=None)
 @given(text=st.text(st.characters(exclude_characters="\0", exclude_categories=("Cs",)), max_size=30))
 def test_texts_of_any_length_are_filled_up_to_a_multiple_of_four(text: str) -> None:
     progress = BenchProgress(
@@ -242,7 +240,6 @@ def test_a_spacing_that_is_not_above_zero_is_refused_by_name(spacing: float) -> 
         decode_road(encode(road_patch()._replace(cell_y=spacing), STAMP))
 
 
-@settings(deadline=None)
 @given(cut=st.integers(0, 1000))
 def test_cut_bytes_are_refused_and_never_misread(cut: int) -> None:
     data = encode(road_patch(), STAMP)
@@ -250,7 +247,6 @@ def test_cut_bytes_are_refused_and_never_misread(cut: int) -> None:
         decode_road(data[: min(cut, len(data) - 4)])
 
 
-@settings(deadline=None)
 @given(noise=st.binary(max_size=200))
 def test_noise_is_refused_or_reads_as_a_valid_block(noise: bytes) -> None:
     try:

@@ -4,7 +4,7 @@ import re
 from datetime import datetime, timezone
 from pathlib import Path
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from contact_sim_pkg.bag.names import default_directory, safe_name
@@ -14,7 +14,6 @@ HOSTILE = st.one_of(
 )
 
 
-@settings(deadline=None)
 @given(HOSTILE)
 def test_any_text_becomes_one_plain_path_component(text: str) -> None:
     name = safe_name(text)
@@ -22,7 +21,6 @@ def test_any_text_becomes_one_plain_path_component(text: str) -> None:
     assert Path("bags", name).resolve().parent == Path("bags").resolve()
 
 
-@settings(deadline=None)
 @given(HOSTILE)
 def test_the_default_directory_stays_inside_its_root_and_is_short(text: str) -> None:
     directory = default_directory(text, Path("bags"))

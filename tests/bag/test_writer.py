@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from mcap.reader import make_reader
 from mcap.records import Chunk
@@ -190,7 +190,6 @@ def test_a_bag_without_messages_is_whole_and_readable(tmp_path: Path) -> None:
         assert reader.storage.metadata.custom == {"ended": "stopped by the user"}
 
 
-@settings(deadline=None)
 @given(texts=st.dictionaries(st.text(min_size=1), st.text(st.characters(exclude_categories=("Cs",))), max_size=4))
 def test_any_attached_text_reads_back_from_the_metadata_file(texts: dict[str, str]) -> None:
     topics = recorded_topics(RECORDED[:2])

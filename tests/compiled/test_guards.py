@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from contact_sim_pkg.compiled import guards
 
 
-@settings(max_examples=200, deadline=None, derandomize=True, database=None)
+@settings(max_examples=200)
 @given(st.floats())
 def test_the_bounds_are_what_the_names_say(value: float) -> None:
     def passes(guard: object) -> bool:

@@ -63,7 +63,7 @@ def test_without_gravity_the_assumed_unit_is_a_warning(tmp_path):
 
 @pytest.mark.fault("A8")
 @given(value=st.floats(), where=st.integers(0, 2))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_any_number_in_a_file_is_taken_or_refused_by_its_line(tmp_path_factory, value, where):
     path = tmp_path_factory.mktemp("any") / "a.csv"
     rows = [[k / RATE, 0.0, GRAVITY + 0.01 * k] for k in range(8)]

@@ -246,7 +246,7 @@ PLACES = {  # key -> scene, lowest and highest value
 
 @pytest.mark.fault("A8")
 @given(number=strategies.floats() | strategies.integers(), place=strategies.sampled_from(sorted(PLACES)))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_a8_any_number_validates_or_is_refused_by_key_bound_and_unit(number, place):
     text, lowest, highest = PLACES[place]
     raw = repr(number).replace("inf", ".inf").replace("nan", ".nan")

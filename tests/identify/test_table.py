@@ -71,7 +71,7 @@ def test_large_noise_does_not_pull_the_estimate_to_one_side():
     assert abs(values.mean() - 1.0) < 4.0 * values.std() / numpy.sqrt(30) + 2e-3
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.integers(0, 10_000))
 def test_one_exact_planar_impact_gives_the_inertia_to_1e_9(seed):
     found = planar_estimate(numpy.random.default_rng(seed), 1, 0.0, 0.0)

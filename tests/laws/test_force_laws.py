@@ -17,7 +17,7 @@ from contact_sim_pkg.laws.elastic_law import (
 from contact_sim_pkg.laws.normal_force import normal_force, normal_force_rate, pressure_factor, tension_event
 from contact_sim_pkg.laws.parameters import FoamElastic, GeneralDissipative, NormalDissipative, NormalElastic
 
-QUICK = settings(database=None, derandomize=True, deadline=None, max_examples=60)
+QUICK = settings(max_examples=60)
 SIZE = st.floats(-12.0, 12.0).map(lambda power: 10.0**power)
 POWER = st.builds(NormalElastic, SIZE, st.one_of(st.sampled_from([1.0, 1.5, 3.0]), st.floats(1.0, 3.0)))
 FOAM = st.builds(

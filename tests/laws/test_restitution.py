@@ -45,7 +45,7 @@ def test_a_restitution_outside_its_range_is_refused_with_its_value(restitution):
         damping_of_restitution(restitution, 1.0)
 
 
-@settings(database=None, derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.one_of(st.floats(0.01, 1.0), st.floats(1e-16, 1e-3).map(lambda loss: 1.0 - loss)), st.floats(0.0, 1e6))
 def test_the_damping_is_right_over_the_whole_range(restitution, speed):
     """Against the root of the exact relation in 60 digits; the speed counts from 1 mm/s."""

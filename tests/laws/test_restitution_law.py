@@ -22,7 +22,7 @@ from contact_sim_pkg.laws.restitution_law import (
 from contact_sim_pkg.reference import general_law
 
 ENDS = st.sampled_from([NEVER_PULLS, PULLS])
-FEW = settings(database=None, derandomize=True, deadline=None, max_examples=6)
+FEW = settings(max_examples=6)
 MANY = settings(FEW, max_examples=40)
 
 REQUESTED = (0.05, 0.1, 0.2, 1 / 3, 0.5, 0.7, 0.9, 0.98)

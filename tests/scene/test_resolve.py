@@ -110,7 +110,7 @@ def test_a_resolved_scene_is_a_scene_that_resolves_to_itself(maker, tmp_path):
 @given(
     mass=st.floats(0.1, 2000), accuracy=st.floats(1e-8, 0.1), text=st.text(max_size=40), seed=st.integers(0, 2**53 - 1)
 )
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_numbers_and_texts_survive_the_round_trip_to_the_bit(maker, mass, accuracy, text, seed):
     changes = {"tire": {"wheel_mass": mass}, "accuracy": accuracy, "seed": seed, "description": text, FIELD: {}}
     try:

@@ -100,7 +100,7 @@ def test_derivatives_of_a_balance_that_lasts_match_finite_differences():
     check_derivatives(value)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(st.integers(0, 100_000), st.floats(0.01, 1.0), st.floats(1.0, 30.0))
 def test_free_rotation_keeps_energy_and_angular_momentum(seed, ratio, speed):
     random = numpy.random.default_rng(seed)

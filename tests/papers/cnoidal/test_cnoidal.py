@@ -109,7 +109,7 @@ def test_a_contact_without_mass_or_preload_is_refused(mass, preload):
         contact_oscillator(mass, NormalElastic(1.0, 1.5), preload)
 
 
-@settings(database=None, derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(
     st.floats(-30.0, 30.0).map(lambda power: 10.0**power),
     st.floats(-30.0, 30.0).map(lambda power: 10.0**power),

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from contact_sim_pkg.papers.cnoidal import theta
 
-QUICK = settings(database=None, derandomize=True, deadline=None, max_examples=40)
+QUICK = settings(max_examples=40)
 PHASES = numpy.linspace(-4.0, 4.0, 17)
 
 

@@ -21,7 +21,7 @@ def random_ellipsoid(random: numpy.random.Generator, centre: numpy.ndarray) -> C
     return ellipsoid(centre, numpy.exp(random.uniform(-3.0, 0.0, 3)), turn)
 
 
-@settings(max_examples=80, deadline=None, derandomize=True)
+@settings(max_examples=80)
 @given(st.floats(1e-3, 1e3), st.floats(1e-3, 1e3), st.floats(1e-6, 1e3), st.floats(0.0, 6.0), st.floats(-1.0, 1.0))
 def test_spheres_are_as_far_apart_as_their_centres_less_the_radii(
     radius_1: float, radius_2: float, gap: float, angle: float, height: float
@@ -100,7 +100,7 @@ def test_a_small_gap_keeps_its_digits(gap: float) -> None:
     assert not found.overlap
 
 
-@settings(max_examples=30, deadline=None, derandomize=True)
+@settings(max_examples=30)
 @given(st.integers(0, 2**31 - 1))
 def test_every_start_and_either_order_find_the_same_distance_in_any_frame(seed: int) -> None:
     random = numpy.random.default_rng(seed)

@@ -17,7 +17,7 @@ PLACE = st.one_of(st.just(0.0), st.floats(-2.0, 2.0), st.floats(-1e-9, 1e-9))
 SPHERE = directions(20_000)
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=300)
 @given(AXIS, AXIS, AXIS, PLACE, PLACE, PLACE)
 @example(1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
 @example(0.3, 0.5, 1.0, 1e-17, 0.1, 0.2)

@@ -25,7 +25,7 @@ def pair_of(body: ConvexBody) -> tuple[numpy.ndarray, numpy.ndarray]:
     return body.centres[0], body.shapes[0]
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=100)
 @given(st.floats(0.01, 10.0), st.floats(0.01, 10.0), st.floats(0.0, 2.0), st.floats(0.0, 6.0))
 def test_spheres_overlap_by_their_radii_less_the_distance_of_their_centres(
     radius_1: float, radius_2: float, share: float, angle: float
@@ -98,7 +98,7 @@ def test_the_ball_is_the_largest_of_a_linear_program_over_directions(seed: int) 
     assert 0.5 * found.depth == pytest.approx(radius, rel=2e-3)
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(st.integers(0, 2**31 - 1))
 def test_order_frame_and_scale_do_not_matter_and_the_overlap_bounds_the_depth(seed: int) -> None:
     random = numpy.random.default_rng(seed)

@@ -24,7 +24,7 @@ from contact_sim_pkg.reference import lame as reference
 EXPONENTS = (0.1, 0.5, 0.8, 1.0, 1.3, 2.0, 4.0, 20.0, 100.0)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=200)
 @given(st.floats(0.1, 100.0), st.floats(-2.0, 2.0), st.floats(-2.0, 2.0))
 def test_the_radial_variable_is_that_of_multiple_precision(exponent: float, x: float, y: float) -> None:
     with mpmath.workdps(60):
@@ -141,7 +141,7 @@ def test_what_is_no_lame_domain_is_refused() -> None:
         lame_mesh(1.0, 1.0, 2.0, 3, 10)
 
 
-QUICK = settings(database=None, derandomize=True, deadline=None, max_examples=40)
+QUICK = settings(max_examples=40)
 AXIS = st.floats(-6.0, 6.0).map(lambda power: 10.0**power)
 SLENDER = st.one_of(st.just(1.0), st.floats(-12.0, 12.0).map(lambda power: 10.0**power))
 EXPONENT = st.one_of(st.sampled_from([0.1, 1.0, 2.0, 100.0]), st.floats(0.1, 100.0))

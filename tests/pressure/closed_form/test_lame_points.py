@@ -14,7 +14,7 @@ from contact_sim_pkg.pressure.closed_form.lame_domain import inside, lame_bounda
 from contact_sim_pkg.pressure.closed_form.lame_points import fit_points, hull
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(st.integers(0, 2**32 - 1), st.integers(5, 80))
 def test_the_hull_is_that_of_scipy(seed: int, count: int) -> None:
     points = numpy.random.default_rng(seed).standard_normal((count, 2)) * (1.0, 0.1)
@@ -51,7 +51,7 @@ def test_points_scattered_over_a_domain_give_it_within_their_spacing() -> None:
     assert fit.exponent == pytest.approx(3.0, abs=0.1)
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=40)
 @given(st.integers(0, 2**32 - 1), st.floats(1e-3, 1e3), st.floats(-10.0, 10.0))
 def test_scale_place_and_order_of_the_points_do_not_matter(seed: int, scale: float, shift: float) -> None:
     random = numpy.random.default_rng(seed)

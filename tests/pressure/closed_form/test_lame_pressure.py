@@ -157,7 +157,7 @@ def test_impossible_input_is_refused() -> None:
         ansatz_of_curvatures(0.0, 0.0, 2.0, 1.0, 1.0)
 
 
-@settings(database=None, derandomize=True, deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(
     *[st.floats(-8.0, 4.0).map(lambda power: 10.0**power)] * 2,
     st.one_of(st.just(0.1), st.floats(0.1, 100.0)),

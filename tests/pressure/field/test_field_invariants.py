@@ -20,7 +20,7 @@ AREA = CELLS[0] * CELLS[1]
 KINDS = ("smooth", "rough", "spiky", "noise", "steps")
 
 every_entry = pytest.mark.parametrize("name", ENTRIES)
-examples = settings(max_examples=12, deadline=None, derandomize=True)
+examples = settings(max_examples=12)
 
 
 @cache
@@ -92,7 +92,7 @@ def test_signorini_holds_in_every_cell(name, gap, share):
 
 
 @every_entry
-@settings(max_examples=8, deadline=None, derandomize=True)
+@settings(max_examples=8)
 @given(gap=gaps, share=shares)
 def test_the_field_is_that_of_dense_least_squares(name, gap, share):
     approach = approach_at(gap, share)
@@ -190,7 +190,7 @@ def test_more_approach_or_load_never_takes_load_or_approach_away(name, gap, firs
 
 
 @every_entry
-@settings(max_examples=8, deadline=None, derandomize=True)
+@settings(max_examples=8)
 @given(gap=gaps, share=shares, softness=st.floats(-2.0, 2.0), length=st.floats(2.0, 200.0))
 def test_with_a_belt_in_series_the_field_is_that_of_dense_least_squares(name, gap, share, softness, length):
     """Softness: by powers of ten, of the belt against the half-space; length: relaxation length in cells."""

@@ -92,7 +92,7 @@ def test_impossible_input_is_refused() -> None:
         bed_stiffness(1.0, 1.0, 1.0, 0.0)
 
 
-@settings(database=None, derandomize=True, deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(
     st.lists(st.floats(-1e-3, 1e-3), min_size=6, max_size=6),
     *[st.floats(-6.0, 12.0).map(lambda power: 10.0**power)] * 2,

@@ -23,7 +23,7 @@ def shaken(at, loss, mu, slide):
 
 
 @pytest.mark.fault("D9")
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(at=shaking, loss=losses, mu=rubbing, slide=sliding)
 def test_force_never_pulls_friction_keeps_its_limit_and_the_energy_closes(at, loss, mu, slide):
     found = shaken(at, loss, mu, slide)
@@ -38,7 +38,7 @@ def test_force_never_pulls_friction_keeps_its_limit_and_the_energy_closes(at, lo
     assert abs(found.residual) <= 1e2 * TOLERANCE * max(turned_over, 45.6 * GRAVITY * 0.015)
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(at=shaking, loss=losses)
 def test_without_friction_what_is_lost_never_comes_back(at, loss):
     """The loss of Hunt and Crossley is positive both ways; a force that is clipped at zero leaves its spring's energy behind."""
@@ -46,7 +46,7 @@ def test_without_friction_what_is_lost_never_comes_back(at, loss):
     assert numpy.diff(lost).min() >= -1e2 * TOLERANCE * max(lost[-1], 1.0)
 
 
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=5)
 @given(at=shaking, mu=rubbing)
 def test_the_same_shaking_gives_the_same_bits(at, mu):
     one, other = (shaken(at, 2.0, mu, 0.01) for _ in range(2))
@@ -54,7 +54,7 @@ def test_the_same_shaking_gives_the_same_bits(at, mu):
     assert one.points.tobytes() == other.points.tobytes()
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(
     at=st.tuples(st.floats(0.0, 1.5), st.floats(3.0, 8.0)),
     loss=losses,
@@ -71,7 +71,7 @@ def test_two_accuracies_differ_by_no_more_than_both_report(at, loss, low, high):
     assert numpy.abs(motion[0] - motion[1]).max() <= 10.0 * (10.0**low + 10.0**high) * 0.015
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(at=shaking, foam=st.booleans(), exponent=st.floats(0.0, 1.5), rate=st.floats(1.0, 2.0))
 def test_foam_and_the_general_law_close_the_energy_too(at, foam, exponent, rate):
     elastic = FoamElastic(0.05, 0.08, 3.0e4, 5.0e3, 1.0e3, 3.0) if foam else NormalElastic(2.457e5, 1.5)
@@ -92,7 +92,7 @@ def restitution(mass, law, speed, product):
     return end.states[-1, 1] / speed
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(
     mass=st.floats(1e-3, 1e3), coefficient=st.floats(1e3, 1e10), exponent=st.floats(1.0, 2.5), speed=st.floats(1e-3, 10.0),
     products=st.lists(st.floats(0.01, 3.0), min_size=2, max_size=4, unique=True),

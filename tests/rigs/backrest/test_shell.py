@@ -104,7 +104,7 @@ def test_the_static_deflection_converges_to_levy_s_series() -> None:
     assert errors == pytest.approx([0.1237, 0.0359, 0.0165, 4e-5], abs=5e-5)
 
 
-@settings(max_examples=50, deadline=None, derandomize=True)
+@settings(max_examples=50)
 @given(st.floats(0.1, 0.3), st.floats(0.1, 0.4), st.floats(0.1, 0.3), st.floats(0.1, 0.4), st.sampled_from(MODE_COUNTS))
 def test_deflections_are_reciprocal(x_1: float, y_1: float, x_2: float, y_2: float, count: int) -> None:
     one, other = numpy.array([[x_1, y_1]]), numpy.array([[x_2, y_2]])

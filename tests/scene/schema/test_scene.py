@@ -131,7 +131,7 @@ def test_the_bounds_themselves_are_allowed():
 
 
 @given(value=st.floats(), entry=st.sampled_from(NUMBERS))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_any_float_validates_or_is_refused_as_a_scene_error(value, entry):
     root = document_with(entry, entry.location[-1], "1")
     section = root
@@ -156,7 +156,7 @@ VALUES = st.recursive(
 
 
 @given(st.dictionaries(st.sampled_from([*Scene.model_fields, "x"]), VALUES))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_any_document_validates_or_is_refused_as_a_scene_error(data):
     root = MappingNode(Mark("s.yaml", 1, 1))
     for key, value in data.items():

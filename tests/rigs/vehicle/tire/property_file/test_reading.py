@@ -127,7 +127,7 @@ def test_a_file_too_large_or_no_file_is_refused_unread(tmp_path):
 
 @given(st.data())
 @example(None)
-@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=200, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_damaged_bytes_are_read_or_refused_in_one_sentence(tmp_path, data):
     content = bytearray(text().encode())
     if data is not None:
