@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 
 class Mutant(NamedTuple):
-    """One change of one function."""
+    """One change of one function, or of one constant."""
 
-    function: str  # module.function or module.Class.method, the module by the end of its path
-    text: str  # stands exactly once in the function
+    function: str  # module.function, module.Class.method or module.CONSTANT, the module by the end of its path
+    text: str  # stands exactly once in it
     becomes: str
     tests: tuple[str, ...]  # names of test modules, found wherever they lie
     equivalent: str = ""
@@ -51,6 +51,10 @@ MUTANTS = (
     ),
     Mutant("rolling_brush.rolling_step", "(1.0 + slip)", "(1.0 - slip)", ("test_brush",)),
     Mutant("tire/brush/steps.carry", "way * stress * 0.5", "way * stress", ("test_brush",)),
+    Mutant("tire/brush/steps.advance_bristles", "0.5 *", "1.0 *", ("test_brush",)),
+    Mutant("rolling_brush.advance_step", "turn * grid.origin_y", "-turn * grid.origin_y", ("test_brush",)),
+    Mutant("lattice.resample", "weight * second", "(1.0 - weight) * second", ("test_brush",)),
+    Mutant("rolling_brush.sliding_brush", "math.exp(-slip", "math.exp(-2.0 * slip", ("test_brush",)),
     Mutant("magic_formula.standing_tire", "square / growth)\n", "square)\n", ("test_magic_formula",)),
     Mutant("property_file/scene_keys._ring", "2.0 * math.pi", "math.pi", ("property_file/test_scene_keys",)),
     # Rigid bodies
@@ -84,7 +88,9 @@ MUTANTS = (
         ("test_body", "test_turning"),
     ),
     Mutant("rotation.rotate_by", "0.5 * h * h", "0.25 * h * h", ("test_body", "test_landing")),
+    Mutant("rotation._OUTER", "0.0822", "0.0823", ("test_body",)),
     # Rigs and their integrator
+    Mutant("biodynamics.rest_deflections", "+= lift", "-= lift", ("test_biodynamics",)),
     Mutant("vehicle/motion._rate", "lost += lost_in_links + rubbed", "lost += lost_in_links", ("test_absent_effects",)),
     Mutant("order_5.step_of_order_5", "125.0 / 192.0", "125.0 / 191.0", ("test_orders",)),
     Mutant("order_5.error_of_order_5", "22.0 / 525.0", "21.0 / 525.0", ("test_orders",)),

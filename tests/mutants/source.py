@@ -1,4 +1,4 @@
-"""Finds the function that a mutant names, and changes its text."""
+"""Finds the function, or the constant of a module, that a mutant names, and changes its text."""
 
 import ast
 from pathlib import Path
@@ -38,13 +38,23 @@ def _count(mutant: Mutant, source: str) -> int:
 
 
 def _span(mutant: Mutant, source: str) -> tuple[int, int]:
-    """Where the function's text begins and ends, without its docstring; an empty span where the file has no such function."""
+    """Where its text begins and ends, a function's without its docstring; an empty span where the file has neither."""
     node: ast.AST | None = ast.parse(source)
     for name in mutant.function.split(".")[1:]:
-        inside = [each for each in ast.iter_child_nodes(node) if getattr(each, "name", None) == name] if node else []
+        inside = [each for each in ast.iter_child_nodes(node) if name in _names(each)] if node else []
         node = inside[0] if inside else None
-    if not isinstance(node, ast.FunctionDef):
+    if isinstance(node, ast.FunctionDef):
+        first = node.body[1 if ast.get_docstring(node) else 0]
+    elif isinstance(node, ast.Assign):
+        first = node
+    else:
         return 0, 0
     lines = source.splitlines(keepends=True)
-    body = node.body[1:] if ast.get_docstring(node) else node.body
-    return sum(map(len, lines[: body[0].lineno - 1])), sum(map(len, lines[: node.end_lineno]))
+    return sum(map(len, lines[: first.lineno - 1])), sum(map(len, lines[: node.end_lineno]))
+
+
+def _names(node: ast.AST) -> list[str]:
+    """Names that a statement defines: of a function, a class, a constant."""
+    if isinstance(node, ast.Assign):
+        return [target.id for target in node.targets if isinstance(target, ast.Name)]
+    return [node.name] if isinstance(node, ast.FunctionDef | ast.ClassDef) else []

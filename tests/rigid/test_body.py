@@ -1,9 +1,11 @@
 """Gaps and Jacobians of points over a ground, inverse inertia, and free rotation."""
 
+import itertools
 import math
 
 import numpy
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.rigid.body import (
@@ -16,7 +18,7 @@ from contact_sim_pkg.rigid.body import (
     slope,
     sphere,
 )
-from contact_sim_pkg.rigid.rotation import gyroscopic_step, rotate_by
+from contact_sim_pkg.rigid.rotation import free_rotation, gyroscopic_step, rotate_by
 
 
 def rows_of(body, ground, motion):
@@ -87,3 +89,29 @@ def test_free_rotation_keeps_energy_and_the_size_of_the_angular_momentum_at_a_lo
         w = numpy.array(gyroscopic_step(*inertia, *w, 0.05))
     assert inertia @ w**2 == pytest.approx(energy, rel=1e-12)
     assert numpy.linalg.norm(inertia * w) == pytest.approx(momentum, rel=1e-12)
+
+
+@pytest.mark.parametrize("torque", [(0.0, 0.0, 0.0), (0.4, -1.1, 0.7)])
+def test_the_error_of_free_rotation_falls_with_the_sixth_power_of_the_step(torque):
+    """Euler's equations in body axes with R' = R [w x], under a torque that is constant in the world, by scipy."""
+    inertia, start, duration = numpy.array([1.0, 2.0, 2.7]), numpy.array([1.0, 3.0, -0.8]), 1.0
+
+    def rate(_time, state):
+        R, w = state[:9].reshape(3, 3), state[9:]
+        spin_matrix = numpy.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+        spin_rate = (R.T @ torque - numpy.cross(w, inertia * w)) / inertia
+        return numpy.concatenate([(R @ spin_matrix).ravel(), spin_rate])
+
+    first = numpy.concatenate([numpy.eye(3).ravel(), start])
+    exact = solve_ivp(rate, (0.0, duration), first, method="DOP853", rtol=1e-13, atol=1e-14).y[:, -1]
+
+    def error(steps):
+        R, w = numpy.eye(3), tuple(start)
+        for _ in range(steps):
+            w = free_rotation(R, inertia, numpy.array([0.0, 0.0, 0.0, *torque]), *w, duration / steps)
+        return abs(numpy.concatenate([R.ravel(), w]) - exact).max()
+
+    errors = [error(steps) for steps in (4, 8, 16)]
+    orders = [math.log2(coarse / fine) for coarse, fine in itertools.pairwise(errors)]
+    assert min(orders) > 5.5, (errors, orders)
+    assert errors[-1] < 1e-6

@@ -209,6 +209,16 @@ def test_rest_deflections_of_a_chain_carry_what_is_above():
     assert -heights == pytest.approx(numpy.cumsum([0.0, *squeezed]), rel=1e-12)
 
 
+def test_a_force_that_lifts_a_node_takes_load_off_the_links_under_it():
+    """Each link of the chain carries what hangs above it less what is lifted there."""
+    model, lifted = OCCUPANTS["boileau_rakheja"], {2: 120.0, 4: -30.0}
+    carried = [
+        9.81 * sum(model.masses[i:]) - sum(lift for node, lift in lifted.items() if node >= i) for i in range(1, 5)
+    ]
+    squeezed = [force / link.stiffness for force, link in zip(carried, model.links, strict=True)]
+    assert -rest_deflections(model, 9.81, lifted) == pytest.approx(numpy.cumsum([0.0, *squeezed]), rel=1e-12)
+
+
 def test_matrices_of_a_loop_hold_no_force_where_all_move_together():
     mass, damping, stiffness = matrices(OCCUPANTS["wan_schimmels"])
     assert stiffness.sum(axis=0) == pytest.approx(numpy.zeros(5), abs=1e-9)
