@@ -24,6 +24,7 @@ from contact_sim_pkg.pressure.field.solver import make_workspace, solve_at_load
 from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.records.messages import VibrationBlock
 from contact_sim_pkg.run import offline
+from contact_sim_pkg.run.sources import make_sources
 
 PACKAGE = Path(jit.__file__).resolve().parents[1]
 PRESSED = PointContact(1.0, 10.0, 0.0, 0.0, NormalElastic(1e8, 1.0), None)  # sinks 1e-7 m under its weight
@@ -164,6 +165,36 @@ def test_the_stamp_of_a_late_block_is_exact_to_the_nanosecond(number):
     message = deserialize("contact_msgs_defs/msg/VibrationBlock", encode(block, stamp))
     assert message.block == number
     assert message.header.stamp.sec * 10**9 + message.header.stamp.nanosec == stamp
+
+
+@pytest.mark.fault("C6")
+@pytest.mark.parametrize(("late", "tolerance"), [(3_600_000 - 20, 1e-9), (2**37, 1e-5)])
+def test_a_run_whose_counter_has_gone_far_goes_on_as_at_its_start_with_exact_stamps(late, tolerance):
+    """The longest scene has 3.6e6 blocks; the stamps of ROS end at 2.1e11 blocks of 10 ms, and a double of seconds rounds."""
+
+    def twenty_from(first):
+        """Stamps after that block's and numbers after its own of what twenty blocks record; force and energies."""
+        scene = resolved("seat_ride", "duration=0.3")
+        simulation, ((topic, source),) = offline.make_simulation(scene), make_sources(scene).items()
+        simulation.prepare()
+        simulation.advance(0, {topic: source.block(0)})
+        simulation._next_block = first
+        places, force, dissipated = [], [], []
+        for number in range(20):
+            given = source.block(1 + number)._replace(block=first + number)
+            for name, stamp, record, _frame in simulation.advance(first + number, {topic: given}).outputs:
+                own = record.block - first if "block" in record._fields else number
+                places.append((name, stamp - first * 10_000_000, own))
+                force += record.normal.tolist() if name == "seat/force" else []
+                dissipated += [record.dissipated] if name == "bench/energy" else []
+        return places, numpy.array(force), numpy.array(dissipated)
+
+    places, force, dissipated = twenty_from(1)
+    places_late, force_late, dissipated_late = twenty_from(late)
+    assert places_late == places
+    assert {own for _name, _stamp, own in places} == set(range(20))
+    assert force_late == pytest.approx(force, abs=tolerance * force.max())
+    assert dissipated_late == pytest.approx(dissipated, abs=tolerance * dissipated.max())
 
 
 @pytest.mark.fault("F8")

@@ -3,7 +3,9 @@
 from types import SimpleNamespace
 
 import pytest
-from tests.bench_process import Nodes, needs_ros, resolved, wait_until
+from tests.bench_process import Nodes, messages, needs_ros, resolved, wait_until
+
+from contact_sim_pkg.run.offline import run_offline
 
 pytestmark = needs_ros
 
@@ -84,6 +86,30 @@ def test_a_clock_of_another_node_is_left_alone(listen, tmp_path):
             nodes.end()
     assert ticks == []
     assert sum("/clock comes from /gazebo; this run publishes none" in line for line in nodes.printed) == 1
+
+
+@pytest.mark.fault("C3")
+def test_a_run_that_cannot_keep_its_pace_says_so_and_loses_no_simulated_time(listen, tmp_path):
+    """At a thousand times real time a block of 10 ms is due every 10 us: none is done in time."""
+    from diagnostic_msgs.msg import DiagnosticArray
+
+    hear, spin = listen
+    reports = hear(DiagnosticArray, "/diagnostics", 10)
+    scene = resolved("seat_ride", "duration=2", "pace=1000")
+    nodes = Nodes(scene, tmp_path)
+    try:
+        for node in ("bag_logger", "vibration", "contact_simulator"):
+            nodes.start(node)
+        nodes.wait_until(lambda: (spin(), nodes.ended())[1])
+        assert set(nodes.wait().values()) == {0}
+    finally:
+        nodes.end()
+    wait_until(lambda: (spin(), reports and reports[-1].status[0].message == "finished")[1])
+    pace = {each.key: each.value for each in reports[-1].status[0].values}["pace"]
+    assert pace.startswith("slower than its pace: ")
+    assert "behind after block 199 (200 blocks late)" in pace
+    run_offline(scene, tmp_path / "offline")
+    assert messages(nodes.bag) == messages(tmp_path / "offline")
 
 
 def test_diagnostics_are_sent_once_a_second_and_at_each_change_and_show_a_warning_for_five_seconds(monkeypatch):
