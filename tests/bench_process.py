@@ -12,6 +12,7 @@ from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.nodes.processes.children import Children
 from contact_sim_pkg.nodes.processes.scene_file import write_scene
+from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments, remove_unused
 from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
@@ -142,9 +143,13 @@ def lives(process: int) -> bool:
 
 
 def end(process: subprocess.Popen[str]) -> None:
-    """Kill a process of a test that still lives, with its session; print what it said and nobody read."""
+    """Kill a process of a test that still lives, with its session and its shared memory; print what it said and nobody read."""
+    segments: set[str] = set()
     if process.poll() is None:
-        for child in children_of(process.pid).values():
+        nodes = children_of(process.pid).values()
+        segments = set().union(*(mapped_segments(each) for each in (process.pid, *nodes)))
+        for child in nodes:
             os.kill(child, signal.SIGKILL)
         process.kill()
     print(*process.communicate())
+    remove_unused(segments)
