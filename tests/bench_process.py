@@ -26,8 +26,8 @@ ENVIRONMENT = {
     "PYTHONPATH": os.pathsep.join(filter(None, [str(PACKAGE), os.environ.get("PYTHONPATH")])),
     "RCUTILS_CONSOLE_OUTPUT_FORMAT": "{severity} {name}: {message}",
 }
-LONGEST = 120.0  # [s] for what a test waits for; kernels of one vehicle may have to be compiled
-LONGEST_COMMAND = 400.0  # [s] from start to end; those of a rigid body may have to be
+LONGEST = 300.0  # [s] for what a test waits for, on a busy machine; kernels of one vehicle may have to be compiled
+LONGEST_COMMAND = 900.0  # [s] from start to end; those of a rigid body may have to be
 
 
 def bench(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:

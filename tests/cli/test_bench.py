@@ -4,7 +4,7 @@ import json
 import signal
 
 import pytest
-from tests.bench_process import ENVIRONMENT, bench, end, needs_ros, start_bench, wait_until
+from tests.bench_process import ENVIRONMENT, LONGEST, bench, end, needs_ros, start_bench, wait_until
 
 from contact_sim_pkg.bag.errors import BagWriteError
 from contact_sim_pkg.bag.reader import open_bag
@@ -244,7 +244,7 @@ def signalled(process, number, ready):
     try:
         wait_until(lambda: process.poll() is not None or ready())
         process.send_signal(number)
-        out, said = process.communicate(timeout=60)
+        out, said = process.communicate(timeout=LONGEST)
     finally:
         end(process)
     assert process.returncode == 0, said

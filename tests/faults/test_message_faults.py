@@ -4,7 +4,7 @@ import time
 
 import numpy
 import pytest
-from tests.bench_process import Nodes, messages, needs_ros, resolved
+from tests.bench_process import LONGEST, Nodes, messages, needs_ros, resolved
 
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.reader import open_bag
@@ -58,9 +58,9 @@ def send(stand_in, source, numbers, *, before=lambda number: ()) -> None:
 
 
 def seven_blocks_done(scene, nodes, stand_in):
-    """A recorded run under way, with its source."""
+    """A recorded run under way, with its source; it waits for as long as the test takes to go on."""
     nodes.start("bag_logger")
-    nodes.start("contact_simulator")
+    nodes.start("contact_simulator", input_timeout=LONGEST)
     source = make_vibration(scene)
     stand_in.wait_ready(2)
     send(stand_in, source, range(7))
@@ -72,7 +72,7 @@ def seven_blocks_done(scene, nodes, stand_in):
 def test_a_missing_block_ends_the_run_by_name_with_its_bag_closed(scene, nodes, stand_in):
     """B5 for numbered blocks: named after the input timeout, never invented; status 1."""
     nodes.start("bag_logger")
-    nodes.start("contact_simulator", input_timeout=1.0)
+    nodes.start("contact_simulator", input_timeout=4.0)
     source = make_vibration(scene)
     stand_in.wait_ready(2)
     send(stand_in, source, range(7))
@@ -93,7 +93,7 @@ def test_a_missing_block_ends_the_run_by_name_with_its_bag_closed(scene, nodes, 
 def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes, stand_in, tmp_path):
     """B1, B2, B4: NaN, a wrong length, a wrong stamp, a repetition, in front of the good block."""
     nodes.start("bag_logger")
-    nodes.start("contact_simulator")
+    nodes.start("contact_simulator", input_timeout=LONGEST)
     source = make_vibration(scene)
 
     def bad(number):
@@ -122,7 +122,7 @@ def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes,
 def test_a_run_that_gets_nothing_but_nan_ends_by_name(scene, nodes, stand_in):
     """B1: the state is never touched by it."""
     nodes.start("bag_logger")
-    nodes.start("contact_simulator", input_timeout=1.0)
+    nodes.start("contact_simulator", input_timeout=4.0)
     stand_in.wait_ready(2)
     stand_in.entry.publish(spoilt(make_vibration(scene), 0))
     stand_in.spin_until(lambda: stand_in.progress.message != "")

@@ -111,7 +111,7 @@ def test_nodes_whose_supervisor_is_killed_end_by_themselves_and_leave_nothing(ru
     segments = set().union(*(mapped_segments(node) for node in (process.pid, *nodes.values())))
     process.kill()
     process.wait()
-    wait_until(lambda: not any(lives(node) for node in nodes.values()), 20.0)
+    wait_until(lambda: not any(lives(node) for node in nodes.values()))
     left = open_bag(bag)
     assert left.complete
     assert left.metadata["ended"] == "failed"
@@ -127,16 +127,14 @@ def folder_of(process) -> Path:
 
 
 @pytest.mark.parametrize("stopped", ["bag_logger", "contact_simulator"])
-def test_nothing_outlives_an_interrupt_by_more_than_two_seconds(running, stopped):
-    """With a node that does not answer any more; the time is doubled here for a machine under load."""
+def test_a_node_that_does_not_answer_does_not_outlive_an_interrupt(running, stopped):
+    """After how long it is killed: tests/nodes/processes/test_stop_requests.py."""
     process, bag = running
     nodes = children_of(process.pid)
     os.kill(nodes[stopped], signal.SIGSTOP)
-    began = time.monotonic()
     process.send_signal(signal.SIGINT)
-    wait_until(lambda: not any(lives(node) for node in nodes.values()), 4.0)
+    wait_until(lambda: not any(lives(node) for node in nodes.values()))
     _, said = process.communicate(timeout=LONGEST)
-    assert time.monotonic() - began < 6.0
     assert "Traceback" not in said
     if stopped == "bag_logger":
         assert process.returncode == 1
@@ -145,20 +143,18 @@ def test_nothing_outlives_an_interrupt_by_more_than_two_seconds(running, stopped
         assert open_bag(bag).complete
 
 
-def test_a_simulator_without_its_logger_ends_within_two_seconds_of_an_interrupt(tmp_path):
-    """The logger is killed, and there is no supervisor to see it."""
+def test_a_simulator_without_its_logger_ends_at_an_interrupt(tmp_path):
+    """The logger is killed, and there is no supervisor to see it; it does not wait for an answer until its input timeout."""
     nodes = Nodes(resolved("seat_ride", "duration=60", "pace=realtime"), tmp_path)
     try:
-        started = {name: nodes.start(name, input_timeout=30.0) for name in ("bag_logger", "contact_simulator")}
+        started = {name: nodes.start(name, input_timeout=3600.0) for name in ("bag_logger", "contact_simulator")}
         started["vibration"] = nodes.start("vibration")
         nodes.wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
         logger = started["bag_logger"]
         logger.record_segments()
         logger.process.kill()
         started["contact_simulator"].process.send_signal(signal.SIGINT)
-        began = time.monotonic()
         assert nodes.wait("contact_simulator", "vibration")["contact_simulator"] == 1
-        assert time.monotonic() - began < 4.0
     finally:
         nodes.end()
     assert left_of(logger.segments) == set()
@@ -169,7 +165,7 @@ def test_a_stopped_logger_is_named_and_loses_nothing_when_it_goes_on(tmp_path):
     nodes = Nodes(resolved("seat_ride", "duration=60", "pace=realtime"), tmp_path)
     try:
         logger = nodes.start("bag_logger")
-        nodes.start("contact_simulator", input_timeout=1.0)
+        nodes.start("contact_simulator", input_timeout=4.0)
         nodes.start("vibration")
         nodes.wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
         logger.process.send_signal(signal.SIGSTOP)
@@ -192,7 +188,7 @@ def test_a_source_that_is_stopped_for_a_while_costs_nothing_but_time(tmp_path):
     nodes = Nodes(scene, tmp_path)
     try:
         nodes.start("bag_logger")
-        nodes.start("contact_simulator")
+        nodes.start("contact_simulator", input_timeout=60.0)
         source = nodes.start("vibration")
         nodes.wait_until(lambda: recorded_bytes(nodes.bag) > 20_000)
         source.process.send_signal(signal.SIGSTOP)

@@ -100,9 +100,10 @@ def test_the_policy_allows_what_the_nodes_of_a_run_do_and_nothing_beyond_the_tab
                     "subscribe": graph.get_subscriber_names_and_types_by_node,
                     "reply": graph.get_service_names_and_types_by_node,
                 }
+                wait_until(lambda name=name: (name, "/") in graph.get_node_names_and_namespaces())
                 for direction, listed in lists.items():
+                    wait_until(lambda listed=listed, name=name: listed(name, "/"))
                     seen = {topic for topic, _types in listed(name, "/")}
-                    assert seen, (name, direction)
                     assert seen <= allowed(name)[direction], (name, direction)
     finally:
         nodes.end()

@@ -6,6 +6,7 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from tests.bench_process import LONGEST
 
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.nodes.protocol.endpoints import publisher, subscription
@@ -29,12 +30,25 @@ class StandIn:
     def _on_progress(self, data: bytes) -> None:
         self.progress = decode(BenchProgress, data)
 
-    def spin_until(self, condition, seconds: float = 40.0) -> None:
+    def spin_until(self, condition, seconds: float = LONGEST) -> None:
         """Hear what comes until the condition holds; fails after the time."""
         limit = time.monotonic() + seconds
         while not condition():
             assert time.monotonic() < limit, f"timed out; last heard {self.progress}"
             self._executor.spin_once(timeout_sec=0.02)
+
+    def spin_until_quiet(self, heard: list[bytes]) -> int:
+        """Hear what comes until nothing has been heard for a second; returns how many were."""
+        count, since = -1, time.monotonic()
+
+        def is_quiet() -> bool:
+            nonlocal count, since
+            if len(heard) != count:
+                count, since = len(heard), time.monotonic()
+            return time.monotonic() - since > 1.0
+
+        self.spin_until(is_quiet)
+        return count
 
     def wait_ready(self, listeners: int) -> None:
         """Until the run is ready and so many subscribers are matched."""

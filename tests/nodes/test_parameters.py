@@ -4,7 +4,7 @@ import math
 import subprocess
 
 import pytest
-from tests.bench_process import ENVIRONMENT, needs_ros
+from tests.bench_process import ENVIRONMENT, LONGEST, needs_ros
 
 from contact_sim_pkg.python_process import python_command
 
@@ -91,6 +91,6 @@ def test_a_wrong_type_or_value_is_refused_in_one_sentence(node_with, default, te
 )
 def test_a_node_with_bad_arguments_ends_with_status_2_and_no_traceback(arguments, sentence):
     command = python_command("contact_sim_pkg.nodes.bag_replay", "--ros-args", *arguments)
-    ended = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=30)
+    ended = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=LONGEST)
     assert (ended.returncode, "Traceback" in ended.stderr) == (2, False)
     assert sentence in ended.stderr.splitlines()[-1]

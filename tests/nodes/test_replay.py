@@ -6,7 +6,6 @@ import pty
 import signal
 import subprocess
 import termios
-import time
 
 import pytest
 from tests.bench_process import ENVIRONMENT, LONGEST, Nodes, needs_ros, resolved
@@ -87,11 +86,10 @@ def test_a_subscriber_that_cannot_be_served_is_named_and_not_waited_for(bag, rep
         listener.node.create_subscription(kind, "seat/force", lambda _: None, latched),
         listener.node.create_subscription(String, "bench/scene", lambda _: None, latched),
     ]
-    began = time.monotonic()
     nodes = replay()
     listener.spin_until(nodes.ended)
     assert len(kept) == 2
-    assert time.monotonic() - began < 9.0
+    assert not [line for line in nodes.printed if "begins without" in line]
     assert [line.split(": ", 1)[1] for line in nodes.printed if "gets nothing" in line] == [
         "/listener gets nothing of /seat/force: it asks for a transient-local topic, the topic was recorded as volatile"
     ]
@@ -107,9 +105,7 @@ def test_a_service_pauses_and_resumes_at_the_same_message(bag, replay, listener)
     listener.spin_until(lambda: len(forces) >= 5 and client.service_is_ready())
     answers = [client.call_async(SetBool.Request(data=True))]
     listener.spin_until(answers[0].done)
-    standing, limit = len(forces), time.monotonic() + 1.0
-    listener.spin_until(lambda: time.monotonic() > limit)
-    assert len(forces) <= standing + 1 < 50  # one may have been on its way
+    assert listener.spin_until_quiet(forces) < 50
     answers.append(client.call_async(SetBool.Request(data=False)))
     listener.spin_until(nodes.ended)
     listener.spin_until(lambda: len(forces) == 50)
@@ -132,13 +128,9 @@ def test_the_command_remaps_begins_at_a_message_shows_progress_and_pauses_by_the
     try:
         listener.spin_until(lambda: len(forces) >= 3)
         os.write(first, b" ")
-        wait = time.monotonic() + 1.0
-        listener.spin_until(lambda: time.monotonic() > wait)
-        standing, wait = len(forces), time.monotonic() + 1.0
-        listener.spin_until(lambda: time.monotonic() > wait)
-        assert len(forces) == standing < 40
+        standing = listener.spin_until_quiet(forces)
         os.write(first, b" ")
-        listener.spin_until(lambda: len(forces) > 45)  # 40 a pass
+        listener.spin_until(lambda: len(forces) > standing + 45)  # 40 a pass
         process.send_signal(signal.SIGINT)
         _, printed = process.communicate(timeout=LONGEST)
     finally:
@@ -147,7 +139,7 @@ def test_the_command_remaps_begins_at_a_message_shows_progress_and_pauses_by_the
         os.close(second)
     assert process.returncode == 0, printed
     expected = recorded(bag, "seat/force")[10:]
-    assert forces == (expected * 2)[: len(forces)]
+    assert forces == (expected * (1 + len(forces) // 40))[: len(forces)]
     assert "space: pause" in printed
     assert "of 40 messages went out in pass 2" in printed
 

@@ -32,7 +32,7 @@ def children(printed):
 
 
 def until(condition):
-    limit = time.monotonic() + 20.0
+    limit = time.monotonic() + 100.0
     while not condition():
         assert time.monotonic() < limit
         time.sleep(0.01)
