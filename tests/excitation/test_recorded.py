@@ -38,6 +38,36 @@ def test_every_separator_is_found_from_the_header(tmp_path, separator):
     numpy.testing.assert_allclose(z, (Z - Z.mean())[10:50], atol=2e-9)
 
 
+@pytest.mark.parametrize("separator", [";", "\t", " "])
+def test_decimal_commas_are_read_where_commas_separate_nothing(tmp_path, separator):
+    """As a German Excel writes them."""
+    path = write(tmp_path / "a.csv", {"x": X, "y": 0.0 * X, "z": Z + 9.81}, separator)
+    path.write_text(path.read_text().replace(".", ","))
+    x, z = RecordedVibration(path, RATE).acceleration(TIME[10:50])
+    numpy.testing.assert_allclose(x, (X - X.mean())[10:50], atol=2e-9)
+    numpy.testing.assert_allclose(z, (Z - Z.mean())[10:50], atol=2e-9)
+
+
+@pytest.mark.parametrize("end", ["", "\n"])  # a last line without its end is read apart
+@pytest.mark.parametrize("bad", ["1.234,5", "1,2,3", "1.5"])
+def test_a_comma_that_may_be_meant_in_two_ways_is_refused_with_its_line(tmp_path, bad, end):
+    path = tmp_path / "a.csv"
+    path.write_text(f"x;z\n0,1;9,8\n0,2;{bad}{end}")
+    with pytest.raises(ExcitationError, match=r"line [23]: '.*' in column '.' is no number"):
+        RecordedVibration(path, RATE)
+
+
+def test_a_column_of_another_name_is_refused_with_the_key_that_names_it(tmp_path):
+    path = write(tmp_path / "a.csv", {"t": TIME, "Az": Z + 9.81})
+    names = "the header names t, az; name the right one with --set vibration"
+    with pytest.raises(ExcitationError, match=f"no column 'z'; {names}.vertical_column=NAME"):
+        RecordedVibration(path, unused="x")
+    with pytest.raises(ExcitationError, match=f"no column 'x'; {names}.forward_column=NAME"):
+        RecordedVibration(path, vertical="az")
+    with pytest.raises(ExcitationError, match=f"no column 'zeit'; {names}.time_column=NAME"):
+        RecordedVibration(path, vertical="az", time="Zeit", unused="x")
+
+
 def test_samples_are_given_back_at_their_instants(plain):
     x, z = RecordedVibration(plain, RATE).acceleration(TIME)
     numpy.testing.assert_allclose(x, X - X.mean(), atol=2e-9)

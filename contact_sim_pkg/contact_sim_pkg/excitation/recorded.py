@@ -107,7 +107,7 @@ class RecordedVibration:
         self.rate = self._settle_rate(table, rate, table.time(time))
         self.remove_bias = remove_bias
         names = _columns(table, {"x": forward, "y": lateral, "z": vertical}, needed=tilt == "correct", unused=unused)
-        raw = {axis: signed_column(table, name, unit) for axis, name in names.items()}
+        raw = {axis: signed_column(table, name, unit, axis) for axis, name in names.items()}
         self._unit_assumed = unit is None and not all(
             name.removeprefix("-").lower() in table.with_unit for name in names.values()
         )

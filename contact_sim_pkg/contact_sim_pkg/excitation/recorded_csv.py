@@ -43,13 +43,14 @@ class RecordedTable(NamedTuple):
     with_unit: frozenset[str] = frozenset()  # columns whose unit the header names
     nominal_rate: float | None = None  # [Hz], as a comment of the file says
 
-    def column(self, name: str) -> NDArray[numpy.float64]:
-        """One column; ExcitationError where it is absent or holds NaN or infinity (with the
-        line).
+    def column(self, name: str, key: str = "") -> NDArray[numpy.float64]:
+        """One column; ExcitationError where it is absent, with the `key` of a vibration that names
+        it, or holds NaN or infinity (with the line).
         """
         if name not in self.columns:
+            cure = f"; name the right one with --set vibration.{key}=NAME" if key else ""
             raise ExcitationError(
-                f"{self.file}: there is no column '{name}'; the header names {', '.join(self.columns)}"
+                f"{self.file}: there is no column '{name}'; the header names {', '.join(self.columns)}{cure}"
             )
         column = self.columns[name]
         wrong = numpy.flatnonzero(~numpy.isfinite(column))
@@ -67,7 +68,7 @@ class RecordedTable(NamedTuple):
         The result: [samples] [s].
         """
         if name is not None:
-            return self.column(name.lower())
+            return self.column(name.lower(), "time_column")
         found = [usual for usual in TIME_NAMES if usual in self.columns]
         return self.column(found[0]) if found else None
 
@@ -78,7 +79,7 @@ def read_table(path: Path) -> RecordedTable:
     The first line that is neither empty nor a comment (#, %) names the columns, with the unit of an
     acceleration in brackets where it is known: m/s^2, g or mg, read as m/s^2; s for time. Columns
     are separated by semicolon, tab, comma or spaces, whichever of them the header holds, in this
-    order.
+    order. Where that is no comma, numbers may have decimal commas.
 
     Raises:
         ExcitationError: with the line, for no header, ragged lines and fields that are no numbers;
@@ -100,10 +101,11 @@ def read_table(path: Path) -> RecordedTable:
     separator = next((mark for mark in SEPARATORS if mark in head[0][1]), None)
     names, factors = _names(path, *head[0], separator)
     columns = [array("d") for _ in names]
-    numbers = array("q")
+    numbers, decimal_mark = array("q"), ""
     # Numbers, a block of lines at a time.
     for numbered in chain([head[1:]], (_without_comments(block) for block in blocks)):
-        values = _parse(path, numbered, names, separator)
+        decimal_mark = decimal_mark or _decimal_mark(numbered, separator)
+        values = _parse(path, numbered, names, separator, decimal_mark == ",")
         for column, part in zip(columns, values.T, strict=True):
             column.frombytes(numpy.ascontiguousarray(part).tobytes())
         numbers.extend(number for number, _ in numbered)
@@ -195,7 +197,7 @@ def _too_short(path: Path, samples: int) -> ExcitationError:
     )
 
 
-def _parse(path: Path, numbered: list[tuple[int, str]], names: list[str], separator: str | None) -> Array:
+def _parse(path: Path, numbered: list[tuple[int, str]], names: list[str], separator: str | None, commas: bool) -> Array:
     """Numbers of a block, [lines, columns]; where numpy does not read it, the first bad line is
     looked for.
     """
@@ -203,7 +205,8 @@ def _parse(path: Path, numbered: list[tuple[int, str]], names: list[str], separa
     if not lines:
         return numpy.empty((0, len(names)))
     try:
-        values = numpy.loadtxt(lines, delimiter=separator, comments=None, ndmin=2)
+        pointed = [_with_point(line, commas) for line in lines]
+        values = numpy.loadtxt(pointed, delimiter=separator, comments=None, ndmin=2)
     except ValueError:
         values = numpy.empty((0, 0))
     if values.shape == (len(lines), len(names)):
@@ -218,13 +221,28 @@ def _parse(path: Path, numbered: list[tuple[int, str]], names: list[str], separa
             )
         for name, field in zip(names, fields, strict=True):
             # Python reads 9_8 as 98; a file does not mean that
-            if not _is_number(field) or "_" in field:
+            if not _is_number(field, commas) or "_" in field:
                 raise ExcitationError(
                     f"{path}, line {number}: '{field[:40]}' in column '{name}' is no number (a decimal point is "
-                    "expected)"
+                    "expected, or a comma throughout where commas separate no columns)"
                 )
-        rows.append([float(field) for field in fields])
+        rows.append([float(_with_point(field, commas)) for field in fields])
     return numpy.array(rows)
+
+
+def _decimal_mark(lines: list[tuple[int, str]], separator: str | None) -> str:
+    """The decimal mark that lines of numbers show; empty where they show none. Beside points, commas
+    are none: 1.234,5 may be meant in two ways.
+    """
+    shown = "" if separator == "," else ","
+    return next((mark for mark in (".", shown) if mark and any(mark in line for _, line in lines)), "")
+
+
+def _with_point(text: str, commas: bool) -> str:
+    """The text with decimal points for its commas; ValueError where points stand beside them."""
+    if commas and "." in text:
+        raise ValueError(text)
+    return text.replace(",", ".") if commas else text
 
 
 def _nominal_rate(comments: list[str]) -> float | None:
@@ -265,9 +283,9 @@ def _names(path: Path, number: int, line: str, separator: str | None) -> tuple[l
     return names, factors
 
 
-def _is_number(text: str) -> bool:
+def _is_number(text: str, commas: bool = False) -> bool:
     try:
-        float(text)
+        float(_with_point(text, commas))
     except ValueError:
         return False
     return True

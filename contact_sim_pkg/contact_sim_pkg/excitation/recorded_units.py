@@ -16,15 +16,17 @@ LARGEST_MEAN = 5.0 * STANDARD_GRAVITY
 LARGEST_RMS = 200.0  # [m/s^2] about 20 g: seats and floors stay a factor 10 below
 GRAVITY_AGREEMENT = 0.1  # a mean this close to 1 or 1000 is gravity in g or mg
 
+KEYS = {"x": "forward_column", "z": "vertical_column"}
+"""Axis -> key of a vibration that names its column."""
 Array = NDArray[numpy.float64]
 
 
-def signed_column(table: RecordedTable, name: str, unit: str | None) -> Array:
+def signed_column(table: RecordedTable, name: str, unit: str | None, axis: str = "") -> Array:
     """One axis, [samples] in [m/s^2]; ExcitationError where a value is none that can be
     measured.
     """
     plain = name.removeprefix("-").lower()
-    column = table.column(plain)
+    column = table.column(plain, KEYS.get(axis, ""))
     factor = 1.0 if unit is None or plain in table.with_unit else UNITS[unit]
     wrong = numpy.flatnonzero(numpy.abs(column) > LARGEST_ACCELERATION / factor)
     if wrong.size:
