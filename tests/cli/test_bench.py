@@ -198,7 +198,11 @@ def test_the_excitation_of_a_bag_does_not_drive_another_rig(capsys, tmp_path):
         (["replay", "no such bag", "--rate", "nan"], "--rate"),
         (["replay", "no such bag", "--start-offset", "-1"], "--start-offset"),
         (["recover", "no such bag", "target"], "no such bag"),
-        (["frobnicate"], "No such command 'frobnicate'"),
+        (["frobnicate"], "No such command 'frobnicate'.\n"),
+        (["lst"], "No such command 'lst'. Did you mean 'list'?"),
+        (["Report", "bag"], "Did you mean 'report'?"),
+        (["run", "TIRE_BUMP"], "did you mean tire_bump?"),
+        (["run", "seat_ride", "--no-record", "--out", "y"], "--out y names a bag and --no-record writes none"),
     ],
 )
 def test_bad_input_is_refused_with_status_2_and_a_sentence_and_creates_nothing(

@@ -59,6 +59,29 @@ def test_a_file_name_that_cannot_be_a_name_asks_for_one(maker, tmp_path):
 def test_an_unknown_name_is_told_the_nearest():
     with pytest.raises(SceneError, match=r"did you mean tire_bump\?"):
         load_scene("tire_bmp")
+    with pytest.raises(SceneError, match=r"did you mean tire_bump\?"):
+        load_scene("TIRE_BUMP")
+
+
+@pytest.mark.parametrize(
+    ("scene", "assignment", "meant"),
+    [
+        ("tire_rough_road", "road.roughness=C", "did you mean 'roughness_class: C'?"),
+        ("tire_rough_road", "road.class=C", "did you mean 'roughness_class'?"),
+        ("tire_bump", "road.roughness=C", "it belongs to a road of kind iso8608, this one is bump"),
+        ("tire_bump", "road.depth=0.1", "it belongs to a road of kind pothole, this one is bump"),
+        ("tire_rough_road", "road.seed=3", "it stands at the top of the scene: seed"),
+        ("tire_bump", "travel.speed=60 km/h", "without its unit: 60 km/h is 16.667 m/s, write 16.667"),
+        ("tire_bump", "travel.speed=37 mph", "37 mph is 16.54 m/s, write 16.54"),
+        ("tire_bump", "travel.speed='5'", "a number is needed without quotes"),
+        ("tire_bump", "travel.speed=5 m/s", "without its unit: write 5"),
+        ("tire_bump", "travel.speed=5 apples", "was read as text, a number is needed; allowed"),
+    ],
+)
+def test_a_key_or_value_that_is_none_is_told_what_was_meant(scene, assignment, meant):
+    with pytest.raises(SceneError) as caught:
+        load_scene(scene, [set_value(assignment)])
+    assert meant in str(caught.value.faults[0])
 
 
 def test_a_path_is_taken_as_a_path(tmp_path):

@@ -58,6 +58,14 @@ def test_pace_is_a_word_or_a_factor(maker, pace, value):
             "--set seat.occupnt=3: seat.occupnt: the key is unknown; did you mean 'occupant'?",
         ),
         (
+            lambda: set_value("seat.seed=3"),
+            "--set seat.seed=3: seat.seed: the key is unknown; it stands at the top of the scene: seed",
+        ),
+        (
+            lambda: set_value("duration=2 min"),
+            "--set duration=2 min: duration: '2 min' was read as text, a number is needed without its unit: 2 min is 120 s",
+        ),
+        (
             lambda: set_value("duration.x=3"),
             "--set duration.x=3: duration.x: 'duration' is the value '1.0' and has no keys",
         ),

@@ -9,6 +9,7 @@ import gc
 import os
 import sys
 import time
+from difflib import get_close_matches
 from importlib import import_module
 
 import click
@@ -51,6 +52,16 @@ class LazyGroup(click.Group):
         module, _, command = COMMANDS[name].partition(":")
         found: click.Command = getattr(import_module(f"contact_sim_pkg.cli.{module}"), command or "command")
         return found
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that the arguments begin with; a name that is none is refused with the nearest one."""
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            near = get_close_matches(args[0].lower(), COMMANDS, n=1, cutoff=0.5)
+            hint = f" Did you mean {near[0]!r}?" if near else ""
+            raise click.UsageError(f"No such command {args[0]!r}.{hint}", ctx)
+        return super().resolve_command(ctx, args)
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})

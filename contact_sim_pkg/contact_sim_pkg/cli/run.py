@@ -41,6 +41,8 @@ def command(
     as_json: bool,
 ) -> None:
     """Run SCENE (a name or a YAML file), record it and report its outcome."""
+    if no_record and out is not None:
+        raise click.UsageError(f"--out {out} names a bag and --no-record writes none; leave one of them out")
     from contact_sim_pkg.cli.run_scene import run_scene
 
     status = run_scene(

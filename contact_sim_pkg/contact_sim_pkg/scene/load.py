@@ -55,7 +55,7 @@ def find_scene(name_or_path: str | Path) -> Path:
     names = shipped_names()
     if str(name_or_path) in names:
         return shipped_scenes()[str(name_or_path)]
-    near = difflib.get_close_matches(str(name_or_path), names, n=1, cutoff=0.5)
+    near = difflib.get_close_matches(str(name_or_path).lower(), names, n=1, cutoff=0.5)
     hint = f"; did you mean {near[0]}?" if near else ""
     sentence = f"there is no such scene (shipped are {', '.join(names)}; a file ends in .yaml){hint}"
     raise SceneError([Fault(str(name_or_path), 0, 0, "", sentence)])

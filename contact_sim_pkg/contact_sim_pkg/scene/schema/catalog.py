@@ -90,6 +90,31 @@ def without_kinds(location: tuple[str | int, ...]) -> tuple[str | int, ...]:
     return location
 
 
+def place_of(key: str, parent: Location) -> str:
+    """Sentence on the place of a key that the section at `parent` does not have: another kind of
+    it, or the top of the scene; empty where neither has it.
+    """
+    table = catalog()
+    section = table.get(parent[:1])
+    if section is not None and section.kind == "kinds" and len(parent) == 2:
+        kinds = [kind for kind in section.words if (parent[0], kind, key) in table]
+        if kinds:
+            return f"it belongs to a {parent[0]} of kind {' or '.join(kinds)}, this one is {parent[1]}"
+    return f"it stands at the top of the scene: {key}" if parent and (key,) in table else ""
+
+
+def key_of_word(entry: Entry, node: Any) -> str:
+    """`; did you mean 'x: word'?` where the value of a number is a word of a choice beside it."""
+    raw = getattr(node, "raw", "")
+    beside = (each for each in catalog().values() if each.location[:-1] == entry.location[:-1] and each is not entry)
+    if entry.kind not in ("number", "integer") or not raw:
+        return ""
+    found = [
+        f"{each.location[-1]}: {word}" for each in beside for word in each.words if word.lower() == str(raw).lower()
+    ]
+    return f"; did you mean '{found[0]}'?" if found else ""
+
+
 def _entries(model: type[BaseModel], prefix: Location) -> Iterator[Entry]:
     for name, info in model.model_fields.items():
         location = (*prefix, name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import re
 from collections.abc import Iterable
 
@@ -11,6 +12,19 @@ from contact_sim_pkg.scene.schema.fields import LEAST
 from contact_sim_pkg.scene.yaml.nodes import ListNode, MappingNode, Node, ScalarNode
 
 LONGEST_SHOWN = 60
+UNITS = {
+    "m/s": {"km/h": 1.0 / 3.6, "kmh": 1.0 / 3.6, "kph": 1.0 / 3.6, "mph": 0.44704, "mm/s": 1e-3},
+    "m": {"mm": 1e-3, "cm": 1e-2, "km": 1e3, "um": 1e-6, "µm": 1e-6, "in": 0.0254},
+    "s": {"ms": 1e-3, "min": 60.0, "h": 3600.0},
+    "kg": {"g": 1e-3, "t": 1e3},
+    "N": {"kN": 1e3, "MN": 1e6},
+    "Pa": {"kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "psi": 6894.757},
+    "N/m": {"kN/m": 1e3, "N/mm": 1e3, "kN/mm": 1e6},
+    "Hz": {"kHz": 1e3},
+    "rad": {"deg": math.pi / 180.0, "degrees": math.pi / 180.0, "°": math.pi / 180.0},
+    "rad/s": {"rpm": math.pi / 30.0, "1/min": math.pi / 30.0},
+}
+"""Unit of a key -> usual other units, and their size in it."""
 
 
 def bad_value(entry: Entry, node: Node) -> str:
@@ -43,10 +57,10 @@ def missing(entry: Entry) -> str:
     return f"is missing ({entry.help}){allowed}"
 
 
-def unknown_key(key: str, known: Iterable[str]) -> str:
-    """The nearest valid key, or all of them."""
+def unknown_key(key: str, known: Iterable[str], elsewhere: str = "") -> str:
+    """Where the key has its place, and the nearest valid key; or else all of them."""
     names = list(known)
-    hint = suggestion(key, names)
+    hint = (f"; {elsewhere}" if elsewhere else "") + suggestion(key, names)
     return "the key is unknown" + (hint or f"; known here: {', '.join(names) or 'none, write {}'}")
 
 
@@ -69,7 +83,7 @@ def raw_text(node: Node) -> str:
 def _bad_number(entry: Entry, node: ScalarNode) -> str:
     value = node.value
     if isinstance(value, bool) or not isinstance(value, int | float):
-        needed = f"a number is needed{_number_hint(node)}"
+        needed = f"a number is needed{_number_hint(entry, node)}"
         return f"{raw_text(node)} was read as {_type_name(node)}, {needed}; {_allowed(entry)}"
     if entry.kind == "integer" and isinstance(value, float):
         return f"{node.raw} is not a whole number; {_allowed(entry)}"
@@ -89,7 +103,13 @@ def _bad_text(entry: Entry, node: ScalarNode) -> str:
     return f"{raw_text(node)} is too long or holds control characters"
 
 
-def _number_hint(node: ScalarNode) -> str:
+def _number_hint(entry: Entry, node: ScalarNode) -> str:
+    given = re.fullmatch(r"([-+]?[0-9]+(?:\.[0-9]*)?(?:[eE][-+]?[0-9]+)?)\s*([^0-9\s].*)", node.raw.strip())
+    sizes = {**UNITS.get(entry.unit, {}), entry.unit: 1.0}
+    if given and given[2] in sizes:
+        value = f"{float(given[1]) * sizes[given[2]]:.5g}"
+        same = "" if given[2] == entry.unit else f"{given[1]} {given[2]} is {value} {entry.unit}, "
+        return f" without its unit: {same}write {value}"
     if node.quoted:
         return " without quotes"
     plain = node.raw.replace("_", "")

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from contact_sim_pkg.scene.errors import Breach, Fault, SceneError
 from contact_sim_pkg.scene.renamed_keys import use_new_names
-from contact_sim_pkg.scene.schema.catalog import Entry, catalog, entry_of, without_kinds
+from contact_sim_pkg.scene.schema.catalog import Entry, catalog, entry_of, key_of_word, place_of, without_kinds
 from contact_sim_pkg.scene.schema.effect_rules import effect_breaches, unavailable_effect
 from contact_sim_pkg.scene.schema.fields import TOO_NEAR_ZERO
 from contact_sim_pkg.scene.schema.rules import breaches
@@ -99,7 +99,7 @@ class _Validator:
             self._add(path, too_near_zero(entry, self._node(path)))
         else:
             node = self._node(path)
-            self._add(path, bad_value(entry, node) if node is not None else "is not allowed")
+            self._add(path, bad_value(entry, node) + key_of_word(entry, node) if node is not None else "is not allowed")
         # The rest of the scene is checked with a value that the schema allows
         key = path[: len(without_kinds(entry.location))]
         self._faulty.append(".".join(map(str, key)))
@@ -112,7 +112,7 @@ class _Validator:
             return unavailable
         parent = location[:-1]
         known = [where[-1] for where in catalog() if where[:-1] == parent]
-        return unknown_key(key, known)
+        return unknown_key(key, known, place_of(key, parent))
 
     def _bad_kind(self, entry: Entry, path: Path) -> None:
         node = self._node(path)
