@@ -64,7 +64,7 @@ setup(
     entry_points={
         "console_scripts": [
             f"bench = {PACKAGE}.cli.main:main",
-            *(f"{node} = {PACKAGE}.nodes.{node}:main" for node in NODES),
+            *(f"{node} = {PACKAGE}.nodes.start:{node}" for node in NODES),
         ],
     },
     zip_safe=False,

@@ -7,7 +7,7 @@ import pytest
 from tests.house.source import PACKAGE, circles, imports, modules
 
 ORDER = (
-    ("files", "python_process"),
+    ("files", "python_process", "requirements"),
     ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid", "reference"), ("excitation",),
     ("scene",), ("bag",), ("run",), ("report",), ("rigs", "identify"), ("papers",), ("studies",), ("nodes",), ("cli",),
 )  # fmt: skip

@@ -289,12 +289,3 @@ def test_a_replay_that_would_begin_after_the_end_of_its_bag_is_refused(tmp_path)
     assert ended.returncode == 2
     assert "start_offset is 5 s" in ended.stderr + ended.stdout
     assert "begin before its end" in ended.stderr + ended.stdout
-
-
-def test_a_run_on_nodes_names_missing_ros(tmp_path):
-    blocker = tmp_path / "rclpy.py"
-    blocker.write_text("raise ModuleNotFoundError(\"No module named 'rclpy'\", name='rclpy')\n")
-    ended = bench("run", "seat_ride", cwd=tmp_path)  # -m puts the current folder first on the path
-    assert ended.returncode == 2
-    assert "source ros2_ws/setup.bash, or run with --offline" in ended.stderr
-    assert ended.stdout == ""

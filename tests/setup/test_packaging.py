@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from packaging.requirements import Requirement
 
+from contact_sim_pkg.nodes import start
 from set_up.environment import system_requirements
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -109,6 +110,7 @@ def test_every_console_script_names_a_module_that_exists():
     ]
     missing = [name for name in nodes if not (PACKAGE / "contact_sim_pkg" / "nodes" / f"{name}.py").exists()]
     assert missing == []
+    assert [name for name in nodes if not callable(getattr(start, name))] == []
     assert (PACKAGE / "contact_sim_pkg" / "cli" / "main.py").exists()
 
 

@@ -108,6 +108,11 @@ def refusal(error: Exception) -> tuple[str, int] | None:
     """Sentence and exit status of an error for bad input or a named fault; None for any
     other.
     """
+    from contact_sim_pkg.requirements import package_sentence
+
+    # first: without its packages even the errors below cannot be imported
+    if sentence := package_sentence(error):
+        return sentence, 2
     from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.excitation.errors import ExcitationError
     from contact_sim_pkg.files import FileRefusedError, printable
@@ -132,14 +137,6 @@ def refusal(error: Exception) -> tuple[str, int] | None:
             else str(error.strerror or error)
         )
         return sentence, 2 if isinstance(error, FileRefusedError) else 1
-    if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in (
-        "rclpy",
-        "contact_msgs_defs",
-    ):
-        return (
-            f"{error.name} cannot be imported; source ros2_ws/setup.bash, or run with --offline, which needs no ROS",
-            2,
-        )
     return None
 
 

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
@@ -240,6 +241,8 @@ def _run_on_nodes(
     import rclpy  # noqa: F401  # refused here, with the cure, where ROS is not there
     from contact_msgs_defs.msg import BenchProgress  # noqa: F401
 
+    if find_spec("numba") is None:  # which only the simulator's process imports
+        raise ModuleNotFoundError("No module named 'numba'", name="numba")
     from contact_sim_pkg.nodes.processes.supervisor import Supervisor
 
     supervisor = Supervisor(scene, directory, from_bag=from_bag, clock=clock)
