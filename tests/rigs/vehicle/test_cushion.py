@@ -217,7 +217,7 @@ def test_the_accuracy_study_finds_errors_that_fall_with_cells_and_spacing():
         errors = [row["error"] for row in rows if row["quantity"] == f"seat cushion {quantity}"]
         assert len(errors) == 4
         assert errors == sorted(errors, reverse=True)
-        assert errors[-1] < (0.01 if quantity != "force" else 1e-3)
+        assert errors[-1] < (0.012 if quantity != "force" else 1e-3)
     for quantity, finest in (("sink", 1e-4), ("stiffness", 3e-3), ("peak pressure", 2e-3)):
         of_cells = [row for row in rows if row["quantity"] == f"seat cushion {quantity}"]
         assert [(row["level"], row["tolerance"]) for row in of_cells] == [

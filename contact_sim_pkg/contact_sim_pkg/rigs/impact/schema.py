@@ -43,6 +43,10 @@ class Sample(Section):
     )
     poisson_ratio: float | None = number(-0.99, 0.5, "", "rubber 0.499, foam 0.1, steel 0.3", default=None)
     density: float | None = number(0.1, 1e5, "kg/m^3", "rubber 1100, foam 60, steel 7850", default=None)
+    yield_strength: float | None = number(
+        1.0, 1e13, "Pa", "of the softer body: a pressure above 1.60 times it is warned of; by default nothing is",
+        default=None,
+    )  # fmt: skip
     body_modulus: float | None = number(1.0, 1e13, "Pa", "E' of the sphere; rigid by default", default=None)
     body_loss_tangent: float = number(0.0, 100.0, "", "tan β of the sphere; acts with body_modulus", default=0.0)
 

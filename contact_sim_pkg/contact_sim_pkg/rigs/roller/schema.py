@@ -62,6 +62,10 @@ class RollerRig(Section):
     )
     young_modulus: float = number(1.0, 1e13, "Pa", "of both bodies", default=2.1e11)
     poisson_ratio: float = number(0.0, 0.5, "", "of both bodies", default=0.3)
+    yield_strength: float | None = number(
+        1.0, 1e13, "Pa", "of the softer body: a pressure above 1.60 times it is warned of; by default nothing is",
+        default=None,
+    )  # fmt: skip
     mass: float = number(1e-9, 1e6, "kg", "mass of the roller", default=0.175)
     inertia_tilt: float = number(1e-15, 1e6, "kg m^2", "moment of inertia I_y", default=2e-5)
     inertia_yaw: float = number(1e-15, 1e6, "kg m^2", "moment of inertia I_z", default=2e-5)
@@ -154,9 +158,9 @@ class Subsurface(Section):
     traction_y: float | None = number(
         -2.0, 2.0, "", "along rolling; where none is given, the coefficient of rolling_friction", default=None
     )
-    cells_x: int = number(2, 512, "", "cells of the box under the contact, along the shaft", default=32)
-    cells_y: int = number(2, 512, "", "cells of the box, along rolling", default=40)
-    cells_z: int = number(2, 512, "", "cells of the box, in depth", default=16)
+    cells_x: int = number(2, 512, "", "cells of the box under the contact, along the shaft", default=48)
+    cells_y: int = number(2, 512, "", "cells of the box, along rolling", default=60)
+    cells_z: int = number(2, 512, "", "cells of the box, in depth", default=12)
     instants: list[Instant] = numbers(
         "s",
         "instants of the volumes",

@@ -2,7 +2,9 @@
 
 import json
 import re
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from contact_sim_pkg.bag.reader import open_bag
@@ -10,7 +12,7 @@ from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.report import render
 from contact_sim_pkg.report.summary import summarise_recording
 from contact_sim_pkg.rigs.impact.report.figures_material import material_of_run
-from contact_sim_pkg.rigs.impact.report.series import MOST_COURSES, ImpactReader
+from contact_sim_pkg.rigs.impact.report.series import MOST_COURSES, ImpactReader, hertz_pressure, impact_warnings
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
@@ -78,3 +80,23 @@ def test_many_impacts_keep_the_courses_of_the_first_alone(tmp_path):
 
 def test_a_bag_without_impacts_has_no_series():
     assert ImpactReader().finish() is None
+
+
+def test_a_sphere_beyond_first_yield_is_reported():
+    """Hertz in another form: p0 = (2 E*/pi) sqrt(d/R) at the depth d = (3 F/(4 E* sqrt(R)))^(2/3); first yield at 1.60 times."""
+    force, modulus, radius = np.array([100.0, 1000.0]), np.array([1.05e11, 1.05e11]), np.array([0.01, 0.02])
+    depth = (0.75 * force / (modulus * np.sqrt(radius))) ** (2.0 / 3.0)
+    pressure = hertz_pressure(force, modulus, radius)
+    assert pressure == pytest.approx(2.0 * modulus / np.pi * np.sqrt(depth / radius), rel=1e-12)
+    events = SimpleNamespace(
+        peak_force=force, storage_modulus=modulus / 2.0**0.5, shape_factor=np.full(2, 2.0**0.5), radius=radius,
+        start=np.array([0.1, 0.2]), peak_time=np.array([3e-5, 3e-5]), release=np.array([0, 1]),
+    )  # fmt: skip
+    rig = {"speeds": [1.0, 2.0], "temperatures": [293.0], "repeats": 1, "bounces": 1, "sample": {}}
+    recording = SimpleNamespace(
+        scene={"rig": "impact", "impact": rig}, series={"impacts": SimpleNamespace(events=events)}
+    )
+    assert impact_warnings(recording) == []
+    rig["sample"] = {"yield_strength": float(pressure[1]) / 1.60 * 0.999}
+    (sentence,) = impact_warnings(recording)
+    assert "1.6 times impact.sample.yield_strength, first at 0.2 s" in sentence

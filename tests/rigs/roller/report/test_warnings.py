@@ -1,11 +1,14 @@
 """What is warned of before the numbers of a roller."""
 
+from types import SimpleNamespace
+
 import numpy
 import pytest
 
 from contact_sim_pkg.records.messages import RollerContact, RollerTrack
+from contact_sim_pkg.report.ranges import FIRST_YIELD
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries
-from contact_sim_pkg.rigs.roller.report.warnings import variation_above, warnings_of
+from contact_sim_pkg.rigs.roller.report.warnings import roller_warnings, variation_above, warnings_of
 
 CELLS, TURN = 256, 0.005  # [s]
 
@@ -60,3 +63,31 @@ def test_the_variation_of_a_cosine_is_its_amplitude_over_the_root_of_two():
     assert total == pytest.approx(50.0 / 2.0**0.5, rel=1e-12)
     assert above == pytest.approx(total, rel=1e-12)
     assert variation_above(track(waves=11), 2300.0)[1] == pytest.approx(0.0, abs=1e-9)
+
+
+def recording(pressure, strength):
+    """One that holds a roller and what its scene states."""
+    time = 0.1 * numpy.arange(len(pressure))
+    contact = RollerContact(**dict.fromkeys(RollerContact._fields, 0.0 * time) | {"block": 0, "period": 0.1})
+    series = RollerSeries(time, contact._replace(peak_pressure=1e6 * numpy.array(pressure)), [], [], [])
+    scene = {"roller": {} if strength is None else {"yield_strength": strength}}
+    return SimpleNamespace(scene=scene, series={"roller": series})
+
+
+def test_a_contact_beyond_first_yield_is_reported_with_where_it_begins_and_how_far_it_goes():
+    """1100 MPa: a circular Hertz contact yields first at 1760 MPa."""
+    (sentence,) = roller_warnings(recording([1223.0, 1541.0, 1763.0, 3731.0], 1.1e9))
+    for part in ("1760 MPa", "1.6 times roller.yield_strength", "at 0.2 s", "3731 MPa"):
+        assert part in sentence
+    assert roller_warnings(recording([1223.0, 1541.0, 1759.0], 1.1e9)) == []
+    assert roller_warnings(recording([1223.0, 3731.0], None)) == []
+
+
+def test_first_yield_is_where_the_shear_on_the_axis_of_a_circle_is_half_the_strength():
+    """On the axis of a unit circle of unit pressure (Johnson 3.45): sz = -1/(1 + z^2), sr = -(1 + nu) (1 - z atan(1/z)) - sz/2;
+    Tresca and von Mises are the same there.
+    """
+    z = numpy.linspace(0.2, 1.0, 8001)
+    deep = -1.0 / (1.0 + z**2)
+    radial = -(1.0 + 0.3) * (1.0 - z * numpy.arctan(1.0 / z)) - 0.5 * deep
+    assert 1.0 / numpy.abs(deep - radial).max() == pytest.approx(FIRST_YIELD, rel=0.01)

@@ -80,6 +80,22 @@ def test_the_volume_of_one_component(kind, error):
     assert (found.xy, found.xz, found.yz) == (0.0, 0.0, 0.0)
 
 
+@pytest.mark.parametrize("limit", [0.1, 0.2, 0.3, 0.45, 0.6])
+def test_the_default_cells_reach_two_parts_in_a_thousand_of_the_closed_form(limit):
+    found = dangerous_volumes(CIRCLE, 0.3, (limit, NEVER))
+    assert found.zz == pytest.approx(volume_of_the_normal_stress(limit), rel=2e-3)
+
+
+@pytest.mark.parametrize("load", [79.5, 185.5, 238.5])
+def test_the_default_cells_reach_two_parts_in_a_thousand_of_the_union(load):
+    """Loads of a fatigue test with traction; beside three times as many columns and depths each way."""
+    contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, load)
+    limits, traction = (2.6e8, 1.5e8), (0.0, 0.01)
+    fine = dangerous_volumes(contact, 0.3, limits, (144, 180, 36), None, traction)
+    found = dangerous_volumes(contact, 0.3, limits, traction=traction)
+    assert found.any == pytest.approx(fine.any, rel=2e-3)
+
+
 def test_it_reaches_as_deep_as_on_the_axis():
     """z = a sqrt(p0 / limit - 1): 140 against 40 MPa gives 1.581 a. Here 1.999 a and 2.001 a from a column of the box."""
     for depth, inside in ((1.999, True), (2.001, False)):

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from contact_sim_pkg.pressure.cushion.sitter import LumbarSupport
-from contact_sim_pkg.report.cushions import cushion_warnings
 from contact_sim_pkg.report.point_series import PointSeries
+from contact_sim_pkg.report.ranges import cushion_warnings
 from contact_sim_pkg.report.series import EpisodeSeries, FloatArray, Recording
 from contact_sim_pkg.report.signal.loops import period_of, vibration_period
 from contact_sim_pkg.report.tiles import Tile, number

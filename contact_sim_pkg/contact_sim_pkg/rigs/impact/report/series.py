@@ -18,7 +18,8 @@ from contact_sim_pkg.records.messages import (
     ImpactStress,
     ImpactWave,
 )
-from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.report.ranges import yield_warnings
+from contact_sim_pkg.report.series import FloatArray, Recording
 
 EVENTS = "contact_msgs_defs/msg/ImpactEvents"
 _KINDS: dict[str, type] = {
@@ -50,8 +51,28 @@ def impacts_of(recording: Recording) -> ImpactSeries | None:
 
 
 def impact_warnings(recording: Recording) -> list[str]:
-    """A sentence where impacts are missing; see `missing_impacts`."""
-    return missing_impacts(impacts_of(recording), recording.scene)
+    """Sentences where impacts are missing (`missing_impacts`), and where a sphere leaves the elastic
+    range.
+    """
+    impacts = impacts_of(recording)
+    return missing_impacts(impacts, recording.scene) + _yielding(impacts, recording.scene)
+
+
+def _yielding(impacts: ImpactSeries | None, scene: dict[str, Any]) -> list[str]:
+    strength = ((scene.get("impact") or {}).get("sample") or {}).get("yield_strength")
+    if impacts is None:
+        return []
+    events = impacts.events
+    # The law of the impact is that of Hertz for E* = k_p E'.
+    pressure = hertz_pressure(events.peak_force, events.shape_factor * events.storage_modulus, events.radius)
+    return yield_warnings("impact.sample.yield_strength", strength, events.start + events.peak_time, pressure)
+
+
+def hertz_pressure(force: FloatArray, modulus: FloatArray, radius: FloatArray) -> FloatArray:
+    """Largest pressure [Pa] under a sphere of ``radius`` [m] pressed with ``force`` [N] on a
+    half-space of contact ``modulus`` E* [Pa]: ``(6 F E*^2/(pi^3 R^2))^(1/3)`` (Johnson 4.24).
+    """
+    return np.cbrt(6.0 * force * modulus**2 / (np.pi**3 * radius**2))
 
 
 def missing_impacts(impacts: ImpactSeries | None, scene: dict[str, Any]) -> list[str]:

@@ -1,5 +1,5 @@
 """What a reader must know before the numbers of a roller: time acceleration that errs, a track worn
-far, samples too rare.
+far, samples too rare, a pressure beyond the elastic range.
 """
 
 from __future__ import annotations
@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from contact_sim_pkg.records.messages import RollerTrack
+from contact_sim_pkg.report.ranges import yield_warnings
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries, roller_of
 
@@ -25,7 +26,11 @@ LEAST_VARIATION = 0.01
 def roller_warnings(recording: Recording) -> list[str]:
     """Sentences; none where nothing is to be warned of."""
     roller = roller_of(recording)
-    return [] if roller is None else warnings_of(roller)
+    if roller is None:
+        return []
+    strength = (recording.scene.get("roller") or {}).get("yield_strength")
+    pressed = yield_warnings("roller.yield_strength", strength, roller.time, roller.contact.peak_pressure)
+    return pressed + warnings_of(roller)
 
 
 def warnings_of(roller: RollerSeries) -> list[str]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from contact_sim_pkg.report.cushions import cushion_warnings
+from contact_sim_pkg.report.ranges import cushion_warnings
 from contact_sim_pkg.report.series import FloatArray, MotionSeries, Recording
 from contact_sim_pkg.report.signal.metrics import ride_metrics, seat_factor
 from contact_sim_pkg.report.signal.spectrum import shortage_of_record
