@@ -112,7 +112,7 @@ class _Validator:
             return unavailable
         parent = location[:-1]
         known = [where[-1] for where in catalog() if where[:-1] == parent]
-        return unknown_key(key, known, place_of(key, parent))
+        return unknown_key(key, known, place_of(key, tuple(map(str, parent))))
 
     def _bad_kind(self, entry: Entry, path: Path) -> None:
         node = self._node(path)
