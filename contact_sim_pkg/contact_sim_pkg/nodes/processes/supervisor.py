@@ -86,6 +86,9 @@ class Supervisor:
         """End the processes left; the logger stores in its bag which one failed, and how."""
         if self._failure:
             write_reason(scene, self._failure)
+        failed = children.first_failed()
+        if failed is not None and failed.name == "contact_simulator":
+            children.request_end()  # all at once: no message is on its way that an order would save
         killed = children.end(self._stops.grace(time.monotonic()))
         bag = self._directory
         unclosed = bag is not None and bag.is_dir() and not (bag / "metadata.yaml").exists()
