@@ -68,7 +68,7 @@ def ride():
 def no_simulation(monkeypatch):
     """What is not refused is not simulated: the bags are read, and no kernel is needed."""
 
-    def described(scene, directory, on_progress, stop, sources, computing, on_set_up):
+    def described(scene, directory, on_progress, stop, sources, *_others):
         notes = {topic: source.describe() for topic, source in sources.items()}
         return offline.RunOutcome(0, 0.0, 0.0, None, False, "", notes)
 

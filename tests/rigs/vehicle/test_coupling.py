@@ -142,7 +142,8 @@ def test_the_rate_of_the_forces_does_not_set_their_peak(loss):
     """At 40 kHz a segment is a fraction of a millimetre long: neither nodes of the road nor corrections are felt as speeds."""
     road = "road={kind: pothole, position: 2, depth: 0.05, length: 0.3}"
     effects = (
-        f"effects.tire={{normal_elastic: {{}}, normal_dissipative: {LOSSES[loss]}, contact_field: {{tolerance: 1e-4}}}}"
+        f"effects.tire={{normal_elastic: {{young_modulus: 3e6}}, normal_dissipative: {LOSSES[loss]}, "
+        "contact_field: {tolerance: 1e-4}}"
     )
     peaks = [
         run("travel.speed=10", road, effects, f"outputs.force_rate={rate}")[0].max() for rate in (1000, 4000, 40000)

@@ -10,7 +10,6 @@ from contact_sim_pkg.pressure.settings import BeltSettings, InflatedBelt
 from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import make_belt, ring_stiffness
 from contact_sim_pkg.rigs.vehicle.tire.size import read_size
 from contact_sim_pkg.scene.resolved_scene import plain
-from contact_sim_pkg.scene.schema.fields import given
 
 if TYPE_CHECKING:
     from contact_sim_pkg.rigs.vehicle.tire.schema import Envelopment, HertzElastic, Inflation
@@ -54,7 +53,9 @@ def tire_body(effects: dict[str, Any]) -> TireBody:
     elastic: HertzElastic = plain(effects["normal_elastic"])
     envelopment: Envelopment | None = plain(effects.get("envelopment"))
     belt = None if envelopment is None else BeltSettings(envelopment.tension, envelopment.foundation)
-    modulus = given(elastic.young_modulus) / (1.0 - elastic.poisson_ratio**2)
+    if elastic.young_modulus is None:
+        raise ValueError("effects.tire.normal_elastic.young_modulus is open: the scene is not resolved")
+    modulus = elastic.young_modulus / (1.0 - elastic.poisson_ratio**2)
     return TireBody(TireForm(elastic.radius_rolling, elastic.radius_lateral), modulus, elastic.poisson_ratio, belt)
 
 
