@@ -26,6 +26,9 @@ from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
     help="Simulated time on /clock, unless another node publishes it.",
 )
 @click.option("--allow-long", is_flag=True, help="Run even if the estimate is above 10 min of computing.")
+@click.option(
+    "--strict", is_flag=True, help="End with status 1 where an estimated numerical error is above the requested accuracy."
+)
 @click.option("--no-record", is_flag=True, help="Write no bag; the summary is then empty.")
 @json_option
 @click.pass_context
@@ -37,12 +40,15 @@ def command(
     from_bag: Path | None,
     clock: bool,
     allow_long: bool,
+    strict: bool,
     no_record: bool,
     as_json: bool,
 ) -> None:
     """Run SCENE (a name or a YAML file), record it and report its outcome."""
     if no_record and out is not None:
         raise click.UsageError(f"--out {out} names a bag and --no-record writes none; leave one of them out")
+    if no_record and strict:
+        raise click.UsageError("--strict needs the estimates in the bag, and --no-record writes none; leave one of them out")
     from contact_sim_pkg.cli.run_scene import run_scene
 
     status = run_scene(
@@ -54,5 +60,6 @@ def command(
         record=not no_record,
         as_json=as_json,
         allow_long=allow_long,
+        strict=strict,
     )
     context.exit(status)

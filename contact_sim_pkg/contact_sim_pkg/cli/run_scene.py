@@ -80,6 +80,7 @@ def run_scene(
     record: bool,
     as_json: bool,
     allow_long: bool,
+    strict: bool = False,
 ) -> int:
     """Run a scene; returns the exit status. Ends the process where an abandoned computation
     still runs in it.
@@ -101,7 +102,7 @@ def run_scene(
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
     with RunDisplay(scene.duration) as display:
         ended = run(scene, directory, from_bag, display)
-    status = _report_outcome(scene, ended, forecast, as_json=as_json)
+    status = _report_outcome(scene, ended, forecast, as_json=as_json, strict=strict)
     # compiled code that does not return would keep the interpreter from ending
     if ended.computes_on:
         sys.stdout.flush()
@@ -110,7 +111,9 @@ def run_scene(
     return status
 
 
-def _report_outcome(scene: ResolvedScene, ended: RunEnd, forecast: dict[str, Any], *, as_json: bool) -> int:
+def _report_outcome(
+    scene: ResolvedScene, ended: RunEnd, forecast: dict[str, Any], *, as_json: bool, strict: bool
+) -> int:
     """Report the outcome of a run; returns the exit status."""
     if ended.failure:
         print(f"bench: {ended.failure}", file=sys.stderr)
@@ -126,7 +129,14 @@ def _report_outcome(scene: ResolvedScene, ended: RunEnd, forecast: dict[str, Any
         print_outcome(facts, ended)
     if hint:
         print(f"bench: {hint}", file=sys.stderr)
-    return ended.exit_status
+    return ended.exit_status or int(strict and _is_inaccurate(facts))
+
+
+def _is_inaccurate(facts: dict[str, Any]) -> bool:
+    from contact_sim_pkg.report.accuracy import is_above
+
+    numbers = facts["summary"].get("accuracy")
+    return bool(numbers) and is_above(numbers)
 
 
 def _leave_metadata(scene: ResolvedScene, ended: RunEnd) -> str:

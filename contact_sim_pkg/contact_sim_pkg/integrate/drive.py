@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 
 class Drive(NamedTuple):
-    """What moves a rig during one segment: values that change linearly from its start to its
-    end.
+    """What moves a rig during one segment: values that change linearly from its start to its end;
+    heights by a cubic where their rates at both ends are given.
     """
 
     start: float  # [s]
@@ -23,3 +23,8 @@ class Drive(NamedTuple):
     # [N] that road asperities add to the tire's force while it is in contact
     push_0: float | None = None
     push_1: float | None = None
+    # [m/s] rates of the heights at the start and the end of the segment
+    height_rate_0: float | None = None
+    height_rate_1: float | None = None
+    cushion_rate_0: float | None = None
+    cushion_rate_1: float | None = None

@@ -64,7 +64,9 @@ class Field(NamedTuple):
         """Value of the field in a record that is made without it: a number, or an array of no
         values.
         """
-        return numpy.empty(0, self.type) if self.may_be_empty else self.default
+        if self.may_be_empty:
+            return () if self.type == "string" else numpy.empty(0, self.type)
+        return self.default
 
 
 class Definition(NamedTuple):

@@ -14,7 +14,7 @@ import numpy as np
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.texts import scene_of_text
-from contact_sim_pkg.records.messages import SolverCost
+from contact_sim_pkg.records.definitions import HEADER, definition_of
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.field_series import FieldReader
 from contact_sim_pkg.report.point_reading import PointReader
@@ -23,6 +23,7 @@ from contact_sim_pkg.report.series import (
     ContactSeries,
     CostSeries,
     EpisodeSeries,
+    Estimate,
     FloatArray,
     LedgerSeries,
     MotionSeries,
@@ -68,7 +69,7 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
     contacts = {contact_of[name]: _contact(columns(name)) for name in topics[FORCE]}
     motion = next((_motion(columns(name, MOTION_COLUMNS)) for name in topics[MOTION]), None)
     ledger = next((LedgerSeries(**columns(name, LedgerSeries._fields)) for name in topics[ENERGY]), None)
-    cost = next((_cost(columns(name, ("time", *SolverCost._fields))) for name in topics[COST]), None)
+    costs = next((columns(name) for name in topics[COST]), None)
     listed = [name for name, row in bag.topics.items() if row.type == EPISODES]
     episodes = next((_episodes(columns, name, name in raw) for name in listed), None)
     scene = scene_of_text(bag.scene, f"scene of {bag.path}")
@@ -82,11 +83,12 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
         fields={contact_of[name]: field.finish() for name, field in fields.items()},
         motion=motion,
         ledger=ledger,
-        cost=cost,
+        cost=None if costs is None else _cost(costs),
         duration=_duration([*contacts.values(), *([motion] if motion else [])], scene, bag),
         episodes=episodes,
         points=next((each.finish() for each in points.values()), None),
         series=_rig_series(of_rigs),
+        estimates=[] if costs is None else _estimates(costs),
     )
 
 
@@ -237,4 +239,18 @@ def _episodes(columns: Callable[[str, tuple[str, ...]], dict[str, Any]], topic: 
 
 
 def _cost(columns: dict[str, Any]) -> CostSeries:
-    return {name: np.asarray(column, dtype=np.float64) for name, column in columns.items()}
+    names = [field.name for field in definition_of("SolverCost").fields if field.type != HEADER and not field.is_array]
+    return {
+        name: np.asarray(columns[name], dtype=np.float64) for name in ("time", *names) if name in columns
+    }  # fmt: skip
+
+
+def _estimates(columns: dict[str, Any]) -> list[Estimate]:
+    """Largest of each estimated error; none in a bag of an earlier release."""
+    found: dict[str, Estimate] = {}
+    rows = (columns.get(name, ()) for name in ("estimated", "estimated_error", "estimated_of"))
+    for names, errors, largest in zip(*rows, strict=True):
+        for column, error, size in zip(names, errors, largest, strict=True):
+            before = found.get(str(column), Estimate(str(column), 0.0, 0.0))
+            found[before.column] = Estimate(before.column, max(before.error, error), max(before.largest, size))
+    return list(found.values())

@@ -5,7 +5,7 @@ What a bag does not hold is empty (no contact, no field) or None (no motion, no 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
@@ -167,6 +167,16 @@ class EpisodeSeries(NamedTuple):
         return EpisodeSeries(*(column[chosen] for column in self))
 
 
+class Estimate(NamedTuple):
+    """Estimated numerical error of a column, as ``tire/force.normal``, over a run."""
+
+    column: str
+    error: float
+    """in the unit of the column"""
+    largest: float
+    """largest magnitude of the column"""
+
+
 class TopicCount(NamedTuple):
     """One topic of the bag."""
 
@@ -202,3 +212,5 @@ class Recording(NamedTuple):
     """what only one rig records, by the name of its `records.report.SeriesReader`; what the bag
     does not hold is absent
     """
+    estimates: Sequence[Estimate] = ()
+    """numerical errors of outputs, the largest of the run"""

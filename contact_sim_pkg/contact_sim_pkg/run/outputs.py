@@ -122,10 +122,33 @@ def energy_ledger(
     )  # fmt: skip
 
 
-def solver_cost(stamps: BlockStamps, wall_time: float, **counted: Any) -> SolverCost:
-    """Cost of a block that took ``wall_time`` [s]; columns that are not given are 0."""
+class Estimate(NamedTuple):
+    """Estimated numerical error of a column in one block."""
+
+    column: str  # topic and column, as tire/force.normal
+    error: float  # in the unit of the column
+    largest: float  # largest magnitude of the column in the block
+
+
+def solver_cost(
+    stamps: BlockStamps, wall_time: float, estimates: Sequence[Estimate] = (), **counted: Any
+) -> SolverCost:
+    """Cost of a block that took ``wall_time`` [s], with estimated errors of its outputs; columns that
+    are not given are 0.
+    """
     factor = stamps.timing.block_length / wall_time
-    return SolverCost(block=stamps.block, wall_time=wall_time, real_time_factor=factor, **counted)
+    return SolverCost(
+        block=stamps.block, wall_time=wall_time, real_time_factor=factor,
+        estimated=[each.column for each in estimates], estimated_error=numpy.array([each.error for each in estimates]),
+        estimated_of=numpy.array([each.largest for each in estimates]), **counted,
+    )  # fmt: skip
+
+
+def largest_of(outputs: Iterable[Output], column: str) -> float:
+    """Largest magnitude of a column, as ``tire/force.normal``, in some outputs; 0 without any."""
+    topic, _dot, name = column.partition(".")
+    chosen = (numpy.abs(getattr(each.record, name)) for each in outputs if each.topic == topic)
+    return max((float(value.max()) for value in chosen if value.size), default=0.0)
 
 
 def largest(outputs: Iterable[Output], part: str, column: str) -> float:

@@ -114,12 +114,25 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
         click.echo(f"  {_slap_line(summary['slaps'])}")
     if "impacts" in summary:
         click.echo(f"  {_impact_line(summary['impacts'])}")
+    _echo_accuracy(summary.get("accuracy"))
     for warning in summary.get("warnings", []):
         click.echo(f"  warning: {warning}")
     if "messages" in summary:
         click.echo(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")
     if facts["bag"] is not None:
         click.echo(f"bag: {facts['bag']}")
+
+
+def _echo_accuracy(numbers: dict[str, Any] | None) -> None:
+    """What was requested and what is estimated, the warning of it on standard error."""
+    if not numbers:
+        return
+    from contact_sim_pkg.report.accuracy import accuracy_lines, is_above
+
+    for line in accuracy_lines(numbers):
+        click.echo(f"  accuracy of {line}")
+    if is_above(numbers):
+        click.echo("bench: an estimated error is above the requested accuracy", err=True)
 
 
 def _slap_line(slaps: dict[str, Any]) -> str:

@@ -20,6 +20,8 @@ from contact_sim_pkg.run.errors import RunError
 
 Sampled = tuple[Vector, Vector, Vector]  # states, rates, forces; [samples, ...] each
 Corrections = tuple[float, float]  # [m] of tire and seat
+STRAIGHT: Corrections = (0.0, 0.0)
+"""Bends of corrections that are linear in time."""
 
 
 class CouplingStep(NamedTuple):
@@ -62,9 +64,10 @@ class Bodies:
     def __init__(self, model: Model) -> None:
         """Make the buffers."""
         self.model = model
-        self._height = numpy.zeros(model.timing.segments + 1)
-        self._cushion = numpy.zeros(model.timing.segments + 1)
-        self._ramp = numpy.arange(model.timing.segments + 1, dtype=numpy.float64)
+        points = model.timing.segments + 1
+        self._height, self._height_rate = numpy.zeros(points), numpy.zeros(points)
+        self._cushion, self._cushion_rate = numpy.zeros(points), numpy.zeros(points)
+        self._level = numpy.zeros(points)
         self.reset()
 
     def reset(self) -> None:
@@ -101,6 +104,7 @@ class Bodies:
         entries.start(
             self.model.rig, self.mode, self.state, self.work, self.model.timing.segment_length, first.smooth + corrections[0],
             numpy.full(2, corrections[1]), first.acceleration_x, first.acceleration_z, first.push,
+            (first.rate, self._cushion_rate[:2]),
         )  # fmt: skip
 
     def save(self) -> Saved:
@@ -115,26 +119,35 @@ class Bodies:
         work = self.work
         self.state[:], self.mode[:], work.event_direction[:], work.step[:], work.last_event[:] = saved
 
-    def move(self, step: CouplingStep, starts: Corrections, ends: Corrections) -> None:
-        """Move over a coupling step with corrections linear from ``starts`` to ``ends`` [m].
+    def move(
+        self, step: CouplingStep, starts: Corrections, ends: Corrections, bends: Corrections = STRAIGHT, part: int = 0
+    ) -> None:
+        """Move over a coupling step, or over its first ``part`` segments, with corrections from
+        ``starts`` to ``ends`` [m] that lie a quarter of ``bends`` [m] below straight lines in the
+        middle.
 
         Raises RunError where the physics fails.
         """
         timing, drive = self.model.timing, step.drive
         points = step.segments + 1
-        height, cushion = self._height[:points], self._cushion[:points]
-        effective_between(drive.smooth, starts[0], ends[0], height)
-        # As numpy.linspace, which takes longer than the step of the bodies
-        numpy.multiply(self._ramp[:points], (ends[1] - starts[1]) / step.segments, out=cushion)
-        cushion += starts[1]
-        cushion[-1] = ends[1]
+        height, rate = self._height[:points], self._height_rate[:points]
+        cushion, cushion_rate = self._cushion[:points], self._cushion_rate[:points]
+        level, moved = self._level[:points], (part or step.segments) + 1
+        effective_between(drive.smooth, drive.rate, (starts[0], ends[0], bends[0]), step.duration, height, rate)
+        effective_between(level, level, (starts[1], ends[1], bends[1]), step.duration, cushion, cushion_rate)
         status = entries.advance(
-            self.model.rig, self.mode, self.state, self.model.scale, self.work, step.start, step.segment_length, height,
-            cushion, drive.acceleration_x, drive.acceleration_z, drive.push, timing.sample_every, step.behind_sample,
-            *step.sampled,
+            self.model.rig, self.mode, self.state, self.model.scale, self.work, step.start, step.segment_length,
+            height[:moved], cushion[:moved], drive.acceleration_x, drive.acceleration_z, drive.push,
+            (rate, cushion_rate), timing.sample_every, step.behind_sample, *step.sampled,
         )  # fmt: skip
         if status != DONE:
             raise RunError(f"block {step.block}, {step.start:.6g} s: {SENTENCES[status]}")
+
+    def laid(self, point: int) -> Corrections:
+        """Heights [m] of road and cushion at the end of segment ``point`` of the last coupling step, as
+        the bodies were moved on them.
+        """
+        return float(self._height[point]), float(self._cushion[point])
 
     def energies(self, height: float, cushion: float) -> Vector:
         """Energies in [J] of the state over given heights in [m] (order of

@@ -25,6 +25,7 @@ class BlockDrive(NamedTuple):
     road: Any  # the block's RoadPatch, None without a tire
     travel: Vector  # [m] of the wheel centre
     smooth: Vector  # [m] height that a smooth tire sees
+    rate: Vector  # [m/s] of that height
     acceleration_x: Vector  # [m/s^2] of the floor
     acceleration_z: Vector  # [m/s^2]
     push: Vector | None  # [N] of the road's asperities; None where the scene calls for none
@@ -35,7 +36,7 @@ class BlockDrive(NamedTuple):
         """The same for ``segments`` segments from number ``first``."""
         chosen = slice(first, first + segments + 1)
         return BlockDrive(
-            self.road, self.travel[chosen], self.smooth[chosen], self.acceleration_x[chosen],
+            self.road, self.travel[chosen], self.smooth[chosen], self.rate[chosen], self.acceleration_x[chosen],
             self.acceleration_z[chosen], None if self.push is None else self.push[chosen],
             self.speed,
         )  # fmt: skip
@@ -47,9 +48,9 @@ def block_drive(model: Model, travel: Travel | None, block: int, road: Any, vibr
     Raises RunError where an input is missing, of another block, or does not fit the scene.
     """
     a_x, a_z = _accelerations(model, block, vibration)
-    places, smooth, push = _rolling(model, travel, block, road)
+    places, smooth, rate, push = _rolling(model, travel, block, road)
     speed = float(places[1] - places[0]) / model.timing.segment_length
-    return BlockDrive(road, places, smooth, a_x, a_z, push, speed)
+    return BlockDrive(road, places, smooth, rate, a_x, a_z, push, speed)
 
 
 def _accelerations(model: Model, block: int, vibration: Any) -> tuple[Vector, Vector]:
@@ -71,23 +72,28 @@ def _accelerations(model: Model, block: int, vibration: Any) -> tuple[Vector, Ve
     )
 
 
-def _rolling(model: Model, travel: Travel | None, block: int, road: Any) -> tuple[Vector, Vector, Vector | None]:
-    """Travel of the wheel, height that a smooth tire sees, and impulses of the road."""
+def _rolling(
+    model: Model, travel: Travel | None, block: int, road: Any
+) -> tuple[Vector, Vector, Vector, Vector | None]:
+    """Travel of the wheel, height that a smooth tire sees, its rate, and impulses of the road."""
     timing, geometry = model.timing, model.tire_geometry
     steps = timing.intervals * timing.segments
     if geometry is None or travel is None:
         zeros = numpy.zeros(steps + 1)
-        return zeros, zeros, None
+        return zeros, zeros, zeros, None
     _check_road(geometry, block, road)
-    places = numpy.array([travel.position((block * steps + i) * timing.segment_length) for i in range(steps + 1)])
-    smooth = numpy.empty(steps + 1)
-    inside = effective_heights(road.height, road.first_row, geometry.lattice.cell_x, geometry.weights, places, smooth)
+    times = [(block * steps + i) * timing.segment_length for i in range(steps + 1)]
+    places = numpy.array([travel.position(time) for time in times])
+    smooth, slopes = numpy.empty(steps + 1), numpy.empty(steps + 1)
+    inside = effective_heights(
+        road.height, road.first_row, geometry.lattice.cell_x, geometry.weights, places, smooth, slopes
+    )
     if not inside:
         raise RunError(
             f"{ROAD}: block {block} does not reach over the footprint from {places[0]:.6g} to {places[-1]:.6g} m"
         )
     push = None if model.asperities is None else asperity_push(model.asperities, geometry, road, places)
-    return places, smooth, push
+    return places, smooth, slopes * numpy.array([travel.speed(time) for time in times]), push
 
 
 def _check_road(geometry: TireGeometry, block: int, road: Any) -> None:

@@ -4,6 +4,8 @@ energies of a state.
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.compiled.results import DONE
@@ -23,9 +25,12 @@ TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
 SEAT_NORMAL, SEAT_TANGENTIAL, SEAT_APPROACH, SEAT_HEIGHT, SEAT_RATE = 4, 5, 6, 7, 8
 TIRE_PUSH = 9
 BACK_NORMAL, BACK_APPROACH = 10, 11
-TIRE_SLOPE = 12  # of the fields: filled in by `coupling.py`, as is what follows
+TIRE_SLOPE = 12  # of the fields: filled in by `coupling/steps.py`, as is what follows
 TIRE_SHEAR = 13  # and the columns behind it: those of a sample in `tire/brush/belt_motion.py`
 FORCES = 21
+
+Rates: TypeAlias = "tuple[Vector | None, Vector | None]"
+"""Of the heights of road and cushion [m/s]."""
 
 
 @borrowing_kernel
@@ -36,11 +41,13 @@ def _value(values, i):
 
 
 @borrowing_kernel
-def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z, push):
+def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z, push, rates):
+    height_rate, cushion_rate = rates
     return Drive(
         start + i * length, length, height[i], height[i + 1], cushion[i], cushion[i + 1],
         acceleration_x[i], acceleration_x[i + 1], acceleration_z[i], acceleration_z[i + 1],
-        _value(push, i), _value(push, i + 1),
+        _value(push, i), _value(push, i + 1), _value(height_rate, i), _value(height_rate, i + 1),
+        _value(cushion_rate, i), _value(cushion_rate, i + 1),
     )  # fmt: skip
 
 
@@ -71,28 +78,30 @@ def _observe(rig, drive, mode, state, out):
 @entry
 def start(
     rig: Vehicle, mode: Modes, state: Vector, work: DormandPrinceWorkspace, segment_length: float, height: Vector, cushion: Vector,
-    acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
+    acceleration_x: Vector, acceleration_z: Vector, push: Vector | None, rates: Rates,
 ) -> None:  # fmt: skip
     """Set the event directions at the start of a run.
 
     Arrays hold the ends of the first segment, [2]: ``height``, ``cushion`` [m], accelerations
-    [m/s^2], ``push`` [N]; ``state``: [states]; ``segment_length`` in [s].
+    [m/s^2], ``push`` [N], ``rates`` as of ``advance``; ``state``: [states]; ``segment_length`` in
+    [s].
     """
-    drive = _segment(0.0, segment_length, 0, height, cushion, acceleration_x, acceleration_z, push)
+    drive = _segment(0.0, segment_length, 0, height, cushion, acceleration_x, acceleration_z, push, rates)
     set_event_directions(rig, drive, mode, 0.0, state, work)
 
 
 @entry
 def advance(
     rig: Vehicle, mode: Modes, state: Vector, scale: Vector, work: DormandPrinceWorkspace, start: float, segment_length: float,
-    height: Vector, cushion: Vector, acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
+    height: Vector, cushion: Vector, acceleration_x: Vector, acceleration_z: Vector, push: Vector | None, rates: Rates,
     sample_every: int, behind_sample: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
 ) -> int:  # fmt: skip
     """Advance ``state`` over ``len(height) - 1`` segments of ``segment_length`` [s] from time
     ``start`` [s].
 
     ``height``, ``cushion`` [m], ``acceleration_x``, ``acceleration_z`` [m/s^2], ``push`` [N] (None:
-    none): [segments + 1] values at the ends of the segments, linear between. Every
+    none): [segments + 1] values at the ends of the segments, linear between. ``rates``: of heights
+    and cushion at the same instants [m/s], with which they are cubics between; None: linear. Every
     ``sample_every``-th segment's start is sampled, the first segment lying ``behind_sample``
     segments behind one: state and rates [samples, states] (rates from the right), forces [samples,
     FORCES] in the columns ``TIRE_NORMAL ...``. Returns a status of ``compiled/results.py``;
@@ -100,7 +109,7 @@ def advance(
     """
     row = 0
     for i in range(height.shape[0] - 1):
-        drive = _segment(start, segment_length, i, height, cushion, acceleration_x, acceleration_z, push)
+        drive = _segment(start, segment_length, i, height, cushion, acceleration_x, acceleration_z, push, rates)
         # Samples lie at the starts of segments.
         if (i + behind_sample) % sample_every == 0:
             copy_row(state, sampled_states[row])

@@ -56,6 +56,7 @@ class ContactField(ABC):
         self._since = 0  # segments since then
         self._slope = 0.0  # [m] of correction per segment, between the last two solutions
         self._count = 1  # segments between them
+        self._is_first = True  # there is one solution alone
         self.as_predicted = False  # no field needs to be solved before the next published one
         self.published: FieldRecord | None = None
         self.travel = 0.0  # [m] of the contact along the road
@@ -76,13 +77,22 @@ class ContactField(ABC):
     def begin(self, correction: float) -> None:
         """Start a run with ``correction`` [m]."""
         self.correction = self._solved = correction
-        self._slope, self._since, self._count, self.as_predicted = 0.0, 0, 1, False
+        self._slope, self._since, self._count, self.as_predicted, self._is_first = 0.0, 0, 1, False, True
 
     def predicted(self, count: int) -> float:
         """Correction [m] after a step of ``count`` segments, extrapolated from the last two
         solutions.
         """
         return self._solved + self._slope * (self._since + count)
+
+    def bend(self, correction: float, count: int) -> float:
+        """Four times the sagitta [m], over ``count`` segments, of the parabola through the last two
+        solutions and ``correction`` [m] at their end; 0 at the start of a run.
+        """
+        if self._is_first:
+            return 0.0
+        span = self._since + count
+        return ((correction - self._solved) / span - self._slope) * count**2 / (self._count + span)
 
     def interpolation_error(self, correction: float, count: int) -> float:
         """Largest distance [m] between the straight line to ``correction`` [m], ``count`` segments
@@ -109,7 +119,7 @@ class ContactField(ABC):
         if solved:
             self.as_predicted = self.is_static and abs(correction - self.predicted(count)) <= AS_PREDICTED * allowed
             self._slope, self._count = (correction - self._solved) / span, span
-            self._solved, span = correction, 0
+            self._solved, span, self._is_first = correction, 0, False
         self._since, self.correction = span, correction
 
     def solve(self, approach: float, geometric: float, block: int) -> float:

@@ -16,10 +16,11 @@ from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, Friction
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
-from contact_sim_pkg.rigs.vehicle.coupling_model import (
+from contact_sim_pkg.rigs.vehicle.coupling.rule import (
     CouplingRule,
     allowance_of,
     coupled_timing,
+    first_ways,
     longest_travels,
     shortest_time,
 )
@@ -150,8 +151,10 @@ def _coupling(
     )
     segments = None if tire is None or tire.tread is None else round(tire.tread.step / timing.segment_length)
     shortest = max(1, round(max(map(shortest_time, allowances)) / timing.segment_length))
-    longest = longest_travels(footprint, tire is not None and tire.rolling_friction is not None)
-    return CouplingRule(tolerance, allowances, longest, shortest, segments)
+    has_bristles = tire is not None and tire.rolling_friction is not None
+    longest = longest_travels(footprint, has_bristles, scene.integrator.coupling_length)
+    ways = (math.inf, 0.0) if footprint is None else first_ways(footprint, scene.integrator)
+    return CouplingRule(tolerance, allowances, longest, shortest, segments, ways)
 
 
 def _seat(scene: ResolvedScene, occupant: OccupantModel, lean: Lean | None, offset: int) -> Seat:

@@ -23,9 +23,15 @@ from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import Sheared
 from contact_sim_pkg.run.contact_patch import contact_patch
-from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_ledger, solver_cost
+from contact_sim_pkg.run.outputs import BlockStamps, Estimate, contact_outputs, energy_ledger, largest_of, solver_cost
 
 Array = NDArray[numpy.float64]
+
+ESTIMATED = (
+    ("tire/force.normal", "tire/axle.longitudinal", "tire/patch.peak", "tire/patch.area"),
+    ("seat/force.normal", "", "seat/patch.peak", "seat/patch.area"),
+)
+"""Columns by the contacts and kinds of `coupling/check.py`."""
 
 
 class FieldRecord(NamedTuple):
@@ -63,6 +69,7 @@ class BlockRecord:
     stretches: int = 0
     stretches_repeated: int = 0
     coupling_error: float = 0.0  # over the standing load
+    missed: Array | None = None  # [contacts, kinds] of `coupling/check.py`; None: not estimated
 
     @classmethod
     def empty(cls, model: Model, block: int) -> BlockRecord:
@@ -132,7 +139,7 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
     )
     steps, rejected, events = (int(value) for value in record.counters)
     cost = solver_cost(
-        stamps, wall_time, steps=steps, rejected_steps=rejected, events=events, field_iterations=record.field_iterations,
+        stamps, wall_time, _estimates(outputs, record.missed), steps=steps, rejected_steps=rejected, events=events, field_iterations=record.field_iterations,
         field_residual=record.field_residual, field_jump=record.field_jump, stretches=record.stretches,
         stretches_repeated=record.stretches_repeated, coupling_error=record.coupling_error,
     )  # fmt: skip
@@ -140,6 +147,17 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
         *outputs, Output("bench/motion", stamps.start, motion), Output("bench/energy", stamps.start, _ledger(record)),
         Output("bench/cost", stamps.start, cost),
     ]  # fmt: skip
+
+
+def _estimates(outputs: list[Output], missed: Array | None) -> list[Estimate]:
+    """Estimated errors of the outputs of a block: those that are known."""
+    if missed is None:
+        return []
+    named = [
+        (column, float(error)) for names, errors in zip(ESTIMATED, missed, strict=True)
+        for column, error in zip(names, errors, strict=True) if column and error == error
+    ]  # fmt: skip
+    return [Estimate(column, error, largest_of(outputs, column)) for column, error in named]
 
 
 def _axle_force(model: Model, stamps: BlockStamps, record: BlockRecord) -> AxleForce:

@@ -22,14 +22,35 @@ def _push_between(start, end, part):
 
 
 @borrowing_kernel
+def _height_between(start, end, rate, rate_end, length, part):
+    """Height in [m] and its rate in [m/s] at a ``part`` of a segment of ``length`` [s]: the cubic
+    of the heights and rates at its ends, or a straight line where no rates are given.
+    """
+    rise = end - start
+    if rate is None:
+        return start + rise * part, rise / length
+    # Beside the straight line: nothing at the ends, the rates there
+    before, behind = rate * length - rise, rate_end * length - rise
+    beside = part * (1.0 - part) * (before * (1.0 - part) - behind * part)
+    turned = before * (1.0 - part) * (1.0 - 3.0 * part) + behind * part * (3.0 * part - 2.0)
+    return start + rise * part + beside, (rise + turned) / length
+
+
+@borrowing_kernel
 def drive_at(drive, time):
     """Road height, its rate, cushion height, its rate, floor accelerations x and z at ``time``."""
     part = (time - drive.start) / drive.length
+    height, height_rate = _height_between(
+        drive.height_0, drive.height_1, drive.height_rate_0, drive.height_rate_1, drive.length, part
+    )
+    cushion, cushion_rate = _height_between(
+        drive.cushion_0, drive.cushion_1, drive.cushion_rate_0, drive.cushion_rate_1, drive.length, part
+    )
     return (
-        _between(drive.height_0, drive.height_1, part),
-        (drive.height_1 - drive.height_0) / drive.length,
-        _between(drive.cushion_0, drive.cushion_1, part),
-        (drive.cushion_1 - drive.cushion_0) / drive.length,
+        height,
+        height_rate,
+        cushion,
+        cushion_rate,
         _between(drive.acceleration_x_0, drive.acceleration_x_1, part),
         _between(drive.acceleration_z_0, drive.acceleration_z_1, part),
     )

@@ -12,7 +12,9 @@ from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.rigs.vehicle import entries as columns
-from contact_sim_pkg.rigs.vehicle.coupling import Coupling
+from contact_sim_pkg.rigs.vehicle.coupling.check import KINDS
+from contact_sim_pkg.rigs.vehicle.coupling.edges import edge_cautions, sharp_edge
+from contact_sim_pkg.rigs.vehicle.coupling.steps import Coupling
 from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive
 from contact_sim_pkg.rigs.vehicle.model import Model, build
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord, block_outputs
@@ -42,15 +44,18 @@ class Simulation:
         self._travel = make_travel(scene) if self.model.tire_geometry is not None else None
         self._coupling = Coupling(self.model)
         self.cautions = self._cautions()
+        grids = self.model.tire_field
+        self._has_edge = sharp_edge(scene, None if grids is None else grids.usual.settings) is not None
         self._next_block = 0
         self._reset()
 
     def _cautions(self) -> tuple[str, ...]:
         """See `cautions_of`."""
-        rig = self.model.rig
+        rig, grids = self.model.rig, self.model.tire_field
         if rig.tire_contact is None:
             return ()
-        return stiffness_cautions(rig.tire_contact.elastic, rig.rigid_ring, self._coupling.bodies.weight())
+        edges = edge_cautions(self.scene, None if grids is None else grids.usual.settings)
+        return *stiffness_cautions(rig.tire_contact.elastic, rig.rigid_ring, self._coupling.bodies.weight()), *edges
 
     def _reset(self) -> None:
         self._start_energy: Vector | None = None  # of the run
@@ -123,6 +128,9 @@ class Simulation:
             iterations, residual = field.pop_cost()
             record.field_iterations += iterations
             record.field_residual = max(record.field_residual, residual)
+        record.missed = coupling.missed.pop()
+        if self._has_edge:
+            record.missed[0, KINDS.index("peak")] = numpy.nan
         self._map_seat(record)
         outputs = self._outputs(record, began)
         if self._response is not None:

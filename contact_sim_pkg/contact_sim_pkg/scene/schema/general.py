@@ -29,6 +29,14 @@ class Integrator(Section):
         " the fields are solved; less than the field's own tolerance counts as that; taken from accuracy when absent",
         default=None,
     )
+    coupling_length: float | None = number(
+        1e-4,
+        10.0,
+        "m",
+        "longest way that a tire rolls from one solution of its pressure field to the next; taken from accuracy and the road"
+        " when absent",
+        default=None,
+    )
 
 
 class Limits(Section):

@@ -22,9 +22,18 @@ PLACES = numpy.linspace(0.3, 0.5, 777)  # [m], most of them between nodes
 
 
 def heights(road):
-    out = numpy.empty(len(PLACES))
-    assert effective_heights(road.astype(numpy.float32), 0, CELL, WEIGHTS, PLACES, out)
+    out, slopes = numpy.empty(len(PLACES)), numpy.empty(len(PLACES))
+    assert effective_heights(road.astype(numpy.float32), 0, CELL, WEIGHTS, PLACES, out, slopes)
     return out
+
+
+def test_the_slope_is_that_of_the_height():
+    road = (0.01 * numpy.sin(40.0 * ALONG)).astype(numpy.float32)
+    places = numpy.linspace(0.3, 0.5, 20001)
+    height, slope = numpy.empty(len(places)), numpy.empty(len(places))
+    assert effective_heights(road, 0, CELL, WEIGHTS, places, height, slope)
+    assert slope == pytest.approx(numpy.gradient(height, places, edge_order=2), abs=1e-5)
+    assert slope.max() > 0.01
 
 
 def test_a_plane_has_the_height_under_the_wheel():
@@ -70,10 +79,10 @@ def test_a_wall_comes_without_jerks_between_the_nodes():
 
 
 def test_a_lattice_that_does_not_hold_the_footprint_is_reported():
-    out = numpy.empty(1)
+    out, slope = numpy.empty(1), numpy.empty(1)
     for place in (0.05, 0.75):
         flat = numpy.zeros((ROWS, COLS), dtype=numpy.float32)
-        assert not effective_heights(flat, 0, CELL, WEIGHTS, numpy.array([place]), out)
+        assert not effective_heights(flat, 0, CELL, WEIGHTS, numpy.array([place]), out, slope)
 
 
 def beyond(road, approach, pressure):
@@ -107,9 +116,22 @@ def test_what_the_pressure_pushes_away_does_not_touch():
 
 
 def between(smooth, offset, offset_end):
-    height = numpy.empty_like(smooth)
-    effective_between(smooth, offset, offset_end, height)
+    height, rate = numpy.empty_like(smooth), numpy.empty_like(smooth)
+    effective_between(smooth, numpy.zeros_like(smooth), (offset, offset_end, 0.0), 1.0, height, rate)
     return height
+
+
+@pytest.mark.parametrize(("offset", "offset_end", "bend"), [(0.01, 0.01, 0.02), (0.0, 0.3, -0.1), (0.0, -0.1, 0.05)])
+def test_the_rate_is_that_of_the_height_on_a_parabola_of_corrections(offset, offset_end, bend):
+    time = numpy.linspace(0.0, 0.5, 2001)
+    smooth, rate = 0.03 * numpy.sin(7.0 * time) - 0.1 * time, 0.21 * numpy.cos(7.0 * time) - 0.1
+    height, found = numpy.empty_like(time), numpy.empty_like(time)
+    effective_between(smooth, rate, (offset, offset_end, bend), 0.5, height, found)
+    assert found == pytest.approx(numpy.gradient(height, time, edge_order=2), abs=1e-4)
+    straight = numpy.empty_like(time)
+    effective_between(smooth, rate, (offset, offset_end, 0.0), 0.5, straight, found)
+    assert straight[1000] - height[1000] == pytest.approx(0.25 * bend)
+    assert (straight[0], straight[-1]) == pytest.approx((height[0], height[-1]))
 
 
 PLACE = numpy.linspace(0.0, 1.0, 11)

@@ -84,7 +84,8 @@ def drive_of(scene: ResolvedScene, duration: float, builder: Callable[[ResolvedS
 def _fill_heights(model: Model, patch: Any, positions: Vector, out: Vector) -> None:
     geometry = model.tire_geometry
     assert geometry is not None
-    effective_heights(patch.height, patch.first_row, patch.cell_x, geometry.weights, positions, out)
+    slopes = numpy.empty_like(out)
+    effective_heights(patch.height, patch.first_row, patch.cell_x, geometry.weights, positions, out, slopes)
 
 
 def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
@@ -98,9 +99,9 @@ def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
     state, mode = drive.start.copy(), numpy.zeros(1, dtype=numpy.int64)
     rig, a_x, a_z = drive.model.rig, drive.acceleration_x, drive.acceleration_z
     work, cushion = make_workspace(states, event_count(rig)), numpy.zeros(count + 1)
-    entries.start(rig, mode, state, work, drive.segment, drive.height[:2], cushion[:2], a_x[:2], a_z[:2], None)
+    entries.start(rig, mode, state, work, drive.segment, drive.height[:2], cushion[:2], a_x[:2], a_z[:2], None, (None, None))
     status = entries.advance(
-        rig, mode, state, scale, work, 0.0, drive.segment, drive.height, cushion, a_x, a_z, None, 1, 0, *samples
+        rig, mode, state, scale, work, 0.0, drive.segment, drive.height, cushion, a_x, a_z, None, (None, None), 1, 0, *samples
     )
     if status != DONE:
         raise ArithmeticError(SENTENCES[status])

@@ -53,9 +53,10 @@ def hertz_weights(semi_axis_x: float, semi_axis_y: float, cell_x: float, cell_y:
 
 @entry
 def effective_heights(
-    height: Heights, first_row: int, cell_x: float, weights: Pressures, travel: Vector, out: Vector
+    height: Heights, first_row: int, cell_x: float, weights: Pressures, travel: Vector, out: Vector, slopes: Vector
 ) -> bool:
-    """Weighted mean height in [m] for each wheel position ``travel`` [m], written into ``out``.
+    """Weighted mean height in [m] for each wheel position ``travel`` [m], written into ``out``, and
+    its slope along the travel [1], into ``slopes``.
 
     ``height`` [rows, cols] in [m] on the road lattice (node (i, j) at x = (first_row + i) cell_x, y
     = (j - (cols-1)/2) cell_y); ``weights`` [odd rows, cols] of sum 1, the wheel over the middle. The
@@ -79,18 +80,21 @@ def effective_heights(
                 first = min(max(node - 1 + i - reach - first_row, 0), height.shape[0] - weights.shape[0])
                 means[i] = _mean(height, weights, first, line)
             place, known = node, True
-        out[k] = _cubic(means, travel[k] / cell_x - node)
+        out[k], slope = _cubic(means, travel[k] / cell_x - node)
+        slopes[k] = slope / cell_x
     return True
 
 
 @kernel
-def _cubic(means: Vector, part: float) -> float:
-    """Between the second and the third of four equal steps, with the slopes of their neighbours."""
+def _cubic(means: Vector, part: float) -> tuple[float, float]:
+    """Between the second and the third of four equal steps, with the slopes of their neighbours:
+    height, and slope a step.
+    """
     slope, slope_end = 0.5 * (means[2] - means[0]), 0.5 * (means[3] - means[1])
     rise = means[2] - means[1]
-    return means[1] + part * (
-        slope + part * (3.0 * rise - 2.0 * slope - slope_end + part * (slope + slope_end - 2.0 * rise))
-    )
+    square, cube = 3.0 * rise - 2.0 * slope - slope_end, slope + slope_end - 2.0 * rise
+    place = means[1] + part * (slope + part * (square + part * cube))
+    return place, slope + part * (2.0 * square + part * 3.0 * cube)
 
 
 @kernel
@@ -217,11 +221,15 @@ def _sunk(pressure: Pressures, row: int, col: int, modulus: float, cell_x: float
 
 
 @entry
-def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vector) -> None:
-    """Write the effective height [m] of the road from one field to the next, [points].
+def effective_between(
+    smooth: Vector, rate: Vector, correction: tuple[float, float, float], duration: float, out: Vector, out_rate: Vector
+) -> None:
+    """Write the effective height [m] of the road from one field to the next, and its rate [m/s],
+    [points].
 
-    smooth: smooth height [points] [m]; offset, offset_end: effective-height corrections [m] at the
-    ends, linear between. What the smooth height has beside a straight line is right to first order
+    smooth: smooth height [points] [m], rate: its rate [m/s]; correction: effective-height
+    corrections [m] at the ends, ``duration`` [s] apart, and four times the sagitta [m] by which
+    they lie below a straight line in the middle: a parabola. What the smooth height has beside a straight line is right to first order
     in the roughness only: at an edge it falls in a curve where the tire, which stands on the edge,
     does not, and the correction cancels nearly all of it. So its factor is ``1 - CANCELLED r``, at
     least 0, with r the part of the change of the smooth height that the correction cancels; times
@@ -231,13 +239,17 @@ def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vec
     highest, lowest = smooth[0], smooth[0]
     for i in range(1, last + 1):
         highest, lowest = max(highest, smooth[i]), min(lowest, smooth[i])
+    offset, offset_end, bend = correction
     span, change = highest - lowest, offset_end - offset
     cancelled = -change * (smooth[last] - smooth[0]) / (span * span) if span > 0.0 else 0.0
     kept = max(0.0, 1.0 - CANCELLED * max(0.0, cancelled))
     if abs(change) > span:
         kept *= span / abs(change)
+    climb = smooth[last] - smooth[0]
     for i in range(last + 1):
         # The straight line stays, the rest is reduced.
         part = i / last
-        straight = smooth[0] + (smooth[last] - smooth[0]) * part
-        out[i] = straight + kept * (smooth[i] - straight) + offset + change * part
+        straight = smooth[0] + climb * part
+        out[i] = straight + kept * (smooth[i] - straight) + offset + part * (change - bend * (1.0 - part))
+        steady = climb / duration
+        out_rate[i] = steady + kept * (rate[i] - steady) + (change - bend * (1.0 - 2.0 * part)) / duration

@@ -18,7 +18,7 @@ from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, power_law
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
-from contact_sim_pkg.rigs.vehicle.coupling_model import coupled_timing, uniform_segments
+from contact_sim_pkg.rigs.vehicle.coupling.rule import coupled_timing, uniform_segments
 from contact_sim_pkg.rigs.vehicle.lattice import field_settings, standing_load, tire_lattice
 from contact_sim_pkg.rigs.vehicle.parameters import RigidRing, Tire
 from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection

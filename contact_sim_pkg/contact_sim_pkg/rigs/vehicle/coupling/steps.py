@@ -15,6 +15,9 @@ linear in time (decision 0004). A coupling step is as long as that allows:
 * Where the rig or its contact fails within a coupling step, a shorter one is tried before that
   counts.
 
+* Every few steps are checked in their middle (`check.py`). What they miss there bounds the way of
+  the steps to come, and a step that misses too much is repeated, shorter.
+
 The coupling steps of a viscoelastic tread have one length; the error is only reported.
 """
 
@@ -28,9 +31,10 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
 from contact_sim_pkg.rigs.vehicle.bodies import Bodies, Corrections, CouplingStep, Sampled, Saved
-from contact_sim_pkg.rigs.vehicle.coupling_model import STRAIGHT, Allowance
+from contact_sim_pkg.rigs.vehicle.coupling.check import CouplingCheck, Middle, MissedSoFar
+from contact_sim_pkg.rigs.vehicle.coupling.rule import STRAIGHT, Allowance, MeasuredWay
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
-from contact_sim_pkg.rigs.vehicle.entries import FORCES, TIRE_SHEAR, TIRE_SLOPE
+from contact_sim_pkg.rigs.vehicle.entries import FORCES, SEAT_NORMAL, TIRE_NORMAL, TIRE_SHEAR, TIRE_SLOPE
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord
@@ -76,6 +80,8 @@ class Coupling:
         self._allowances = (Allowance(), Allowance()) if rule is None else rule.allowances
         self._shortest = 1 if rule is None else rule.shortest  # segments
         self._by_error = rule is not None and rule.segments is None
+        self._check = CouplingCheck(model, self.tire, self.seat) if self._by_error else None
+        self._way = MeasuredWay(*((math.inf, 0.0) if rule is None else rule.ways))
         self.reset()
 
     def reset(self) -> None:
@@ -83,6 +89,11 @@ class Coupling:
         self.bodies.reset()
         self._slope = 0.0  # of the road under the tire, at the last solution of its field
         self._proposed = float(self.model.timing.segments)  # length of the next coupling step in segments
+        self._largest = [allowed.load for allowed in self._allowances]  # [N] forces of both contacts so far
+        self.missed = MissedSoFar()
+        self._way.reset()
+        if self._check is not None:
+            self._check.reset()
         for field in self.fields:
             field.reset()
         if self.shear is not None:
@@ -136,6 +147,8 @@ class Coupling:
             )  # fmt: skip
             if self._advance_step(step, record):
                 done += count
+        for place, column in enumerate((TIRE_NORMAL, SEAT_NORMAL)):
+            self._largest[place] = max(self._largest[place], float(self.sampled[2][:, column].max()))
 
     def _lay_slopes(self, step: CouplingStep) -> None:
         """Write the effective slope of the road at the samples of a coupling step, linear between the
@@ -163,9 +176,10 @@ class Coupling:
         if self.shear is None or found is None:
             return
         # The pressure with its loss, by the approach and its rate at the end.
-        heights = step.drive.smooth
-        rate = float(heights[-1] - heights[-2]) / step.segment_length + risen / step.duration - self.bodies.tread_rate()
-        approach = self.bodies.tire_approach(float(heights[-1]) + self.tire.correction + risen)
+        bend = self._bends((self.tire.correction + risen, self.seat.correction), step)[0]
+        rising = (risen + bend) / step.duration
+        rate = float(step.drive.rate[-1]) + rising - self.bodies.tread_rate()
+        approach = self.bodies.tire_approach(float(step.drive.smooth[-1]) + self.tire.correction + risen)
         pressure = self.tire.with_loss(found, approach, rate).pressure
         load = float(pressure.sum()) * self.tire.cell_area
         every = self.model.timing.sample_every
@@ -188,6 +202,7 @@ class Coupling:
         count = left
         # The longer way only where the road is nearly straight all along it.
         for longest in rule.longest:
+            longest = min(longest, self._way.longest)
             steps = self._proposed if travel <= 0.0 else min(self._proposed, left * longest / travel)
             count = _even_part(left, steps)
             if _bend(whole.smooth[first : first + count + 1]) <= STRAIGHT * self._allowances[0].height:
@@ -211,16 +226,53 @@ class Coupling:
         # The error grows with the square of the length; a rejected step is restored and repeated.
         ratio = min(max(SAFETY / max(outcome.error, 1e-9) ** 0.5, SHRINK), GROW)
         self._proposed = max(float(least), count * ratio)
-        if self._by_error and count > least and outcome.error > 1.0:
+        error = outcome.error
+        if error <= 1.0 and self._check is not None and self._check.is_due(step, error):
+            found = self._look(self._check, step, saved, outcome)
+            missed = self._judged(found, step)
+            if missed > 1.0 and count > least:
+                error, self._proposed = missed, count * SAFETY / missed**0.5
+            else:
+                self.missed.add(found)
+        if self._by_error and count > least and error > 1.0:
             self._proposed = max(float(least), min(self._proposed, AGAIN * count))
             self.bodies.restore(saved)
             record.stretches_repeated += 1
             return False
+        if error > 1.0:  # as short as it may be
+            tire, seat = (
+                part * allowed.force if allowed.load > 0.0 else 0.0
+                for part, allowed in zip(self._errors(outcome.found, step, 1.0), self._allowances, strict=True)
+            )
+            self.missed.add_estimate(tire, seat)
         record.stretches += 1
         if self.model.coupling is not None:
             record.coupling_error = max(record.coupling_error, outcome.error * self.model.coupling.tolerance)
         self._close(step, outcome, record)
         return True
+
+    def _look(self, check: CouplingCheck, step: CouplingStep, saved: Saved, outcome: StepOutcome) -> Middle:
+        """What a step missed in its middle."""
+        end, ends, count = self.bodies.save(), outcome.ends, step.segments
+        self.bodies.restore(saved)
+        self.bodies.move(step, self._corrections(), ends, self._bends(ends, step), count // 2)
+        found = check.look(self.bodies, step, (self._slope, self.tire.effective_slope()))
+        self.bodies.restore(end)
+        return found
+
+    def _judged(self, found: Middle, step: CouplingStep) -> float:
+        """Largest error that was found in the middle of a step over the allowed one; the steps to come
+        are as long as it lets them be.
+        """
+        errors = (max(found.tire.normal, found.tire.along), found.seat.normal)
+        parts = [
+            error / (allowed.force * largest / allowed.load)
+            for error, allowed, largest in zip(errors, self._allowances, self._largest, strict=True)
+            if math.isfinite(error)
+        ]
+        worst = max(parts, default=0.0)
+        self._way.learn(float(numpy.ptp(step.drive.travel)), worst)
+        return worst
 
     def _corrected(self, step: CouplingStep, saved: Saved) -> StepOutcome:
         """Predict, solve the fields at the end, correct; a rejected error ends it early."""
@@ -231,7 +283,7 @@ class Coupling:
         for passes_left in range(most, -1, -1):
             if passes_left < most:
                 self.bodies.restore(saved)
-            self.bodies.move(step, self._corrections(), ends)
+            self.bodies.move(step, self._corrections(), ends, self._bends(ends, step))
             # Between published fields the last corrections are kept, unless the field is
             # viscoelastic.
             if passes_left or step.last or not most or self.tire.is_viscoelastic:
@@ -252,6 +304,16 @@ class Coupling:
         return all(
             abs(a - b) <= SETTLED * min(allowed.height, allowed.speed * duration)
             for a, b, allowed in zip(ends, found, self._allowances, strict=True)
+        )
+
+    def _bends(self, ends: Corrections, step: CouplingStep) -> Corrections:
+        """Bends of the corrections over a step: of the parabolas through three solutions, and less
+        where the step is as short as it may be and these tell nothing, as at a wall.
+        """
+        tire, seat = self._errors(ends, step, 1.0)
+        return (
+            self.tire.bend(ends[0], step.segments) / max(1.0, tire),
+            self.seat.bend(ends[1], step.segments) / max(1.0, seat),
         )
 
     def _corrections(self) -> Corrections:
@@ -284,13 +346,18 @@ class Coupling:
 
     def _error(self, found: Corrections, step: CouplingStep) -> float:
         """Largest error of a linear correction, as height or as rate, over the allowed one."""
-        worst, count = 0.0, step.segments
-        for field, correction, allowed in zip(self.fields, found, self._allowances, strict=True):
-            slope = field.slope_error(correction, count) / step.segment_length
-            worst = max(
-                worst, field.interpolation_error(correction, count) / allowed.height, SLOPE * slope / allowed.speed
+        return max(self._errors(found, step))
+
+    def _errors(self, found: Corrections, step: CouplingStep, of_slope: float = SLOPE) -> tuple[float, ...]:
+        """The same of tire and seat; ``of_slope`` is the part of a rate's error that counts."""
+        count = step.segments
+        return tuple(
+            max(
+                field.interpolation_error(correction, count) / allowed.height,
+                of_slope * field.slope_error(correction, count) / step.segment_length / allowed.speed,
             )
-        return worst
+            for field, correction, allowed in zip(self.fields, found, self._allowances, strict=True)
+        )
 
     def _close(self, step: CouplingStep, outcome: StepOutcome, record: BlockRecord) -> None:
         """Accept the fields and their corrections; the energy of the remaining jump counts as

@@ -10,6 +10,7 @@ from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
+from contact_sim_pkg.scene.schema.general import Integrator
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 LONGEST = 1.1
@@ -30,12 +31,23 @@ weights of the footprint miss a part only.
 LONGEST_UNIFORM = 0.125
 """The same where the coupling steps cannot be chosen by their error."""
 
-SHORTEST = 0.1
-"""Of the standing footprint's length: a coupling step may be as short as this."""
+SHORTEST, FOR_TOLERANCE = 0.04, 1e-2
+"""Of the standing footprint's length: the segments of a block where a force may err by that much or
+more; with the square root of the tolerance they get shorter, as the coupling steps do.
+"""
 
 
 SHORTEST_FOR_NOISE = 1e-3
 """[s]; a coupling step may always be as short as this."""
+
+
+FIRST_WAY = 0.125
+"""Of the standing footprint's length: the first coupling steps, before any was checked."""
+
+AIM, UNLUCKY, NEWEST = 0.9, 3.0, 0.125
+"""Of `MeasuredWay`: part of the allowed error that is aimed at, largest value over the root mean
+square, weight of the newest value in that.
+"""
 
 
 class Allowance(NamedTuple):
@@ -44,6 +56,36 @@ class Allowance(NamedTuple):
     height: float = math.inf  # [m]
     speed: float = math.inf  # [m/s] of its rate
     noise: float = 0.0  # [m] left in it by the solver of the field
+    force: float = math.inf  # [N]
+    load: float = 0.0  # [N] at rest
+
+
+class MeasuredWay:
+    """Longest way of a coupling step by what steps were found to miss in their middle.
+
+    The error of a step on waves that it resolves falls with the square of its length and more, on
+    others it does not depend on it: the way that follows from a check is `AIM` over what the most
+    unlucky step would miss, to the power 1/2. Only few steps are checked: of values with a root mean
+    square sigma the largest of some hundred is about `UNLUCKY` sigma.
+    """
+
+    def __init__(self, first: float, shortest: float) -> None:
+        """``first`` [m]: way that a run begins with; ``shortest`` [m]: no bound is less."""
+        self._first, self._shortest = first, shortest
+        self.reset()
+
+    def reset(self) -> None:
+        """As before the first check."""
+        self.longest = self._first  # [m]
+        self._square = 0.0  # mean of (part missed over way)^2 [1/m^2]
+
+    def learn(self, way: float, missed: float) -> None:
+        """A step over a ``way`` [m] ``missed`` this part of what it may."""
+        if way <= 0.0:
+            return
+        self._square += NEWEST * ((missed / way) ** 2 - self._square)
+        wanted = AIM / max(UNLUCKY * math.sqrt(self._square), 1e-9)
+        self.longest = max(self._shortest, min(max(wanted, 0.5 * self.longest), 2.0 * self.longest))
 
 
 class CouplingRule(NamedTuple):
@@ -56,6 +98,7 @@ class CouplingRule(NamedTuple):
     longest: tuple[float, float]  # [m] of travel, where the road is nearly straight and where it is not
     shortest: int  # segments: no error alone makes a coupling step shorter
     segments: int | None  # of each coupling step, where all must be equal; None: chosen by the error
+    ways: tuple[float, float]  # [m] of the first steps, and the least bound of a step; infinite, 0 without a road
 
 
 def allowance_of(contact: Contact | None, field: FieldGrids | None, load: float, tolerance: float) -> Allowance:
@@ -73,17 +116,18 @@ def allowance_of(contact: Contact | None, field: FieldGrids | None, load: float,
     damping = loss.damping if isinstance(loss, NormalDissipative) else 0.0
     return Allowance(
         tolerance * load / float(elastic_stiffness(contact.elastic, approach)),
-        tolerance / damping if damping > 0.0 else math.inf, own * approach,
+        tolerance / damping if damping > 0.0 else math.inf, own * approach, tolerance * load, load,
     )  # fmt: skip
 
 
-def longest_travels(footprint: float | None, has_bristles: bool) -> tuple[float, float]:
+def longest_travels(footprint: float | None, has_bristles: bool, longest: float | None) -> tuple[float, float]:
     """Longest ways in [m] of a coupling step over a ``footprint`` [m], which is None without a field
     on a road: where the road is nearly straight, and elsewhere.
     """
     if footprint is None:
         return math.inf, math.inf
-    return footprint * (LONGEST_ROUGH if has_bristles else LONGEST), footprint * LONGEST_ROUGH
+    straight, rough = footprint * (LONGEST_ROUGH if has_bristles else LONGEST), footprint * LONGEST_ROUGH
+    return (straight, rough) if longest is None else (min(straight, longest), min(rough, longest))
 
 
 def shortest_time(allowance: Allowance) -> float:
@@ -99,6 +143,19 @@ def highest_speed(scene: ResolvedScene) -> float:
     return max(abs(speed) for _time, speed in travel.points or [[0.0, given(travel.speed)]])
 
 
+def shortest_way(footprint: float, integrator: Integrator) -> float:
+    """Way [m] of a segment over a ``footprint`` [m]: a checked coupling step has two."""
+    finer = min(1.0, math.sqrt(given(integrator.coupling_tolerance) / FOR_TOLERANCE))
+    longest = math.inf if integrator.coupling_length is None else integrator.coupling_length
+    return min(SHORTEST * footprint * finer, 0.5 * longest)
+
+
+def first_ways(footprint: float, integrator: Integrator) -> tuple[float, float]:
+    """Ways [m] of `MeasuredWay` over a ``footprint`` [m]: of the first coupling steps, and the least."""
+    shortest = 2.0 * shortest_way(footprint, integrator)
+    return max(FIRST_WAY * footprint, shortest), shortest
+
+
 def coupled_timing(scene: ResolvedScene, with_field: bool, footprint: float | None) -> Timing:
     """Cut of a block; segments fit the shortest coupling step over a ``footprint`` [m], which is
     None without a field on a road.
@@ -106,7 +163,8 @@ def coupled_timing(scene: ResolvedScene, with_field: bool, footprint: float | No
     if footprint is None:
         return make_timing(scene, with_field)
     way = highest_speed(scene) / scene.outputs.force_rate
-    return make_timing(scene, with_field, max(1, math.ceil(way / (SHORTEST * footprint))))
+    shortest = shortest_way(footprint, scene.integrator)
+    return make_timing(scene, with_field, max(1, math.ceil(way / shortest)))
 
 
 def uniform_segments(scene: ResolvedScene, footprint: float, timing: Timing) -> int:

@@ -1,0 +1,249 @@
+"""What a coupling step misses in its middle: fields of their own are solved there, and beside the
+grid of the contact one of half as many cells each way.
+
+Between two solutions of the fields nothing sees the road but its smooth height, and a step longer
+than the waves that shake the force tells nothing about them: three solutions in a row look smooth
+whatever lies between. So every few steps the bodies go to the middle once more, and the force of
+the field there is compared with the force that acted. The solutions of these fields are used for
+nothing else: the run is that of its own fields.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.laws.elastic_law import elastic_force
+from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
+from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.rigs.vehicle.bodies import Bodies, CouplingStep
+from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, FieldGrids, PressureField, make_grids
+from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField
+from contact_sim_pkg.rigs.vehicle.model import Model
+from contact_sim_pkg.rigs.vehicle.tire.road_field import RoadField
+from contact_sim_pkg.run.errors import RunError
+
+CLOSER = 0.1
+"""Of the tolerance of the contact's field: that of the fields which check it."""
+
+FIRST_PAUSE, LONGEST_PAUSE = 1, 16
+"""Steps from one check to the next: at the start of a run, doubled each time, and later."""
+
+UNUSUAL, LEAST_UNUSUAL = 3.0, 0.05
+"""Times the usual estimate of a step, and of the allowed error: a larger one is checked at once."""
+
+WEIGHT, UNLUCKY = 0.125, 3.0
+"""Of the newest value in a running mean; the largest error of a block over the root mean square."""
+
+KINDS = ("normal", "along", "peak", "area")
+"""Of the errors of a contact: normal force [N], force along the travel [N], largest pressure [Pa],
+area [m^2].
+"""
+
+COLUMNS = 2 * len(KINDS)
+
+HALVED = 3.0
+"""Error of a grid of half as many cells each way over that of the grid, less one: of second order."""
+
+EDGE_OF_RATE = 2.0
+"""Rate at the ends of a step whose height errs by so much less in its middle, over its length: of a
+parabola."""
+
+
+class Missed(NamedTuple):
+    """Errors of one contact in the middle of a coupling step, or of its grid; None: not known."""
+
+    normal: float = 0.0  # [N]
+    along: float = 0.0  # [N] along the travel
+    peak: float | None = None  # [Pa]
+    area: float | None = None  # [m^2]
+
+
+class Middle(NamedTuple):
+    """Errors of both contacts: of the interpolation in time, and of grids."""
+
+    tire: Missed
+    seat: Missed
+    tire_grid: Missed
+    seat_grid: Missed
+
+
+NOTHING, UNKNOWN = Missed(), Missed(math.nan, math.nan)
+
+
+class MissedSoFar:
+    """Errors that the checks of a run found, block by block: the largest of the block, or `UNLUCKY`
+    times the usual one.
+    """
+
+    def __init__(self) -> None:
+        """No check yet."""
+        self._square: Vector | None = None
+        self._block = numpy.zeros(COLUMNS)
+
+    def add(self, found: Middle) -> None:
+        """Count the errors of a check."""
+        values = numpy.array([*_errors(found.tire, found.tire_grid), *_errors(found.seat, found.seat_grid)])
+        square = values**2
+        before = square if self._square is None else self._square
+        before = numpy.where(numpy.isnan(before), square, before)
+        self._square = before + WEIGHT * numpy.nan_to_num(square - before)
+        self._block = numpy.fmax(self._block, values)
+
+    def add_estimate(self, tire: float, seat: float) -> None:
+        """Count errors [N] of the normal forces in a step that could not be made shorter."""
+        for place, error in ((0, tire), (len(KINDS), seat)):
+            self._block[place] = max(self._block[place], error)
+
+    def pop(self) -> Vector:
+        """Estimated errors of the block that ends, [contacts, `KINDS`] in SI units; NaN: not known."""
+        usual = numpy.full(COLUMNS, numpy.nan) if self._square is None else UNLUCKY * numpy.sqrt(self._square)
+        found, self._block = numpy.fmax(self._block, usual), numpy.zeros(COLUMNS)
+        return numpy.where(numpy.isnan(usual) & (found == 0.0), numpy.nan, found).reshape(-1, len(KINDS))
+
+
+def _errors(middle: Missed, grid: Missed) -> tuple[float, ...]:
+    unknown = (math.nan if value is None else value for value in (grid.peak, grid.area))
+    return middle.normal + grid.normal, middle.along, *unknown
+
+
+class Halved:
+    """The grid of a contact with half as many cells each way."""
+
+    def __init__(self, settings: FieldSettings, contact: str) -> None:
+        """Make the grid; it has the same extent."""
+        half = settings._replace(
+            rows=settings.rows // 2, cols=settings.cols // 2, cell_x=2.0 * settings.cell_x, cell_y=2.0 * settings.cell_y
+        )
+        self._settings, self._field = settings, PressureField(half, contact)
+        self.reset()
+
+    def reset(self) -> None:
+        """Drop the previous solution."""
+        self._usual: float | None = None  # [N] how much more the field of this grid carries
+        self._field.reset()
+
+    def missed(self, fine: ContactField, approach: float) -> Missed:
+        """Error of the usual grid of ``fine``, solved at ``approach`` [m], by the difference to this
+        one.
+        """
+        usual = fine.grids.usual if fine.grids is not None else None
+        if usual is None or fine.published is None or fine.published.pressure.shape != usual.pressure.shape:
+            return NOTHING
+        row = fine.road_row(self._settings)
+        gap = fine.gap(self._settings)
+        try:
+            # Always the same nodes of the road, so that its heights pass by unchanged
+            self._field.roll_to((row + row % 2) // 2)
+            self._field.solve(numpy.ascontiguousarray(gap[row % 2 :: 2, ::2]), approach)
+        except FieldError:
+            self._field.reset()
+            return NOTHING
+        cell, pressure, half = fine.cell_area, usual.pressure, self._field.pressure
+        areas = numpy.count_nonzero(pressure) * cell, numpy.count_nonzero(half) * 4.0 * cell
+        return Missed(
+            self._load_missed(self._field.load - usual.load) / HALVED, 0.0, abs(float(half.max()) - float(pressure.max())) / HALVED, abs(areas[0] - areas[1]) / HALVED
+        )
+
+
+    def _load_missed(self, more: float) -> float:
+        """Error [N] of a force where this grid carries so much ``more`` [N] than the usual one: beside
+        what it always does, which a run takes up in the height that it stands at.
+        """
+        usual = more if self._usual is None else self._usual
+        self._usual = usual + WEIGHT * (more - usual)
+        return abs(more - usual)
+
+
+class CouplingCheck:
+    """Checks of the coupling steps of one run. ``is_due`` after each step, then ``look``."""
+
+    def __init__(self, model: Model, tire: RoadField, seat: CushionField) -> None:
+        """Make the fields for a ``model`` whose run has the fields ``tire`` and ``seat``."""
+        self._tire = RoadField(_closer(model.tire_field, "tire"), tire.contact, model.tire_geometry, None)
+        self._seat = CushionField(_closer(model.seat_field, "seat"), seat.contact, model.seat_shape)
+        self._halves = tuple(
+            None if grids is None or grids.usual.settings.rows % 2 or grids.usual.settings.cols % 2
+            else Halved(grids.usual.settings, name)
+            for grids, name in ((model.tire_field, "tire"), (model.seat_field, "seat"))
+        )  # fmt: skip
+        self.reset()
+
+    def reset(self) -> None:
+        """Reset all but the buffers."""
+        self._pause, self._since, self._usual = FIRST_PAUSE, 0, 0.0
+        for field in (self._tire, self._seat, *self._halves):
+            if field is not None:
+                field.reset()
+
+    def is_due(self, step: CouplingStep, error: float) -> bool:
+        """Whether a step with an estimated ``error`` is checked; each call counts as a step."""
+        self._since += 1
+        unusual = error > max(UNUSUAL * self._usual, LEAST_UNUSUAL)
+        self._usual += WEIGHT * (error - self._usual)
+        if step.segments < 2 or not (unusual or self._since >= self._pause):
+            return False
+        self._since, self._pause = 0, self._pause if unusual else min(2 * self._pause, LONGEST_PAUSE)
+        return True
+
+    def look(self, bodies: Bodies, step: CouplingStep, slopes: tuple[float, float]) -> Middle:
+        """Errors in the middle of a step, where the ``bodies`` have been moved to; ``slopes`` [1]:
+        effective ones of the road at both ends. What cannot be solved there is not known.
+        """
+        half = step.segments // 2
+        drive, laid = step.drive, bodies.laid(half)
+        tire, seat = UNKNOWN, UNKNOWN
+        tire_grid = seat_grid = NOTHING
+        try:
+            if self._tire.grids is not None:
+                self._tire.place(drive.road, float(drive.travel[half]))
+                smooth, approach = float(drive.smooth[half]), bodies.tire_approach(0.0)
+                found = self._tire.solve(approach, bodies.tire_approach(smooth), step.block)
+                slope = slopes[0] + (slopes[1] - slopes[0]) * half / step.segments
+                tire = _missed(self._tire.contact, bodies.tire_approach(laid[0]), smooth + found - laid[0], step)
+                along = abs(self._tire.effective_slope() - slope) * self._load(self._tire)
+                tire = tire._replace(along=along)
+                tire_grid = self._grid(0, self._tire, approach)
+            if self._seat.grids is not None:
+                approach = bodies.seat_approach(0.0)
+                found = self._seat.solve(approach, approach, step.block)
+                seat = _missed(self._seat.contact, bodies.seat_approach(laid[1]), found - laid[1], step)
+                seat_grid = self._grid(1, self._seat, approach)
+        except RunError:
+            self._tire.reset()
+            self._seat.reset()
+            return Middle(UNKNOWN, UNKNOWN, NOTHING, NOTHING)
+        return Middle(tire, seat, tire_grid, seat_grid)
+
+    def _grid(self, place: int, field: ContactField, approach: float) -> Missed:
+        half = self._halves[place]
+        return NOTHING if half is None else half.missed(field, approach)
+
+    @staticmethod
+    def _load(field: ContactField) -> float:
+        return 0.0 if field.published is None else float(field.published.pressure.sum()) * field.cell_area
+
+
+def _closer(grids: FieldGrids | None, contact: str) -> FieldGrids | None:
+    if grids is None:
+        return None
+    settings = grids.usual.settings
+    return make_grids(settings._replace(tolerance=CLOSER * settings.tolerance), contact)
+
+
+def _missed(contact: Contact | None, approach: float, height: float, step: CouplingStep) -> Missed:
+    """Error of the normal force at an ``approach`` [m] whose ``height`` [m] is missing, with that of
+    the loss, which sees the rate of the height.
+    """
+    if contact is None:
+        return NOTHING
+    force = float(elastic_force(contact.elastic, approach))
+    normal = abs(float(elastic_force(contact.elastic, approach + height)) - force)
+    loss = contact.dissipative
+    damping = loss.damping if isinstance(loss, NormalDissipative) else 0.0
+    return Missed(normal + force * damping * EDGE_OF_RATE * abs(height) / step.duration)
+
+

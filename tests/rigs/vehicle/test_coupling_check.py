@@ -1,0 +1,137 @@
+"""Coupling steps are as long as what they miss in their middle lets them be, and the run says what is missed.
+
+References have steps of 4 mm at most and fields solved to 1e-6.
+"""
+
+import math
+from functools import cache
+from itertools import pairwise
+
+import numpy
+import pytest
+from tests.run.scenes import resolved
+
+from contact_sim_pkg.rigs.vehicle.coupling.rule import AIM, UNLUCKY, MeasuredWay
+from contact_sim_pkg.rigs.vehicle.field_driver import CushionField
+from contact_sim_pkg.rigs.vehicle.simulation import Simulation
+from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
+from contact_sim_pkg.run.outputs import largest_of
+from contact_sim_pkg.run.sources import make_sources
+
+EXACTLY = ("accuracy=1e-3", "integrator.coupling_tolerance=1e-5", "effects.tire.contact_field.tolerance=1e-6")
+
+
+@cache
+def run(scene, duration, *sets):
+    """All outputs of a run."""
+    made = resolved(scene, f"duration={duration}", *sets)
+    simulation, sources = Simulation(made), make_sources(made)
+    simulation.prepare()
+    outputs = []
+    for block in range(simulation.blocks):
+        outputs += simulation.advance(
+            block, {topic: source.block(block) for topic, source in sources.items()}
+        ).outputs
+    return outputs
+
+
+def column(outputs, topic, name):
+    return numpy.concatenate([numpy.atleast_1d(getattr(each.record, name)) for each in outputs if each.topic == topic])
+
+
+def estimated(outputs, name):
+    """Largest estimated error of a column."""
+    costs = [each.record for each in outputs if each.topic == "bench/cost"]
+    return max(
+        error for cost in costs for named, error in zip(cost.estimated, cost.estimated_error, strict=True) if named == name
+    )
+
+
+def steps(outputs):
+    return int(column(outputs, "bench/cost", "stretches").sum())
+
+
+def test_the_way_follows_from_the_error_of_a_step():
+    """Where a step misses m over a way s, the bound is that way on which an unlucky one misses what is aimed at."""
+    way = MeasuredWay(0.1, 1e-3)
+    for _ in range(200):
+        way.learn(0.5 * way.longest, 5.0 * way.longest)  # 10 a metre
+    assert way.longest == pytest.approx(AIM / (UNLUCKY * 10.0), rel=0.01)
+
+
+def test_a_single_step_changes_the_way_by_half_or_twice():
+    way = MeasuredWay(0.1, 1e-3)
+    way.learn(0.1, 1e6)
+    assert way.longest == pytest.approx(0.05)
+    way.reset()
+    way.learn(0.1, 0.0)
+    assert way.longest == pytest.approx(0.2)
+    way.learn(0.0, 7.0)  # a wheel that stands says nothing of ways
+    assert way.longest == pytest.approx(0.2)
+
+
+ROADS = {
+    "rough": ("tire_rough_road", "travel={speed: 12}", "seed=3"),
+    "rougher": ("tire_rough_road", "travel={speed: 12}", "road.roughness_class=D"),
+    "bump": ("tire_bump", "road.position=0.7", "road.length=0.3"),
+}
+
+
+@pytest.mark.parametrize("accuracy", ["1e-1", "1e-2", "1e-3"])
+@pytest.mark.parametrize("road", ROADS)
+def test_the_requested_accuracy_is_delivered_and_its_estimate_is_near(road, accuracy):
+    scene, *sets = ROADS[road]
+    exact = run(scene, 0.1, *sets, *EXACTLY, "integrator.coupling_length=0.004")
+    found = run(scene, 0.1, *sets, f"accuracy={accuracy}")
+    forces = (column(each, "tire/force", "normal") for each in (found, exact))
+    scale = largest_of(exact, "tire/force.normal")
+    error = abs(numpy.subtract(*forces)).max() / scale
+    told = estimated(found, "tire/force.normal") / scale
+    assert error < 1.5 * float(accuracy)
+    assert error / 3.0 < told < 10.0 * max(error, 0.1 * float(accuracy))
+
+
+def test_a_road_without_short_waves_is_not_paid_for():
+    """A tighter request needs shorter steps where the road has texture, not where it has none."""
+    smooth = ("travel={speed: 12}", "road.texture=null", "road.shortest_wavelength=1.0")
+    counts = [
+        [steps(run("tire_rough_road", 0.2, *sets, f"accuracy={accuracy}")) for accuracy in ("1e-2", "1e-3")]
+        for sets in (smooth, ("travel={speed: 12}",))
+    ]
+    assert counts[1][1] > 4 * counts[1][0]
+    assert counts[0][1] < 0.5 * counts[1][1]
+
+
+def rate_error(steps):
+    """Largest error of the rate that the loss sees [1/s] over the steps of a sine of 1 m and 1 Hz, the first left out."""
+    count, field, worst = 8, CushionField(None, None, None), 0.0
+    length = 1.0 / (steps * count)  # [s] of a segment
+    level = numpy.zeros(count + 1)
+    height, rate = numpy.empty(count + 1), numpy.empty(count + 1)
+    field.begin(0.0)
+    for step in range(steps):
+        start, end = (math.sin(2.0 * math.pi * (step + k) / steps) for k in (0, 1))
+        correction = (start, end, field.bend(end, count))
+        effective_between(level, level, correction, count * length, height, rate)
+        time = (step * count + numpy.arange(count + 1)) * length
+        if step:
+            worst = max(worst, abs(rate - 2.0 * math.pi * numpy.cos(2.0 * math.pi * time)).max())
+        field.accept(end, count, True, 1.0)
+    return worst
+
+
+def test_the_rate_that_the_loss_sees_is_of_second_order_between_fields():
+    """Half as long steps leave a quarter of its error, which a straight line would only halve."""
+    errors = [rate_error(steps) for steps in (20, 40, 80, 160)]
+    assert [before / after for before, after in pairwise(errors)] == pytest.approx([4.0] * 3, rel=0.15)
+
+
+def test_an_edge_that_no_grid_resolves_has_no_estimate_of_its_peak():
+    sharp = run("tire_bump", 0.03, "road={kind: cleat, position: 0.2, height: 0.005, length: 0.05}")
+    named = {name for each in sharp if each.topic == "bench/cost" for name in each.record.estimated}
+    assert "tire/force.normal" in named
+    assert "tire/patch.peak" not in named
+    cautions = Simulation(resolved("tire_bump", "road={kind: cleat, position: 3, height: 0.005, length: 0.05}")).cautions
+    assert any("not determined" in caution for caution in cautions)
+    flanks = resolved("tire_bump", "road={kind: cleat, position: 3, height: 0.005, length: 0.05, edge: 0.02}")
+    assert not Simulation(flanks).cautions
