@@ -239,7 +239,7 @@ class Coupling:
             self.bodies.restore(saved)
             record.stretches_repeated += 1
             return False
-        if error > 1.0:  # as short as it may be
+        if error > 1.0 or not self._by_error:  # as short as it may be, and never checked
             tire, seat = (
                 part * allowed.force if allowed.load > 0.0 else 0.0
                 for part, allowed in zip(self._errors(outcome.found, step, 1.0), self._allowances, strict=True)
