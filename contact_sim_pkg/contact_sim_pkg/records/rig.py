@@ -51,6 +51,8 @@ class Rig:
             before the run; empty: nothing.
         rules: ``module:function`` of rules between keys of its contacts, each a scene -> its
             breaches.
+        standing: ``module:function`` of the plain data of a resolved scene -> `records.standing.Standing`:
+            scales of its errors; empty: unknown, and nothing rests on a contact.
         kernels: about how many kernels its richest scene compiles at its first start; 0: unknown.
     """
 
@@ -74,6 +76,7 @@ class Rig:
     scenes: Mapping[str, int] = field(default_factory=dict)
     forecast: str = ""
     rules: tuple[str, ...] = ()
+    standing: str = ""
     kernels: int = 0
 
 

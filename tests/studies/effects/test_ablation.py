@@ -4,11 +4,11 @@ import numpy
 import pytest
 
 from contact_sim_pkg.bag.block_encoder import Output
+from contact_sim_pkg.compare.changes import Change, changes_of, unit_of
 from contact_sim_pkg.records.effect import Observed
 from contact_sim_pkg.records.messages import RollerContact
 from contact_sim_pkg.records.registry import effects
 from contact_sim_pkg.studies.effects import ablation
-from contact_sim_pkg.studies.effects.ablation_changes import Change, changes_of, unit_of
 
 
 def contact(**values):

@@ -42,7 +42,7 @@ class Simulation:
         self._travel = make_travel(scene) if self.model.tire_geometry is not None else None
         self._coupling = Coupling(self.model)
         self.cautions = self._cautions()
-        self._next_block = 0
+        self._first_block = self._next_block = 0
         self._reset()
 
     def _cautions(self) -> tuple[str, ...]:
@@ -80,6 +80,10 @@ class Simulation:
         self._next_block = 0
         self._coupling.reset()
 
+    def begin_at(self, block: int) -> None:
+        """Begin the run with a later block, standing on the road there. After `prepare`."""
+        self._first_block = self._next_block = block
+
     def _flat_patch(self) -> RoadPatch:
         geometry, travel = self.model.tire_geometry, self._travel
         assert geometry is not None
@@ -111,7 +115,7 @@ class Simulation:
         drive = block_drive(self.model, self._travel, block, inputs.get(ROAD), inputs.get(VIBRATION))
         coupling = self._coupling
         # The run starts from the standing state.
-        if block == 0:
+        if block == self._first_block:
             coupling.start(drive)
         coupling.bodies.work.counters[:] = 0.0
         for interval in range(self.model.timing.intervals):

@@ -1,0 +1,88 @@
+"""The companion of a scene: the same scene with each dial one level finer.
+
+Orders that are assumed when the error follows from the difference of the two:
+
+* time integration: the error is proportional to the tolerance, which is a tenth,
+* coupling: second order in the step between two solutions of a field, which is half as long,
+* grid: second order in the cell, which is two thirds as long; contact area first order, since it
+  counts cells along the edge.
+
+The error of the companion is then a share of that of the scene, and the delivered error is the
+difference over (1 - share). Several dials act at once, so the largest share of them counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.records.registry import rigs
+from contact_sim_pkg.scene.overrides import set_value
+from contact_sim_pkg.scene.resolve import read_explicit
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.pressure_field import MOST_CELLS_A_SIDE
+
+__all__ = ["Companion", "companion_of", "factor_of"]
+
+INTEGRATION, COUPLING, LENGTH, CELLS, SOLVER = 0.1, 0.25, 0.5, 1.5, 0.1
+"""Factors on tolerance of the integration, tolerance and length of the coupling, cells a side,
+tolerance of the field.
+"""
+LEAST = {"relative_tolerance": 1e-13, "coupling_tolerance": 1e-8, "tolerance": 1e-12, "cell": 0.005}
+"""Bounds of the schema."""
+
+
+class Companion(NamedTuple):
+    """A finer scene, and which dials were turned."""
+
+    scene: ResolvedScene
+    dials: tuple[str, ...]  # keys that are finer
+    grid: bool  # whether grids are finer
+
+
+def companion_of(scene: ResolvedScene, *, grid: bool = True) -> Companion:
+    """The scene with each dial one level finer; without the ``grid`` fields keep their cells."""
+    values = dict(_dials(scene.data, grid=grid))
+    finer = read_explicit(
+        scene.to_yaml(), f"companion of {scene.name}", [set_value(f"{key}={value}") for key, value in values.items()]
+    )
+    cells = any(key.endswith((".rows", ".cell")) for key in values)
+    return Companion(ResolvedScene(finer, scene.files), tuple(values), cells)
+
+
+def factor_of(kind: str, companion: Companion) -> float:
+    """Delivered error over the difference of the two runs: 1 / (1 - share)."""
+    shares = [INTEGRATION]
+    if any("coupling" in dial for dial in companion.dials):
+        shares.append(LENGTH**2)
+    if companion.grid:
+        shares.append((1.0 / CELLS) if kind == "area" else (1.0 / CELLS) ** 2)
+    return 1.0 / (1.0 - max(shares))
+
+
+def _dials(data: dict[str, Any], *, grid: bool) -> Iterator[tuple[str, Any]]:
+    """Dotted keys of the dials that the scene has, with their finer values."""
+    integrator = data["integrator"]
+    for key, factor in (
+        ("relative_tolerance", INTEGRATION), ("coupling_tolerance", COUPLING), ("coupling_length", LENGTH),
+    ):  # fmt: skip
+        if integrator.get(key) is not None:
+            finer = max(LEAST.get(key, 0.0), factor * integrator[key])
+            if finer < integrator[key]:
+                yield f"integrator.{key}", finer
+    for contact in rigs()[data["rig"]].contacts:
+        for effect, keys in (data["effects"].get(contact.name) or {}).items():
+            if keys is not None:
+                yield from _grid_dials(f"effects.{contact.name}.{effect}", keys, grid=grid)
+
+
+def _grid_dials(where: str, keys: dict[str, Any], *, grid: bool) -> Iterator[tuple[str, Any]]:
+    """Dials of an effect that is a pressure field or a cushion with a map."""
+    is_field = "rows" in keys and "corrector_passes" in keys
+    if is_field and keys["tolerance"] > LEAST["tolerance"]:
+        yield f"{where}.tolerance", max(LEAST["tolerance"], SOLVER * keys["tolerance"])
+    if grid and is_field:
+        for side in ("rows", "cols"):
+            yield f"{where}.{side}", min(MOST_CELLS_A_SIDE, 2 * round(0.5 * CELLS * keys[side]))
+    if grid and keys.get("cell") is not None and keys["cell"] > LEAST["cell"]:
+        yield f"{where}.cell", max(LEAST["cell"], round(keys["cell"] / CELLS, 6))
