@@ -27,6 +27,7 @@ from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
 )
 @click.option("--allow-long", is_flag=True, help="Run even if the estimate is above 10 min of computing.")
 @click.option("--no-record", is_flag=True, help="Write no bag; the summary is then empty.")
+@click.option("--check", is_flag=True, help="Then check the accuracy that was delivered, as `bench accuracy BAG`.")
 @json_option
 @click.pass_context
 def command(
@@ -38,11 +39,16 @@ def command(
     clock: bool,
     allow_long: bool,
     no_record: bool,
+    check: bool,
     as_json: bool,
 ) -> None:
     """Run SCENE (a name or a YAML file), record it and report its outcome."""
     if no_record and out is not None:
         raise click.UsageError(f"--out {out} names a bag and --no-record writes none; leave one of them out")
+    if no_record and check:
+        raise click.UsageError(
+            "--check compares the bag with a finer run and --no-record writes none; leave one of them out"
+        )
     from contact_sim_pkg.cli.run_scene import run_scene
 
     status = run_scene(
@@ -52,6 +58,7 @@ def command(
         from_bag=from_bag,
         clock=clock,
         record=not no_record,
+        check=check,
         as_json=as_json,
         allow_long=allow_long,
     )

@@ -2,7 +2,8 @@
 
 Orders that are assumed when the error follows from the difference of the two:
 
-* time integration: the error is proportional to the tolerance, which is a tenth,
+* time integration: the error is proportional to the tolerance, which is a hundredth: at a tenth a
+  run whose steps end with its samples has the same bits,
 * coupling: second order in the step between two solutions of a field, which is half as long,
 * grid: second order in the cell, which is two thirds as long; contact area first order, since it
   counts cells along the edge.
@@ -22,9 +23,9 @@ from contact_sim_pkg.scene.resolve import read_explicit
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.pressure_field import MOST_CELLS_A_SIDE
 
-__all__ = ["Companion", "companion_of", "factor_of"]
+__all__ = ["Companion", "companion_of", "dials_of", "factor_of"]
 
-INTEGRATION, COUPLING, LENGTH, CELLS, SOLVER = 0.1, 0.25, 0.5, 1.5, 0.1
+INTEGRATION, COUPLING, LENGTH, CELLS, SOLVER = 0.01, 0.25, 0.5, 1.5, 0.1
 """Factors on tolerance of the integration, tolerance and length of the coupling, cells a side,
 tolerance of the field.
 """
@@ -48,6 +49,17 @@ def companion_of(scene: ResolvedScene, *, grid: bool = True) -> Companion:
     )
     cells = any(key.endswith((".rows", ".cell")) for key in values)
     return Companion(ResolvedScene(finer, scene.files), tuple(values), cells)
+
+
+def dials_of(data: dict[str, Any]) -> dict[str, Any]:
+    """Values of the dials in the plain data of a resolved scene, by dotted key."""
+    found = {}
+    for key in dict(_dials(data, grid=True)):
+        value: Any = data
+        for part in key.split("."):
+            value = value[part]
+        found[key] = value
+    return found
 
 
 def factor_of(kind: str, companion: Companion) -> float:

@@ -10,7 +10,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.compare.columns import Column, Key, columns_of, not_judged
 from contact_sim_pkg.compare.companion import Companion, companion_of, factor_of
 from contact_sim_pkg.compare.excitation_check import foreign_topics, other_road
-from contact_sim_pkg.compare.judgement import Judgement, cell_of, judged, scales_of, standing_of
+from contact_sim_pkg.compare.judgement import Judgement, Scale, cell_of, judged, scales_of, standing_of
 from contact_sim_pkg.compare.parting import Parting, parting_of, until
 from contact_sim_pkg.compare.recorded import costs_of_bag, outputs_of_bag, scene_of_bag
 from contact_sim_pkg.compare.stretch import Notify, Stretch, begins_later, prepared, run_stretch
@@ -154,7 +154,7 @@ def _runs(
     return run.columns, other.columns, run.cpu + other.cpu
 
 
-def _delivered(run: Columns, other: Columns, scales: dict[Key, float], companion: Companion) -> list[Judgement]:
+def _delivered(run: Columns, other: Columns, scales: dict[Key, Scale], companion: Companion) -> list[Judgement]:
     found = []
     for kind in dict.fromkeys(column.kind for column in run.values()):
         of_kind = {key: column for key, column in run.items() if column.kind == kind}

@@ -31,7 +31,7 @@ from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.records.standing import Standing
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["Judgement", "Unresolved", "cell_of", "judged", "largest_by_kind", "scales_of", "standing_of"]
+__all__ = ["Judgement", "Scale", "Unresolved", "cell_of", "judged", "largest_by_kind", "scales_of", "standing_of"]
 
 RESOLVED = 0.1
 """Error of a component over its own largest value above which it is not resolved."""
@@ -45,6 +45,13 @@ class Unresolved(NamedTuple):
 
     column: str
     share: float  # error over its own largest value
+
+
+class Scale(NamedTuple):
+    """What the error of a column is held against, in its unit."""
+
+    scale: float  # of its kind, at its contact or body
+    own: float  # its own largest value
 
 
 class Judgement(NamedTuple):
@@ -76,23 +83,26 @@ def cell_of(outputs: Iterable[Output]) -> dict[str, float]:
 
 def scales_of(
     columns: Mapping[Key, Column], standing: Standing, cells: Mapping[str, float] | None = None
-) -> dict[Key, float]:
-    """Scale of each column over the run that it belongs to, in the column's unit."""
+) -> dict[Key, Scale]:
+    """Scale of each column over the run that it belongs to; ``cells`` are the floors of areas
+    [m^2] by topic.
+    """
     forces = _largest_forces(columns, standing)
     found = {}
     for key, column in columns.items():
+        own = _largest(column.values)
         if column.kind == "force":
-            found[key] = forces[key.topic]
+            scale = forces[key.topic]
         elif column.kind == "motion":
-            found[key] = _motion_scale(key, column, standing, forces)
+            scale = _motion_scale(key, column, standing, forces)
         else:
-            floor = (cells or {}).get(key.topic, 0.0) if column.kind == "area" else 0.0
-            found[key] = max(_largest(column.values), floor)
+            scale = max(own, (cells or {}).get(key.topic, 0.0) if column.kind == "area" else 0.0)
+        found[key] = Scale(scale, own)
     return found
 
 
 def judged(
-    run: Mapping[Key, Column], finer: Mapping[Key, Column], scales: Mapping[Key, float], factor: float = 1.0
+    run: Mapping[Key, Column], finer: Mapping[Key, Column], scales: Mapping[Key, Scale], factor: float = 1.0
 ) -> list[Judgement]:
     """Errors of a run against a finer one, by place and kind in order of appearance.
 
@@ -101,7 +111,7 @@ def judged(
     """
     groups: dict[tuple[str, str], list[_Error]] = {}
     for key, column in run.items():
-        if key in finer and scales.get(key, 0.0) > 0.0:
+        if key in finer and key in scales and scales[key].scale > 0.0:
             groups.setdefault((key.place, column.kind), []).append(_error(key, column, finer[key], scales[key], factor))
     found = []
     for (place, kind), errors in groups.items():
@@ -128,15 +138,15 @@ class _Error(NamedTuple):
     time: float  # [s]
 
 
-def _error(key: Key, column: Column, finer: Column, scale: float, factor: float) -> _Error:
+def _error(key: Key, column: Column, finer: Column, scale: Scale, factor: float) -> _Error:
     instants, values, others = paired(column, finer)
     if not len(instants):
         return _Error(key, 0.0, 0.0, 0.0)
     difference = factor * numpy.abs(values - others)
     place = int(numpy.argmax(difference))
-    largest, own = float(difference[place]), max(_largest(column.values), _largest(others))
-    share = largest / own if own > LEAST_COMPONENT * scale else 0.0
-    return _Error(key, largest / scale, share, float(instants[place]) / NANOSECONDS)
+    largest = float(difference[place])
+    share = largest / scale.own if scale.own > LEAST_COMPONENT * scale.scale else 0.0
+    return _Error(key, largest / scale.scale, share, float(instants[place]) / NANOSECONDS)
 
 
 def _largest(values: Vector) -> float:

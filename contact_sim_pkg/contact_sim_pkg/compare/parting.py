@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compare.columns import NANOSECONDS, Column, Instants, Key, paired
+from contact_sim_pkg.compare.judgement import Scale
 from contact_sim_pkg.compiled.arrays import Vector
 
 __all__ = ["Parting", "Statistic", "parting_of", "until"]
@@ -40,16 +41,16 @@ class Parting(NamedTuple):
 
 
 def parting_of(
-    run: Mapping[Key, Column], finer: Mapping[Key, Column], scales: Mapping[Key, float], request: float
+    run: Mapping[Key, Column], finer: Mapping[Key, Column], scales: Mapping[Key, Scale], request: float
 ) -> Parting | None:
     """Where the forces and motions of two runs part for good; None where they do not."""
     compared = {
         key: paired(column, finer[key])
         for key, column in run.items()
-        if column.kind in ("force", "motion") and key in finer and scales[key] > 0.0
+        if column.kind in ("force", "motion") and key in finer and scales[key].scale > 0.0
     }
     times = [
-        _parted(instants, numpy.abs(values - others) / scales[key], request)
+        _parted(instants, numpy.abs(values - others) / scales[key].scale, request)
         for key, (instants, values, others) in compared.items()
     ]
     parted = [time for time in times if time is not None]
@@ -57,7 +58,7 @@ def parting_of(
         return None
     first = min(parted)
     statistics = [
-        _statistic(key, values[instants >= first], others[instants >= first], scales[key])
+        _statistic(key, values[instants >= first], others[instants >= first], scales[key].scale)
         for key, (instants, values, others) in compared.items()
     ]
     return Parting(first / NANOSECONDS, tuple(statistics))

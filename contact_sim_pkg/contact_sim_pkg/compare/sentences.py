@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 from contact_sim_pkg.compare.delivered import Check
 from contact_sim_pkg.compare.judgement import Judgement
 from contact_sim_pkg.compare.parting import Parting
 
-__all__ = ["lines_of", "number_of"]
+__all__ = ["facts_of", "lines_of", "number_of"]
 
 MODEL = "numerical error only; the error of the model is on the validation page"
 
@@ -28,10 +29,35 @@ def lines_of(check: Check) -> Iterator[str]:
     yield MODEL
 
 
+def facts_of(check: Check) -> dict[str, Any]:
+    """The check as plain values, for scripts."""
+    rows = [
+        {
+            **{name: getattr(each, name) for name in ("place", "kind", "error", "column", "time")},
+            "held": each.error <= check.requested,
+            "not_resolved": {lost.column: lost.share for lost in each.unresolved},
+        }
+        for each in check.judgements
+    ]
+    parting = check.parting
+    return {
+        "scene": check.scene,
+        "requested": check.requested,
+        "delivered": rows,
+        "windows": [each._asdict() for each in check.windows],
+        "finer": check.dials,
+        "limited": check.limited or None,
+        "agrees_until_s": None if parting is None else parting.time,
+        "beyond": [] if parting is None else [each._asdict() for each in parting.statistics],
+        "not_judged": check.not_judged,
+        "cpu_s": check.cpu,
+    }
+
+
 def number_of(value: float) -> str:
-    """Two digits, as `7e-3` or `1.2e-2`; 0 for less than 1e-15."""
+    """Two digits, as `7e-3` or `1.2e-2`; what is less than 1e-15 is rounding."""
     if not value > 1e-15:
-        return "0"
+        return "below 1e-15"
     exponent = math.floor(math.log10(value))
     digits = round(value / 10.0**exponent, 1)
     if digits >= 10.0:
