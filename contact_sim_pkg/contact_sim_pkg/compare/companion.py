@@ -23,7 +23,7 @@ from contact_sim_pkg.scene.resolve import read_explicit
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.pressure_field import MOST_CELLS_A_SIDE
 
-__all__ = ["Companion", "companion_of", "dials_of", "factor_of"]
+__all__ = ["Companion", "companion_of", "dials_of", "factor_of", "integrated_finer"]
 
 INTEGRATION, COUPLING, LENGTH, CELLS, SOLVER = 0.01, 0.25, 0.5, 1.5, 0.1
 """Factors on tolerance of the integration, tolerance and length of the coupling, cells a side,
@@ -49,6 +49,13 @@ def companion_of(scene: ResolvedScene, *, grid: bool = True) -> Companion:
     )
     cells = any(key.endswith((".rows", ".cell")) for key in values)
     return Companion(ResolvedScene(finer, scene.files), tuple(values), cells)
+
+
+def integrated_finer(scene: ResolvedScene) -> ResolvedScene:
+    """The scene with the time integration alone one level finer."""
+    tolerance = max(LEAST["relative_tolerance"], INTEGRATION * scene.data["integrator"]["relative_tolerance"])
+    integrator = {**scene.data["integrator"], "relative_tolerance": tolerance}
+    return ResolvedScene({**scene.data, "integrator": integrator}, scene.files)
 
 
 def dials_of(data: dict[str, Any]) -> dict[str, Any]:

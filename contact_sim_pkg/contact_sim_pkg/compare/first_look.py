@@ -1,5 +1,7 @@
 """What accuracy costs: a scene at several requests beside one finer run of the same stretch.
 
+The finer run is the scene at a tenth of the smallest request, its time integration one level finer
+still: that is tight at every request. Scales are those of the whole run, at the coarsest request.
 The stretch is 0.2 s round the event of the excitation where the rig can begin there, else the run
 from its start, shorter where the finer run would take long. Keys that the scene gives itself are
 the same in all runs.
@@ -11,12 +13,13 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from contact_sim_pkg.compare.columns import Column, Key
-from contact_sim_pkg.compare.companion import dials_of
+from contact_sim_pkg.compare.companion import dials_of, integrated_finer
 from contact_sim_pkg.compare.judgement import (
     Judgement,
     Scale,
     cell_of,
     judged,
+    larger_scales,
     largest_by_kind,
     scales_of,
     standing_of,
@@ -36,7 +39,8 @@ REQUESTS = (1e-1, 1e-2, 1e-3)
 REFERENCE, FINER = 1e-4, 0.3
 """Request of the finer run, and its largest part of the smallest request that is judged."""
 DEEP, DEEP_REFERENCE = 1e-4, 3e-5
-MOST_CPU = 30.0  # [s] of the finer run
+FINEST = 1e-8  # that a scene may request
+MOST_CPU, MOST_SCALE_CPU = 30.0, 5.0  # [s] of the finer run, and of the run for the scales
 SHORT, REPEATS = 0.5, 3
 """[s] of CPU below which a run is made so many times, and the least counts."""
 CHEAPER = 0.9
@@ -82,16 +86,22 @@ def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstL
     scene = load_resolved(scene_name)
     own = requested(scene.accuracy)
     asked = sorted({*REQUESTS, *((DEEP,) if deep else ()), own}, reverse=True)
-    finest = min(DEEP_REFERENCE if deep else REFERENCE, FINER * asked[-1])
+    finest = max(FINEST, min(DEEP_REFERENCE if deep else REFERENCE, FINER * asked[-1]))
     notify(f"{scene.name}: {', '.join(f'{each:g}' for each in asked)} beside {finest:g}")
-    scenes = {each: scene if each == own else _at(scene_name, each) for each in (*asked, finest)}
-    stretch = _stretch(scene)
+    scenes = {each: scene if each == own else _at(scene_name, each) for each in asked}
+    finer, stretch = integrated_finer(_at(scene_name, finest)), _stretch(scene)
     notify("kernels: compiled, or from the disk")
-    simulation = prepared(scenes[finest], notify, first=True)
+    simulation = prepared(finer, notify, first=True)
     notify(f"{scene.name} at {finest:g}: {_span(scene, stretch)}")
-    reference = run_stretch(scenes[finest], stretch, notify, simulation=simulation, most_cpu=MOST_CPU)
+    reference = run_stretch(finer, stretch, notify, simulation=simulation, most_cpu=MOST_CPU)
     stretch = stretch._replace(end=stretch.first + reference.blocks)
-    scales = scales_of(reference.columns, standing_of(scene), cell_of(reference.outputs))
+    scales = _scales(scene, reference)
+    if stretch.first:
+        notify(f"{scene.name} at {asked[0]:g}: the whole run, for the scales of its errors")
+        whole = Stretch(0, 0, round(scene.duration / scene.block_length))
+        scales = larger_scales(
+            scales, _scales(scene, run_stretch(scenes[asked[0]], whole, notify, most_cpu=MOST_SCALE_CPU))
+        )
     rows = []
     for each in asked:
         notify(f"{scene.name} at {each:g}: {_span(scene, stretch)}")
@@ -99,7 +109,7 @@ def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstL
         rows.append(_request(each, run, reference.columns, scales, own=each == own, length=scene.block_length))
     return FirstLook(
         scene.name, tuple(rows), stretch.shown * scene.block_length, stretch.end * scene.block_length, finest,
-        _cost(reference, scene.block_length), _same([scenes[each] for each in (*asked, finest)]),
+        _cost(reference, scene.block_length), _same([*scenes.values(), finer]),
     )  # fmt: skip
 
 
@@ -123,6 +133,10 @@ def _stretch(scene: ResolvedScene) -> Stretch:
     if begins_later(scene) and sources:
         return stretch_round(scene, event_block(sources, blocks), blocks)
     return Stretch(0, 0, blocks)
+
+
+def _scales(scene: ResolvedScene, run: StretchRun) -> dict[Key, Scale]:
+    return scales_of(run.columns, standing_of(scene), cell_of(run.outputs))
 
 
 def _span(scene: ResolvedScene, stretch: Stretch) -> str:

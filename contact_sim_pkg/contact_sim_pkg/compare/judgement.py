@@ -31,7 +31,17 @@ from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.records.standing import Standing
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["Judgement", "Scale", "Unresolved", "cell_of", "judged", "largest_by_kind", "scales_of", "standing_of"]
+__all__ = [
+    "Judgement",
+    "Scale",
+    "Unresolved",
+    "cell_of",
+    "judged",
+    "larger_scales",
+    "largest_by_kind",
+    "scales_of",
+    "standing_of",
+]
 
 RESOLVED = 0.1
 """Error of a component over its own largest value above which it is not resolved."""
@@ -99,6 +109,13 @@ def scales_of(
             scale = max(own, (cells or {}).get(key.topic, 0.0) if column.kind == "area" else 0.0)
         found[key] = Scale(scale, own)
     return found
+
+
+def larger_scales(scales: Mapping[Key, Scale], others: Mapping[Key, Scale]) -> dict[Key, Scale]:
+    """Of each column the larger scale and the larger own value of two runs."""
+    none = Scale(0.0, 0.0)
+    pairs = {key: (scales.get(key, none), others.get(key, none)) for key in (*scales, *others)}
+    return {key: Scale(*map(max, zip(*pair, strict=True))) for key, pair in pairs.items()}
 
 
 def judged(

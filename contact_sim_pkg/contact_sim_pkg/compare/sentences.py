@@ -55,9 +55,9 @@ def facts_of(check: Check) -> dict[str, Any]:
 
 
 def number_of(value: float) -> str:
-    """Two digits, as `7e-3` or `1.2e-2`; what is less than 1e-15 is rounding."""
+    """Two digits, as `7e-3` or `1.2e-2`; 0 for what is rounding, less than 1e-15."""
     if not value > 1e-15:
-        return "below 1e-15"
+        return "0"
     exponent = math.floor(math.log10(value))
     digits = round(value / 10.0**exponent, 1)
     if digits >= 10.0:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from contact_sim_pkg.compare.sentences import number_of
 from contact_sim_pkg.records.definitions import KINDS
 from contact_sim_pkg.studies.accuracy.panels import write_panels
 
@@ -43,6 +44,8 @@ def _panel(axis: Any, rows: list[Row]) -> None:
         axis.set_xlabel("requested")
     else:
         axis.set_xlabel("CPU s per simulated s")
+        costs = [row[COST] for row in rows]
+        axis.set_xlim(0.7 * min(costs), 4.0 * max(costs))  # room for the names of the last points
     axis.set_ylabel("delivered" if len(scenes) == 1 else "delivered, force")
     axis.grid(visible=True, which="major", alpha=0.4)
     axis.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, frameon=False)
@@ -60,7 +63,7 @@ def _line(axis: Any, rows: list[Row], kind: str, colour: str, label: str) -> Non
             if kind == KINDS[0]:
                 axis.annotate("this scene", (x, y), xytext=(8, 8), textcoords="offset points", fontsize=8, color="0.3")
         if row["cheapest_for"] and row["by"] == COST and kind == KINDS[0]:
-            names = ", ".join(f"{each:.0e}" for each in row["cheapest_for"])
+            names = ", ".join(map(number_of, row["cheapest_for"]))
             axis.annotate(
                 f"cheapest for {names}", (x, y), xytext=(6, -12), textcoords="offset points", fontsize=7, color="0.3"
             )

@@ -87,7 +87,7 @@ def _section(name: str, rows: list[Row]) -> Section:
     note = (
         f"largest errors over the scale of their kind from {first['start_s']:g} to {first['end_s']:g} s, against the scene at "
         f"{number_of(first['reference'])} ({first['reference_cpu_s_per_s']:.2g} CPU s/s), itself only estimated; "
-        f"!: more than asked; {MODEL}"
+        f"0: less than 1e-15; !: more than asked; {MODEL}"
     )
     if first["same"]:
         note += f"; the same in all runs, so not judged: {', '.join(first['same'])}"
