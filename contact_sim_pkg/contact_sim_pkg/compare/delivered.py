@@ -20,7 +20,7 @@ from contact_sim_pkg.records.messages import SolverCost
 from contact_sim_pkg.run.block_simulation import BlockSimulation
 from contact_sim_pkg.run.from_bag import sources_from_bag
 from contact_sim_pkg.run.rigs import result_topics
-from contact_sim_pkg.run.sources import Source, make_sources
+from contact_sim_pkg.run.sources import Source, make_sources, make_surface, road_lattice
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import requested
@@ -29,7 +29,10 @@ __all__ = ["Check", "CheckedWindow", "check_bag"]
 
 FINER_GRID, FINER_STEPS = 10.0, 3.0
 """About how many times as long a companion run takes, with finer grids and without."""
-LOOKS = 20  # blocks of the excitation that are made again and compared, at most
+LOOKS, ROAD_LOOKS = 20, 3
+"""Blocks of the excitation that are made again and compared, and of a road for a finer lattice, at
+most.
+"""
 
 Columns = dict[Key, Column]
 
@@ -112,8 +115,10 @@ def _companions(path: Path, scene: ResolvedScene, blocks: int) -> _Companions:
     if limited or not companion.grid or "road/patch" not in recorded:
         return _Companions(scene, companion, recorded, recorded, limited)
     finer, limited = _made(lambda: make_sources(companion.scene))
-    if not limited and (difference := other_road(made["road/patch"], finer["road/patch"], looked)):
-        limited = f"the road on the finer lattice differs by {difference:.2g} m at common nodes"
+    if not limited:
+        surface = make_surface(companion.scene, road_lattice(companion.scene).cell_x)
+        if difference := other_road(recorded["road/patch"], surface, list(looked)[:ROAD_LOOKS]):
+            limited = f"the road made for the finer lattice differs by {difference:.2g} m at common nodes"
     if limited:
         return _Companions(scene, companion_of(scene, grid=False), recorded, recorded, limited)
     return _Companions(scene, companion, recorded, finer, "")

@@ -7,16 +7,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 import numpy
-from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.excitation.blocks import Surface
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.block_simulation import InputBlock
 from contact_sim_pkg.run.sources import Source
 
-Places = NDArray[numpy.int64]
-
-__all__ = ["common_difference", "foreign_topics", "other_road"]
+__all__ = ["foreign_topics", "other_road"]
 
 ROUNDING = 2e-7
 """Of the largest height: two roads that agree to float32."""
@@ -32,45 +30,26 @@ def foreign_topics(recorded: Mapping[str, Source], made: Mapping[str, Source], b
     ]
 
 
-def other_road(coarse: Source, fine: Source, blocks: Iterable[int]) -> float:
-    """Largest difference [m] of two lattices of a road at common nodes beyond rounding; 0 where
-    they agree.
+def other_road(coarse: Source, surface: Surface, blocks: Iterable[int]) -> float:
+    """Largest difference [m], beyond rounding, of recorded or made heights from a ``surface`` that
+    was made for a finer lattice, at the nodes of the coarser; 0 where they agree.
     """
     largest = 0.0
     for block in blocks:
-        first, second = coarse.block(block), fine.block(block)
-        assert isinstance(first, RoadPatch)
-        assert isinstance(second, RoadPatch)
-        found = common_difference(first, second)
-        if found is not None and found > ROUNDING * float(numpy.abs(first.height).max(initial=0.0)):
-            largest = max(largest, found)
+        patch = coarse.block(block)
+        assert isinstance(patch, RoadPatch)
+        difference = float(numpy.abs(surface.heights(*_nodes(patch)).astype(numpy.float32) - patch.height).max())
+        if difference > ROUNDING * float(numpy.abs(patch.height).max(initial=0.0)):
+            largest = max(largest, difference)
     return largest
 
 
-def common_difference(coarse: RoadPatch, fine: RoadPatch) -> float | None:
-    """Largest difference [m] of the heights at nodes that both lattices have; None without such."""
-    rows, rows_too = _common(_along(coarse), _along(fine), 1e-6 * fine.cell_x)
-    cols, cols_too = _common(_across(coarse), _across(fine), 1e-6 * fine.cell_y)
-    if not len(rows) or not len(cols):
-        return None
-    difference = coarse.height[numpy.ix_(rows, cols)].astype(float) - fine.height[numpy.ix_(rows_too, cols_too)]
-    return float(numpy.abs(difference).max())
-
-
-def _along(patch: RoadPatch) -> Vector:
-    return numpy.asarray((patch.first_row + numpy.arange(patch.height.shape[0])) * patch.cell_x, dtype=numpy.float64)
-
-
-def _across(patch: RoadPatch) -> Vector:
-    cols = patch.height.shape[1]
-    return numpy.asarray((numpy.arange(cols) - 0.5 * (cols - 1)) * patch.cell_y, dtype=numpy.float64)
-
-
-def _common(first: Vector, second: Vector, within: float) -> tuple[Places, Places]:
-    """Places in two rising series of values that are the same within a bound."""
-    nearest = numpy.clip(numpy.searchsorted(second, first - within), 0, len(second) - 1)
-    equal = numpy.abs(second[nearest] - first) <= within
-    return numpy.flatnonzero(equal), nearest[equal]
+def _nodes(patch: RoadPatch) -> tuple[Vector, Vector]:
+    """Places along and across the road [m] of the nodes of a patch."""
+    rows, cols = patch.height.shape
+    along = (patch.first_row + numpy.arange(rows)) * patch.cell_x
+    across = (numpy.arange(cols) - 0.5 * (cols - 1)) * patch.cell_y
+    return numpy.asarray(along, dtype=numpy.float64), numpy.asarray(across, dtype=numpy.float64)
 
 
 def _equal(first: InputBlock, second: InputBlock) -> bool:

@@ -27,8 +27,7 @@ from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.definitions import KINDS
 from contact_sim_pkg.records.messages import ContactPatch
 from contact_sim_pkg.records.registry import rigs
-from contact_sim_pkg.records.rig import load
-from contact_sim_pkg.records.standing import Standing
+from contact_sim_pkg.records.rig import Standing, load
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = [

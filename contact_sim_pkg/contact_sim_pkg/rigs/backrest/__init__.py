@@ -3,8 +3,7 @@
 from typing import Any
 
 from contact_sim_pkg.records.contact import Contact
-from contact_sim_pkg.records.rig import Rig
-from contact_sim_pkg.records.standing import Standing, TouchedBody
+from contact_sim_pkg.records.rig import Rig, Standing, TouchedBody
 from contact_sim_pkg.records.topic import FORCE, PATCH, POINTS, WRENCH
 from contact_sim_pkg.rigs.backrest.effects import BACKREST_EFFECTS
 

@@ -6,8 +6,7 @@ Rig roller.
 from typing import Any
 
 from contact_sim_pkg.records.contact import Contact
-from contact_sim_pkg.records.rig import Rig
-from contact_sim_pkg.records.standing import Standing, TouchedBody
+from contact_sim_pkg.records.rig import Rig, Standing, TouchedBody
 from contact_sim_pkg.records.topic import BLOCK, FORCE, ContactTopic
 from contact_sim_pkg.rigs.roller.effects import ROLLER_EFFECTS
 

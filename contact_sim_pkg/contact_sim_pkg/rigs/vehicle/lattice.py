@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from contact_sim_pkg.excitation.blocks import RoadLattice
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt, widened
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.records.standing import Standing, TouchedBody
+from contact_sim_pkg.records.rig import Standing, TouchedBody
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, tire_body
 from contact_sim_pkg.scene.resolved_scene import plain
 
