@@ -12,6 +12,7 @@ from contact_sim_pkg.compare.parting import Parting
 
 __all__ = ["facts_of", "lines_of", "number_of"]
 
+SAME_BITS = "the finer run has the same bits: what it has finer does not act here"
 MODEL = "numerical error only; the error of the model is on the validation page"
 
 
@@ -19,6 +20,8 @@ def lines_of(check: Check) -> Iterator[str]:
     """Lines of a check: delivered errors, what is not resolved, what is not judged."""
     for judgement in check.judgements:
         yield _line(judgement, check.requested)
+    if not any(judgement.error for judgement in check.judgements):
+        yield SAME_BITS
     if check.parting is not None:
         yield from _parting_lines(check.parting)
     if check.limited:

@@ -24,10 +24,18 @@ def check_of_bag(path: Path, *, whole: bool = False, scene: ResolvedScene | None
 
 
 def check_of_run(scene: ResolvedScene, outcome: Outcome) -> Check | None:
-    """Check a run; None where it was stopped, failed or left no bag."""
+    """Check a run; None where it was stopped, failed or left no bag, or where the check fails: the
+    outcome of the run is reported all the same.
+    """
     if outcome.bag is None or outcome.exit_status or outcome.stopped:
         return None
-    return check_of_bag(outcome.bag, scene=scene)
+    from contact_sim_pkg.run.errors import RunError
+
+    try:
+        return check_of_bag(outcome.bag, scene=scene)
+    except RunError as error:
+        click.echo(f"bench: the companion run ended: {error}", err=True)
+        return None
 
 
 def facts_of_check(check: Check | None) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from contact_sim_pkg.compare.first_look import FirstLook, Request, cheapest_for, first_look
-from contact_sim_pkg.compare.sentences import MODEL, number_of
+from contact_sim_pkg.compare.sentences import MODEL, SAME_BITS, number_of
 from contact_sim_pkg.records.definitions import KINDS
 from contact_sim_pkg.records.table import Section
 from contact_sim_pkg.studies.accuracy.first_look_plot import write_plot
@@ -89,6 +89,8 @@ def _section(name: str, rows: list[Row]) -> Section:
         f"{number_of(first['reference'])} ({first['reference_cpu_s_per_s']:.2g} CPU s/s), itself only estimated; "
         f"0: less than 1e-15; !: more than asked; {MODEL}"
     )
+    if not any(row[kind] for row in rows for kind in KINDS):
+        note += f"; {SAME_BITS}"
     if first["same"]:
         note += f"; the same in all runs, so not judged: {', '.join(first['same'])}"
     return Section(name, lines, note)
