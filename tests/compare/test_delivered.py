@@ -7,7 +7,7 @@ from contact_sim_pkg.compare.companion import companion_of
 from contact_sim_pkg.compare.delivered import check_bag
 from contact_sim_pkg.compare.judgement import judged, largest_by_kind, scales_of, standing_of
 from contact_sim_pkg.compare.sentences import facts_of, lines_of, number_of
-from contact_sim_pkg.compare.stretch import Stretch, begins_later, run_stretch
+from contact_sim_pkg.compare.span import Span, begins_later, run_span
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.resolve import load_resolved
@@ -49,9 +49,9 @@ def test_the_delivered_force_is_that_of_a_run_two_levels_finer(scene, check):
     """The order that is assumed: the error by one finer run is within a factor of 3 of that by two."""
     window = check.windows[0]
     first, end = (round(time / scene.block_length) for time in (window.start, window.end))
-    stretch = Stretch(first - 10, first, end)
+    span = Span(first - 10, first, end)
     finest = companion_of(companion_of(scene).scene).scene
-    run, reference = (run_stretch(each, stretch, silent).columns for each in (scene, finest))
+    run, reference = (run_span(each, span, silent).columns for each in (scene, finest))
     true = largest_by_kind(judged(run, reference, scales_of(run, standing_of(scene))))["force"]
     delivered = next(each.error for each in check.judgements if each.kind == "force")
     assert true / 3.0 < delivered < 3.0 * true
@@ -100,7 +100,7 @@ def test_a_rig_that_begins_nowhere_else_runs_from_its_start(tmp_path):
 def test_a_vehicle_that_begins_later_stands_there():
     """The load of a wheel that begins on a flat road is its weight, 3335.4 N."""
     scene = load_resolved("tire_bump")
-    run = run_stretch(scene, Stretch(40, 40, 42), silent)
+    run = run_span(scene, Span(40, 40, 42), silent)
     normal = next(column for key, column in run.columns.items() if key.field == "normal")
     assert normal.instants[0] == 400_000_000
     assert normal.values == pytest.approx(340.0 * 9.81, rel=2e-3)

@@ -7,11 +7,14 @@ from contact_sim_pkg.compare.judgement import Judgement, Unresolved
 from contact_sim_pkg.studies.accuracy.first_look_table import rows_of, sections, write_plot
 
 
-def request(asked, force, cost, *, own=False, unresolved=()):
+def request(requested, force, cost, *, own=False, unresolved=()):
     return Request(
-        asked=asked,
+        requested=requested,
         errors={"force": force, "motion": 0.5 * force},
-        judgements=(Judgement("tire", "force", force, "normal", 0.1, unresolved),),
+        judgements=(
+            Judgement("tire", "force", force, "normal", 0.1, unresolved),
+            Judgement("wheel_z", "motion", 0.5 * force, "velocity", 0.1),
+        ),
         estimated=None,
         cost=cost,
         agrees_until=None,
@@ -31,7 +34,7 @@ def look():
 
 def test_the_cheapest_that_holds_is_marked(look):
     """1.2e-2 does not hold 1e-2: the run at 1e-3 is the cheapest that does."""
-    assert [cheapest_for(look.requests, each).asked for each in (1e-1, 1e-2, 1e-3)] == [1e-1, 1e-3, 1e-3]
+    assert [cheapest_for(look.requests, each).requested for each in (1e-1, 1e-2, 1e-3)] == [1e-1, 1e-3, 1e-3]
     assert cheapest_for(look.requests, 1e-4) is None
 
 
@@ -42,7 +45,7 @@ def test_a_finer_run_of_the_same_cost_is_not_cheaper():
 
 def test_the_table_has_a_line_a_request(look):
     [section] = sections(rows_of(look))
-    assert [line["asked"] for line in section.rows] == ["1e-1", "1e-2", "1e-3"]
+    assert [line["requested"] for line in section.rows] == ["1e-1", "1e-2", "1e-3"]
     assert [line["force"] for line in section.rows] == ["3.8e-2", "1.2e-2 !", "8e-4"]
     assert [line["peak"] for line in section.rows] == ["-", "-", "-"]
     assert [line[""] for line in section.rows] == ["cheapest for 1e-1", "<- this scene", "cheapest for 1e-2, 1e-3"]
@@ -64,7 +67,7 @@ def test_a_scene_is_run_at_each_request_and_at_its_own(tmp_path):
         "effects: {block: {rigid_contact: {friction: 0.3, restitution: 0.0}}}\n"
     )
     look = first_look(str(scene), lines.append)
-    assert [each.asked for each in look.requests] == [1e-1, 1e-2, 3e-3, 1e-3]
+    assert [each.requested for each in look.requests] == [1e-1, 1e-2, 3e-3, 1e-3]
     assert [each.own for each in look.requests] == [False, False, True, False]
     assert (look.start, look.end, look.reference) == (0.0, pytest.approx(0.1), 1e-4)
     assert all(each.errors["motion"] < 1e-6 and each.cost > 0.0 for each in look.requests)

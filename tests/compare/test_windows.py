@@ -6,8 +6,8 @@ import numpy
 from tests.compare.runs import force
 
 from contact_sim_pkg.compare.columns import columns_of
-from contact_sim_pkg.compare.stretch import Stretch
-from contact_sim_pkg.compare.windows import event_block, from_the_start, stretch_round, windows_of
+from contact_sim_pkg.compare.span import Span
+from contact_sim_pkg.compare.windows import event_block, from_the_start, span_round, windows_of
 from contact_sim_pkg.records.messages import SolverCost
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.resolve import load_resolved
@@ -16,10 +16,10 @@ SCENE = SimpleNamespace(block_length=0.01)
 
 
 def test_a_window_has_the_block_in_its_middle_and_a_lead_in():
-    assert stretch_round(SCENE, 50, 100) == Stretch(30, 40, 60)
-    assert stretch_round(SCENE, 3, 100) == Stretch(0, 0, 20)
-    assert stretch_round(SCENE, 99, 100) == Stretch(70, 80, 100)
-    assert stretch_round(SCENE, 3, 5) == Stretch(0, 0, 5)
+    assert span_round(SCENE, 50, 100) == Span(30, 40, 60)
+    assert span_round(SCENE, 3, 100) == Span(0, 0, 20)
+    assert span_round(SCENE, 99, 100) == Span(70, 80, 100)
+    assert span_round(SCENE, 3, 5) == Span(0, 0, 5)
 
 
 def test_windows_lie_round_the_largest_force_and_the_shortest_step():
@@ -30,12 +30,12 @@ def test_windows_lie_round_the_largest_force_and_the_shortest_step():
         for block in range(100)
     ]
     found = windows_of(SCENE, columns_of([force(normal)]), costs, {}, 100)
-    assert [(each.stretch.shown, each.reasons) for each in found] == [
+    assert [(each.span.shown, each.reasons) for each in found] == [
         (10, ("shortest coupling step",)),
         (65, ("largest force",)),
     ]
     [whole] = from_the_start(found)
-    assert whole.stretch == Stretch(0, 0, 85)
+    assert whole.span == Span(0, 0, 85)
 
 
 def test_windows_that_overlap_are_one():
@@ -46,7 +46,7 @@ def test_windows_that_overlap_are_one():
         for block in range(100)
     ]
     [found] = windows_of(SCENE, columns_of([force(normal)]), costs, {}, 100)
-    assert found.stretch == Stretch(0, 10, 40)
+    assert found.span == Span(0, 10, 40)
     assert found.reasons == ("shortest coupling step", "largest force")
 
 

@@ -63,7 +63,7 @@ def _is_bag(path: Path) -> bool:
 def _refuse_options(*, deep: bool, parts: bool, whole: bool, plot: Path | None, bag: bool, rig: bool) -> None:
     """Raise UsageError for an option that has no meaning beside the others."""
     if whole and not bag:
-        raise click.UsageError("--whole is for the bag of a recorded run; a scene has a stretch round its event")
+        raise click.UsageError("--whole is for the bag of a recorded run; a scene has a span round its event")
     if (deep or parts) and (bag or rig):
         raise click.UsageError(f"--{'deep' if deep else 'parts'} is for a scene, not for a {'bag' if bag else 'rig'}")
     if deep and parts:

@@ -13,7 +13,7 @@ from contact_sim_pkg.compare.excitation_check import foreign_topics, other_road
 from contact_sim_pkg.compare.judgement import Judgement, Scale, cell_of, judged, scales_of, standing_of
 from contact_sim_pkg.compare.parting import Parting, parting_of, until
 from contact_sim_pkg.compare.recorded import costs_of_bag, outputs_of_bag, scene_of_bag
-from contact_sim_pkg.compare.stretch import Notify, Stretch, begins_later, prepared, run_stretch
+from contact_sim_pkg.compare.span import Notify, Span, begins_later, prepared, run_span
 from contact_sim_pkg.compare.windows import Window, from_the_start, windows_of
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.records.messages import SolverCost
@@ -89,7 +89,7 @@ def check_bag(path: Path, notify: Notify, *, scene: ResolvedScene | None = None,
     for window in windows:
         notify(f"  {_described(scene, window)}")
         finer = compiled.pop() if compiled else prepared(pair.companion.scene, notify)
-        run, other, seconds = _runs(pair, window.stretch, columns, finer, notify)
+        run, other, seconds = _runs(pair, window.span, columns, finer, notify)
         cpu += seconds
         parting = parting or parting_of(run, other, scales, requested(scene.accuracy))
         if parting is not None:
@@ -140,22 +140,22 @@ def _as_long_as(scene: ResolvedScene, blocks: int) -> ResolvedScene:
 def _windows(pair: _Companions, columns: Columns, costs: Sequence[SolverCost], *, whole: bool) -> list[Window]:
     blocks = len(costs)
     if whole:
-        return [Window(Stretch(0, 0, blocks), ("the whole run",))]
+        return [Window(Span(0, 0, blocks), ("the whole run",))]
     windows = windows_of(pair.scene, columns, costs, pair.sources, blocks)
     return windows if begins_later(pair.scene) else from_the_start(windows)
 
 
 def _runs(
-    pair: _Companions, stretch: Stretch, columns: Columns, finer: BlockSimulation, notify: Notify
+    pair: _Companions, span: Span, columns: Columns, finer: BlockSimulation, notify: Notify
 ) -> tuple[Columns, Columns, float]:
-    """Columns of the run and of the finer one in a stretch, and the CPU time [s] of both.
+    """Columns of the run and of the finer one in a span, and the CPU time [s] of both.
 
     From the start of the scene it is the recorded run; behind it both begin at rest.
     """
-    other = run_stretch(pair.companion.scene, stretch, notify, simulation=finer, sources=pair.finer_sources)
-    if stretch.first == 0:
+    other = run_span(pair.companion.scene, span, notify, simulation=finer, sources=pair.finer_sources)
+    if span.first == 0:
         return columns, other.columns, other.cpu
-    run = run_stretch(pair.scene, stretch, notify, sources=pair.sources)
+    run = run_span(pair.scene, span, notify, sources=pair.sources)
     return run.columns, other.columns, run.cpu + other.cpu
 
 
@@ -186,15 +186,15 @@ def _announced(pair: _Companions, windows: Sequence[Window], costs: Sequence[Sol
     factor = FINER_GRID if pair.companion.grid else FINER_STEPS
     seconds = 0.0
     for window in windows:
-        blocks = costs[window.stretch.first : window.stretch.end]
-        again = 1.0 if window.stretch.first else 0.0
+        blocks = costs[window.span.first : window.span.end]
+        again = 1.0 if window.span.first else 0.0
         seconds += (factor + again) * sum(cost.wall_time for cost in blocks)
-    length = sum(window.stretch.end - window.stretch.shown for window in windows) * pair.scene.block_length
+    length = sum(window.span.end - window.span.shown for window in windows) * pair.scene.block_length
     return f"companion run of {pair.scene.name}: {length:.3g} s simulated, about {max(1.0, seconds):.2g} s of computing"
 
 
 def _checked(scene: ResolvedScene, window: Window) -> CheckedWindow:
-    start, end = (round(block * scene.block_length, 9) for block in (window.stretch.shown, window.stretch.end))
+    start, end = (round(block * scene.block_length, 9) for block in (window.span.shown, window.span.end))
     return CheckedWindow(start, end, window.reasons)
 
 

@@ -1,8 +1,8 @@
-"""What accuracy costs: a scene at several requests beside one finer run of the same stretch.
+"""What accuracy costs: a scene at several requests beside one finer run of the same span.
 
 The finer run is the scene at a tenth of the smallest request, its time integration one level finer
 still: that is tight at every request. Scales are those of the whole run, at the coarsest request.
-The stretch is 0.2 s round the event of the excitation where the rig can begin there, else the run
+The span is 0.2 s round the event of the excitation where the rig can begin there, else the run
 from its start, shorter where the finer run would take long. Keys that the scene gives itself are
 the same in all runs.
 """
@@ -25,8 +25,8 @@ from contact_sim_pkg.compare.judgement import (
     standing_of,
 )
 from contact_sim_pkg.compare.parting import parting_of, until
-from contact_sim_pkg.compare.stretch import Notify, Stretch, StretchRun, begins_later, prepared, run_stretch
-from contact_sim_pkg.compare.windows import event_block, stretch_round
+from contact_sim_pkg.compare.span import Notify, Span, SpanRun, begins_later, prepared, run_span
+from contact_sim_pkg.compare.windows import event_block, span_round
 from contact_sim_pkg.records.messages import SolverCost
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.resolve import load_resolved
@@ -53,7 +53,7 @@ MOVED = ("force", "motion")  # kinds that decide what holds
 class Request(NamedTuple):
     """A scene at one requested accuracy."""
 
-    asked: float
+    requested: float
     errors: dict[str, float]  # largest over the scale, by kind
     judgements: tuple[Judgement, ...]
     estimated: float | None
@@ -85,30 +85,30 @@ def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstL
     """
     scene = load_resolved(scene_name)
     own = requested(scene.accuracy)
-    asked = sorted({*REQUESTS, *((DEEP,) if deep else ()), own}, reverse=True)
-    finest = max(FINEST, min(DEEP_REFERENCE if deep else REFERENCE, FINER * asked[-1]))
-    notify(f"{scene.name}: {', '.join(f'{each:g}' for each in asked)} beside {finest:g}")
-    scenes = {each: scene if each == own else _at(scene_name, each) for each in asked}
-    finer, stretch = integrated_finer(_at(scene_name, finest)), _stretch(scene)
+    requests = sorted({*REQUESTS, *((DEEP,) if deep else ()), own}, reverse=True)
+    finest = max(FINEST, min(DEEP_REFERENCE if deep else REFERENCE, FINER * requests[-1]))
+    notify(f"{scene.name}: {', '.join(f'{each:g}' for each in requests)} beside {finest:g}")
+    scenes = {each: scene if each == own else _at(scene_name, each) for each in requests}
+    finer, span = integrated_finer(_at(scene_name, finest)), _span_of(scene)
     notify("kernels: compiled, or from the disk")
     simulation = prepared(finer, notify, first=True)
-    notify(f"{scene.name} at {finest:g}: {_span(scene, stretch)}")
-    reference = run_stretch(finer, stretch, notify, simulation=simulation, most_cpu=MOST_CPU)
-    stretch = stretch._replace(end=stretch.first + reference.blocks)
+    notify(f"{scene.name} at {finest:g}: {_times(scene, span)}")
+    reference = run_span(finer, span, notify, simulation=simulation, most_cpu=MOST_CPU)
+    span = span._replace(end=span.first + reference.blocks)
     scales = _scales(scene, reference)
-    if stretch.first:
-        notify(f"{scene.name} at {asked[0]:g}: the whole run, for the scales of its errors")
-        whole = Stretch(0, 0, round(scene.duration / scene.block_length))
+    if span.first:
+        notify(f"{scene.name} at {requests[0]:g}: the whole run, for the scales of its errors")
+        whole = Span(0, 0, round(scene.duration / scene.block_length))
         scales = larger_scales(
-            scales, _scales(scene, run_stretch(scenes[asked[0]], whole, notify, most_cpu=MOST_SCALE_CPU))
+            scales, _scales(scene, run_span(scenes[requests[0]], whole, notify, most_cpu=MOST_SCALE_CPU))
         )
     rows = []
-    for each in asked:
-        notify(f"{scene.name} at {each:g}: {_span(scene, stretch)}")
-        run = _cheapest_run(scenes[each], stretch, notify)
+    for each in requests:
+        notify(f"{scene.name} at {each:g}: {_times(scene, span)}")
+        run = _cheapest_run(scenes[each], span, notify)
         rows.append(_request(each, run, reference.columns, scales, own=each == own, length=scene.block_length))
     return FirstLook(
-        scene.name, tuple(rows), stretch.shown * scene.block_length, stretch.end * scene.block_length, finest,
+        scene.name, tuple(rows), span.shown * scene.block_length, span.end * scene.block_length, finest,
         _cost(reference, scene.block_length), _same([*scenes.values(), finer]),
     )  # fmt: skip
 
@@ -126,44 +126,50 @@ def _at(scene_name: str, accuracy: float) -> ResolvedScene:
     return load_resolved(scene_name, f"accuracy={accuracy:g}")
 
 
-def _stretch(scene: ResolvedScene) -> Stretch:
+def _span_of(scene: ResolvedScene) -> Span:
     """What is run: round the event where the rig can begin there, else from the start."""
     blocks = round(scene.duration / scene.block_length)
     sources = make_sources(scene)
     if begins_later(scene) and sources:
-        return stretch_round(scene, event_block(sources, blocks), blocks)
-    return Stretch(0, 0, blocks)
+        return span_round(scene, event_block(sources, blocks), blocks)
+    return Span(0, 0, blocks)
 
 
-def _scales(scene: ResolvedScene, run: StretchRun) -> dict[Key, Scale]:
+def _scales(scene: ResolvedScene, run: SpanRun) -> dict[Key, Scale]:
     return scales_of(run.columns, standing_of(scene), cell_of(run.outputs))
 
 
-def _span(scene: ResolvedScene, stretch: Stretch) -> str:
-    return f"{stretch.shown * scene.block_length:g} to {stretch.end * scene.block_length:g} s"
+def _times(scene: ResolvedScene, span: Span) -> str:
+    return f"{span.shown * scene.block_length:g} to {span.end * scene.block_length:g} s"
 
 
-def _cheapest_run(scene: ResolvedScene, stretch: Stretch, notify: Notify) -> StretchRun:
+def _cheapest_run(scene: ResolvedScene, span: Span, notify: Notify) -> SpanRun:
     """A run, repeated where it is so short that its cost is uncertain."""
-    run = run_stretch(scene, stretch, notify)
+    run = run_span(scene, span, notify)
     repeats = REPEATS - 1 if run.cpu < SHORT else 0
-    cpu = min([run.cpu, *(run_stretch(scene, stretch, notify).cpu for _ in range(repeats))])
+    cpu = min([run.cpu, *(run_span(scene, span, notify).cpu for _ in range(repeats))])
     return run._replace(cpu=cpu)
 
 
 def _request(
-    asked: float, run: StretchRun, finer: Mapping[Key, Column], scales: Mapping[Key, Scale], *, own: bool, length: float
+    requested: float,
+    run: SpanRun,
+    finer: Mapping[Key, Column],
+    scales: Mapping[Key, Scale],
+    *,
+    own: bool,
+    length: float,
 ) -> Request:
-    parting = parting_of(run.columns, finer, scales, asked)
+    parting = parting_of(run.columns, finer, scales, requested)
     columns = run.columns if parting is None else until(run.columns, parting.time)
     judgements = judged(columns, finer, scales)
     return Request(
-        asked, largest_by_kind(judgements), tuple(judgements), _estimated(run.costs), _cost(run, length),
+        requested, largest_by_kind(judgements), tuple(judgements), _estimated(run.costs), _cost(run, length),
         None if parting is None else parting.time, own,
     )  # fmt: skip
 
 
-def _cost(run: StretchRun, length: float) -> float:
+def _cost(run: SpanRun, length: float) -> float:
     return run.cpu / (run.blocks * length)
 
 

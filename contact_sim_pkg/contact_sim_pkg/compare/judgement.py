@@ -122,7 +122,7 @@ def judged(
 ) -> list[Judgement]:
     """Errors of a run against a finer one, by place and kind in order of appearance.
 
-    ``factor`` stretches each difference to the error: 1 / (1 - share of the finer run). Columns
+    ``factor`` raises each difference to the error: 1 / (1 - share of the finer run). Columns
     that only one of the runs has, and those whose scale is zero, are left out.
     """
     groups: dict[tuple[str, str], list[_Error]] = {}

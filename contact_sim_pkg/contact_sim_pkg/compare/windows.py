@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compare.columns import Column, Key
-from contact_sim_pkg.compare.stretch import Stretch
+from contact_sim_pkg.compare.span import Span
 from contact_sim_pkg.records.messages import RoadPatch, SolverCost, VibrationBlock
 from contact_sim_pkg.run.block_simulation import InputBlock
 from contact_sim_pkg.run.sources import Source
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["LEAD", "LENGTH", "Window", "event_block", "from_the_start", "stretch_round", "windows_of"]
+__all__ = ["LEAD", "LENGTH", "Window", "event_block", "from_the_start", "span_round", "windows_of"]
 
 LENGTH = 0.2  # [s]
 LEAD = 0.1  # [s] from standstill to the window
@@ -26,9 +26,9 @@ NANOSECONDS = 1_000_000_000
 
 
 class Window(NamedTuple):
-    """A stretch of a run, and why it is checked."""
+    """A span of a run, and why it is checked."""
 
-    stretch: Stretch
+    span: Span
     reasons: tuple[str, ...]
 
 
@@ -44,21 +44,21 @@ def windows_of(
         places["event of the excitation"] = event_block(sources, blocks)
     found: list[Window] = []
     for reason, place in sorted(places.items(), key=lambda item: item[1]):
-        stretch = stretch_round(scene, place, blocks)
-        if found and stretch.shown < found[-1].stretch.end:  # overlaps: one longer window
+        span = span_round(scene, place, blocks)
+        if found and span.shown < found[-1].span.end:  # overlaps: one longer window
             last = found.pop()
-            stretch, before = last.stretch._replace(end=stretch.end), last.reasons
-            found.append(Window(stretch, (*before, reason)))
+            span, before = last.span._replace(end=span.end), last.reasons
+            found.append(Window(span, (*before, reason)))
         else:
-            found.append(Window(stretch, (reason,)))
+            found.append(Window(span, (reason,)))
     return found
 
 
-def stretch_round(scene: ResolvedScene, block: int, blocks: int) -> Stretch:
+def span_round(scene: ResolvedScene, block: int, blocks: int) -> Span:
     """The window with a block in its middle, within a run of so many blocks, and its lead-in."""
     length, lead = (max(1, round(seconds / scene.block_length)) for seconds in (LENGTH, LEAD))
     shown = max(0, min(block - length // 2, blocks - length))
-    return Stretch(max(0, shown - lead), shown, min(blocks, shown + length))
+    return Span(max(0, shown - lead), shown, min(blocks, shown + length))
 
 
 def from_the_start(windows: Iterable[Window]) -> list[Window]:
@@ -66,8 +66,8 @@ def from_the_start(windows: Iterable[Window]) -> list[Window]:
     else.
     """
     windows = list(windows)
-    end = max(window.stretch.end for window in windows)
-    return [Window(Stretch(0, 0, end), ("from the start", *(each for window in windows for each in window.reasons)))]
+    end = max(window.span.end for window in windows)
+    return [Window(Span(0, 0, end), ("from the start", *(each for window in windows for each in window.reasons)))]
 
 
 def event_block(sources: Mapping[str, Source], blocks: int) -> int:

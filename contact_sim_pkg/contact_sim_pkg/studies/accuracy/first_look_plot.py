@@ -11,10 +11,11 @@ from contact_sim_pkg.studies.accuracy.panels import write_panels
 
 __all__ = ["write_plot"]
 
-REQUESTED, COST = "asked", "cpu_s_per_s"
+REQUESTED, COST = "requested", "cpu_s_per_s"
 TITLES = {"requested and delivered": REQUESTED, "cost and delivered": COST}
 LEAST = 1e-12
 """Errors below it are drawn there."""
+COLOURS = 10  # of lines, before their style changes
 
 Row = dict[str, Any]
 
@@ -30,40 +31,52 @@ def write_plot(rows: list[Row], path: str | Path, *, overwrite: bool = False) ->
 
 def _panel(axis: Any, rows: list[Row]) -> None:
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    kinds = KINDS if len(scenes) == 1 else KINDS[:1]
-    for number, (scene, kind) in enumerate((scene, kind) for scene in scenes for kind in kinds):
+    alone = len(scenes) == 1
+    for number, (scene, kind) in enumerate(
+        (scene, kind) for scene in scenes for kind in (KINDS if alone else KINDS[:1])
+    ):
         points = [row for row in rows if row["scene"] == scene and row[kind] is not None]
         if points:
-            _line(axis, points, kind, f"C{number}", kind if len(scenes) == 1 else scene)
+            _line(axis, points, kind, number, kind if alone else scene)
+    if alone:
+        _name_points(axis, rows)
+    axis.plot(
+        [], [], "o", markersize=12, markerfacecolor="none", markeredgecolor="0.3", label="what the scene requests"
+    )
     axis.set_xscale("log")
     axis.set_yscale("log")
     if rows[0]["by"] == REQUESTED:
-        asked = sorted(row[REQUESTED] for row in rows)
-        axis.plot([asked[0], asked[-1]], [asked[0], asked[-1]], "k--", linewidth=1.3, label="delivered = requested")
+        ends = sorted(row[REQUESTED] for row in rows)
+        axis.plot([ends[0], ends[-1]], [ends[0], ends[-1]], "k--", linewidth=1.3, label="delivered = requested")
         axis.invert_xaxis()
         axis.set_xlabel("requested")
     else:
         axis.set_xlabel("CPU s per simulated s")
         costs = [row[COST] for row in rows]
-        axis.set_xlim(0.7 * min(costs), 4.0 * max(costs))  # room for the names of the last points
-    axis.set_ylabel("delivered" if len(scenes) == 1 else "delivered, force")
+        axis.set_xlim(0.7 * min(costs), (4.0 if alone else 1.4) * max(costs))  # room for the names of the last points
+    drawn = [row[kind] for row in rows for kind in (KINDS if alone else KINDS[:1]) if row[kind] is not None]
+    exact = min(drawn, default=1.0) < LEAST
+    axis.set_ylabel(
+        ("delivered" if alone else "delivered, force") + (f" (below {LEAST:.0e} drawn there)" if exact else "")
+    )
     axis.grid(visible=True, which="major", alpha=0.4)
-    axis.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, frameon=False)
+    axis.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2, frameon=False)
 
 
-def _line(axis: Any, rows: list[Row], kind: str, colour: str, label: str) -> None:
-    """A line from request to request; a ring round the scene's own, a star where it is cheapest for
-    that request.
-    """
+def _line(axis: Any, rows: list[Row], kind: str, number: int, label: str) -> None:
+    """A line from request to request, a ring round what the scene itself requests."""
     across, errors = [row["across"] for row in rows], [max(row[kind], LEAST) for row in rows]
-    axis.plot(across, errors, "-o", color=colour, markersize=5, linewidth=1.3, label=label)
+    style, colour = ("-o", "--s")[number // COLOURS % 2], f"C{number % COLOURS}"
+    axis.plot(across, errors, style, color=colour, markersize=5, linewidth=1.3, label=label)
     for row, x, y in zip(rows, across, errors, strict=True):
         if row["own"]:
             axis.plot([x], [y], "o", markersize=12, markerfacecolor="none", markeredgecolor=colour, markeredgewidth=1.6)
-            if kind == KINDS[0]:
-                axis.annotate("this scene", (x, y), xytext=(8, 8), textcoords="offset points", fontsize=8, color="0.3")
-        if row["cheapest_for"] and row["by"] == COST and kind == KINDS[0]:
-            names = ", ".join(map(number_of, row["cheapest_for"]))
-            axis.annotate(
-                f"cheapest for {names}", (x, y), xytext=(6, -12), textcoords="offset points", fontsize=7, color="0.3"
-            )
+
+
+def _name_points(axis: Any, rows: list[Row]) -> None:
+    """At the forces of one scene: for which request a run is the cheapest."""
+    for row in rows:
+        if row["cheapest_for"] and row["by"] == COST and row[KINDS[0]] is not None:
+            text = f"cheapest for {', '.join(map(number_of, row['cheapest_for']))}"
+            place = (row["across"], max(row[KINDS[0]], LEAST))
+            axis.annotate(text, place, xytext=(8, -12), textcoords="offset points", fontsize=7, color="0.3")

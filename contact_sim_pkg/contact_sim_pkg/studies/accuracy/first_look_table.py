@@ -1,11 +1,12 @@
-"""`bench accuracy SCENE` at first look: one table of what was asked, delivered and paid.
+"""`bench accuracy SCENE` at first look: one table of what was requested, delivered and paid.
 
-Columns of a row: `scene`, `asked`, delivered `force`, `motion`, `peak`, `area` (largest error over
+Columns of a row: `scene`, `requested`, delivered `force`, `motion`, `peak`, `area` (largest error over
 the scale of its kind, null where the scene has none), `estimated` by the run itself,
 `cpu_s_per_s`, `own` (what the scene requests), `held` (force and motion), `cheapest_for` (requests
 that no cheaper run holds), `not_resolved` (by contact and component, error over its own largest
-value), `agrees_until_s` (where the run parts from the finer one), and of all rows `start_s`,
-`end_s`, `reference`, `same` (dials that the scene fixes).
+value), `largest` (by kind, where the error is largest), `agrees_until_s` (where the run parts from
+the finer one), and of all rows `start_s`, `end_s`, `reference`, `same` (dials that the scene
+fixes).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from contact_sim_pkg.compare.first_look import FirstLook, Request, cheapest_for, first_look
+from contact_sim_pkg.compare.judgement import Judgement
 from contact_sim_pkg.compare.sentences import MODEL, SAME_BITS, number_of
 from contact_sim_pkg.records.definitions import KINDS
 from contact_sim_pkg.records.table import Section
@@ -33,10 +35,10 @@ def rows_of(look: FirstLook) -> list[Row]:
     """Flat rows of one scene."""
     cheapest: dict[float, list[float]] = {}
     for request in look.requests:
-        found = cheapest_for(look.requests, request.asked)
+        found = cheapest_for(look.requests, request.requested)
         if found is not None:
-            cheapest.setdefault(found.asked, []).append(request.asked)
-    return [_row(look, request, cheapest.get(request.asked, [])) for request in look.requests]
+            cheapest.setdefault(found.requested, []).append(request.requested)
+    return [_row(look, request, cheapest.get(request.requested, [])) for request in look.requests]
 
 
 def sections(rows: list[Row]) -> list[Section]:
@@ -50,15 +52,18 @@ def sections(rows: list[Row]) -> list[Section]:
 def _row(look: FirstLook, request: Request, cheapest: list[float]) -> Row:
     return {
         "scene": look.scene,
-        "asked": request.asked,
+        "requested": request.requested,
         **{kind: request.errors.get(kind) for kind in KINDS},
         "estimated": request.estimated,
         "cpu_s_per_s": request.cost,
         "own": request.own,
-        "held": request.holds(request.asked),
+        "held": request.holds(request.requested),
         "cheapest_for": cheapest,
         "not_resolved": {
             f"{each.place} {lost.column}": lost.share for each in request.judgements for lost in each.unresolved
+        },
+        "largest": {
+            kind: _largest([each for each in request.judgements if each.kind == kind]) for kind in request.errors
         },
         "agrees_until_s": request.agrees_until,
         "start_s": look.start,
@@ -69,12 +74,18 @@ def _row(look: FirstLook, request: Request, cheapest: list[float]) -> Row:
     }
 
 
+def _largest(judgements: list[Judgement]) -> dict[str, Any]:
+    """Where the error of a kind is largest."""
+    worst = max(judgements, key=lambda each: each.error)
+    return {"place": worst.place, "column": worst.column, "time_s": worst.time}
+
+
 def _section(name: str, rows: list[Row]) -> Section:
     first = rows[0]
     lines = [
         {
-            "asked": number_of(row["asked"]),
-            **{kind: _error(row[kind], row["asked"]) for kind in KINDS},
+            "requested": number_of(row["requested"]),
+            **{kind: _error(row[kind], row["requested"]) for kind in KINDS},
             "estimated": "-" if row["estimated"] is None else number_of(row["estimated"]),
             "CPU s/s": f"{row['cpu_s_per_s']:.2g}",
             "": _marks(row),
@@ -87,7 +98,7 @@ def _section(name: str, rows: list[Row]) -> Section:
     note = (
         f"largest errors over the scale of their kind from {first['start_s']:g} to {first['end_s']:g} s, against the scene at "
         f"{number_of(first['reference'])} ({first['reference_cpu_s_per_s']:.2g} CPU s/s), itself only estimated; "
-        f"0: less than 1e-15; !: more than asked; {MODEL}"
+        f"0: less than 1e-15; !: more than requested; {MODEL}"
     )
     if not any(row[kind] for row in rows for kind in KINDS):
         note += f"; {SAME_BITS}"
@@ -96,10 +107,10 @@ def _section(name: str, rows: list[Row]) -> Section:
     return Section(name, lines, note)
 
 
-def _error(error: float | None, asked: float) -> str:
+def _error(error: float | None, requested: float) -> str:
     if error is None:
         return "-"
-    return number_of(error) + (" !" if error > asked else "")
+    return number_of(error) + (" !" if error > requested else "")
 
 
 def _marks(row: Row) -> str:

@@ -1,4 +1,4 @@
-"""A stretch of a scene: some of its blocks, run without a bag, for comparison."""
+"""A span of a scene: some of its blocks, run without a bag, for comparison."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from contact_sim_pkg.run.rigs import make_simulation, result_topics
 from contact_sim_pkg.run.sources import Source, make_sources
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["Notify", "Stretch", "StretchRun", "begins_later", "prepared", "run_stretch"]
+__all__ = ["Notify", "Span", "SpanRun", "begins_later", "prepared", "run_span"]
 
 Notify = Callable[[str], None]
 PERIOD = 2.0  # [s] between two lines of progress
 
 
-class Stretch(NamedTuple):
+class Span(NamedTuple):
     """Blocks of a scene."""
 
     first: int  # the run begins here
@@ -37,8 +37,8 @@ class Stretch(NamedTuple):
         return self.shown - self.first
 
 
-class StretchRun(NamedTuple):
-    """What a stretch of a scene came to."""
+class SpanRun(NamedTuple):
+    """What a span of a scene came to."""
 
     columns: dict[Key, Column]  # judged ones, without those of the lead-in
     outputs: list[Output]  # the same blocks, of topics with judged columns
@@ -77,38 +77,38 @@ def _reported(scene: ResolvedScene, notify: Notify, *, first: bool) -> Iterator[
         yield
 
 
-def run_stretch(
+def run_span(
     scene: ResolvedScene,
-    stretch: Stretch,
+    span: Span,
     notify: Notify,
     *,
     simulation: BlockSimulation | None = None,
     sources: Mapping[str, Source] | None = None,
     most_cpu: float = float("inf"),
-) -> StretchRun:
-    """Run the blocks of a stretch, fewer where they take more than ``most_cpu`` [s].
+) -> SpanRun:
+    """Run the blocks of a span, fewer where they take more than ``most_cpu`` [s].
 
     Raises RunError where the physics ends in a named failure.
     """
     simulation = simulation or prepared(scene, notify)
     sources = make_sources(scene) if sources is None else sources
     if isinstance(simulation, LaterStart):
-        simulation.begin_at(stretch.first)
+        simulation.begin_at(span.first)
     kept, costs = set(judged_topics(result_topics(scene))), []
     outputs: list[Output] = []
     cpu, said = 0.0, time.monotonic()
-    for block in range(stretch.first, stretch.end):
+    for block in range(span.first, span.end):
         inputs = {topic: source.block(block) for topic, source in sources.items()}
         began = time.process_time()
         result = simulation.advance(block, inputs)
         cpu += time.process_time() - began
         costs += [each.record for each in result.outputs if isinstance(each.record, SolverCost)]
-        if block >= stretch.shown:
+        if block >= span.shown:
             outputs += [each for each in result.outputs if each.topic in kept]
         if time.monotonic() - said > PERIOD:
             said = time.monotonic()
-            notify(f"  block {block + 1 - stretch.first} of {stretch.end - stretch.first}, {cpu:.0f} CPU s")
-        if cpu > most_cpu and block >= stretch.shown:
+            notify(f"  block {block + 1 - span.first} of {span.end - span.first}, {cpu:.0f} CPU s")
+        if cpu > most_cpu and block >= span.shown:
             break
-    done = block + 1 - stretch.first
-    return StretchRun(columns_of(outputs), outputs, costs, cpu, done)
+    done = block + 1 - span.first
+    return SpanRun(columns_of(outputs), outputs, costs, cpu, done)
