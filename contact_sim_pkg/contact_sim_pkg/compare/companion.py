@@ -5,11 +5,11 @@ Orders that are assumed when the error follows from the difference of the two:
 * time integration: the error is proportional to the tolerance, which is a hundredth: at a tenth a
   run whose steps end with its samples has the same bits,
 * coupling: second order in the step between two solutions of a field, which is half as long,
-* grid: second order in the cell, which is two thirds as long; contact area first order, since it
-  counts cells along the edge.
+* grid: second order in the cell, which is two thirds as long.
 
 The error of the companion is then a share of that of the scene, and the delivered error is the
-difference over (1 - share). Several dials act at once, so the largest share of them counts.
+difference over (1 - share). Where fields are coupled to bodies, the share of force and motion is
+that of the coupling, which rules their error; peak pressure and area have that of the grid.
 """
 
 from __future__ import annotations
@@ -71,12 +71,14 @@ def dials_of(data: dict[str, Any]) -> dict[str, Any]:
 
 def factor_of(kind: str, companion: Companion) -> float:
     """Delivered error over the difference of the two runs: 1 / (1 - share)."""
-    shares = [INTEGRATION]
-    if any("coupling" in dial for dial in companion.dials):
-        shares.append(LENGTH**2)
-    if companion.grid:
-        shares.append((1.0 / CELLS) if kind == "area" else (1.0 / CELLS) ** 2)
-    return 1.0 / (1.0 - max(shares))
+    coupled = any("coupling" in dial for dial in companion.dials)
+    if coupled and kind in ("force", "motion"):
+        share = LENGTH**2
+    elif companion.grid:
+        share = CELLS**-2
+    else:
+        share = LENGTH**2 if coupled else INTEGRATION
+    return 1.0 / (1.0 - share)
 
 
 def _dials(data: dict[str, Any], *, grid: bool) -> Iterator[tuple[str, Any]]:
