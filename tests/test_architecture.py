@@ -9,7 +9,8 @@ from tests.house.source import PACKAGE, circles, imports, modules
 ORDER = (
     ("files", "python_process", "requirements"),
     ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid", "reference"), ("excitation",),
-    ("scene",), ("bag",), ("run",), ("report",), ("rigs", "identify"), ("papers",), ("studies",), ("nodes",), ("cli",),
+    ("scene",), ("bag",), ("run",), ("compare",), ("report",), ("rigs", "identify"), ("papers",), ("studies",), ("nodes",),
+    ("cli",),
 )  # fmt: skip
 """A room imports from those before it, and from none beside it."""
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}

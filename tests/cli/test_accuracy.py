@@ -1,4 +1,4 @@
-"""`bench accuracy` with the name of a rig."""
+"""`bench accuracy` with the name of a rig, a scene or a bag, and `bench run --check`."""
 
 import json
 from dataclasses import replace
@@ -70,4 +70,41 @@ def test_a_scene_of_a_rig_that_is_not_measured_is_refused_with_the_way_out(monke
     without = {**rigs(), "backrest": replace(rigs()["backrest"], accuracy=())}
     monkeypatch.setattr(scene_study, "rigs", lambda: without)
     with pytest.raises(SceneError, match=r"not for backrest; compare runs with --set integrator\.relative_tolerance"):
-        CliRunner().invoke(command, ["seat_slap"], catch_exceptions=False)
+        CliRunner().invoke(command, ["seat_slap", "--parts"], catch_exceptions=False)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["tire", "--deep"], "--deep is for a scene, not for a rig"),
+        (["BAG", "--parts"], "--parts is for a scene, not for a bag"),
+        (["BAG", "--plot", "x.png"], "a bag has one accuracy and no picture of several"),
+        (["tire_bump", "--whole"], "--whole is for the bag of a recorded run"),
+        (["tire_bump", "--deep", "--parts"], "--parts has tables of its own"),
+        (["tire", "tire_bump"], "several names are scenes at first look; give tire alone"),
+        (["nowhere/bag.mcap"], "cannot be opened"),
+    ],
+)
+def test_an_option_without_a_meaning_is_refused_before_the_work(capsys, tmp_path, arguments, said):
+    named = [str(tmp_path) if argument == "BAG" else argument for argument in arguments]
+    assert main(["accuracy", *named]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_check_needs_a_recording(capsys):
+    assert main(["run", "block_slope", "--offline", "--no-record", "--check"]) == 2
+    assert "--check compares the bag with a finer run" in capsys.readouterr().err
+
+
+def test_a_run_and_its_bag_are_checked_alike(capsys, tmp_path):
+    bag = tmp_path / "bag"
+    arguments = ["run", "block_slope", "--offline", "--duration", "0.1", "--out", str(bag)]
+    assert main([*arguments, "--check", "--json"]) == 0
+    check = json.loads(capsys.readouterr().out)["check"]
+    assert main(["accuracy", str(bag), "--json"]) == 0
+    again = json.loads(capsys.readouterr().out)
+    assert check["requested"] == 1e-3
+    assert {row["kind"] for row in check["delivered"]} == {"force", "motion"}
+    assert again["delivered"] == check["delivered"]
+    assert main(["accuracy", str(bag)]) == 0
+    assert "block force: requested 1e-3, delivered " in capsys.readouterr().out

@@ -55,6 +55,7 @@ COMMANDS = {
     "recover": lambda bag, tmp_path: ["recover", bag, tmp_path / "recovered"],
     "identify": lambda bag, tmp_path: ["identify", bag, "--sphere", "1"],
     "material": lambda bag, tmp_path: ["material", bag],
+    "accuracy": lambda bag, tmp_path: ["accuracy", bag],
 }  # fmt: skip
 
 

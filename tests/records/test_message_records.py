@@ -79,3 +79,34 @@ def test_what_tools_see_is_made_from_the_definitions_of_today():
 
 def test_standard_definitions_have_a_record_each():
     assert all(hasattr(messages, name.rpartition("/")[2]) for name in STANDARD)
+
+
+def test_a_column_says_its_kind_and_other_columns_have_none():
+    fields = {field.name: field for field in definition_of("AxleForce").fields}
+    assert fields["longitudinal"].kind == "force"
+    assert fields["longitudinal"].unit == "N"
+    assert fields["moment_z"].kind == ""
+    assert {field.name: field.kind for field in definition_of("ContactPatch").fields if field.kind} == {
+        "peak": "peak",
+        "area": "area",
+    }
+
+
+def test_a_kind_leaves_the_sides_of_an_array_as_they_are():
+    position = next(field for field in definition_of("BodyMotion").fields if field.name == "position")
+    assert position.shape == ("bodies", "samples")
+    text = "float64[] time\nfloat64[] load # [N] of the contact; length time; kind force\n"
+    assert parsed("mine/msg/Mine", text).fields[1].shape == ("time",)
+
+
+def test_an_unknown_kind_is_refused():
+    with pytest.raises(ValueError, match="load: kind 'forces' is none of force, motion, peak, area"):
+        parsed("mine/msg/Mine", "float64 load # [N] of the contact; kind forces\n")
+
+
+def test_an_array_with_a_kind_has_samples():
+    """Values of two runs are compared at the same instants."""
+    for name in texts():
+        definition = definition_of(name.rpartition("/")[2])
+        judged = [field for field in definition.record_fields if field.kind and field.is_array]
+        assert not judged or {"sample_period", "period"} & {field.name for field in definition.fields}

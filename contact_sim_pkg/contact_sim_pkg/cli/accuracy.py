@@ -1,4 +1,4 @@
-"""`bench accuracy`: error beside time, on this machine."""
+"""`bench accuracy`: what accuracy costs, and what was delivered, on this machine."""
 
 from __future__ import annotations
 
@@ -6,38 +6,100 @@ from pathlib import Path
 
 import click
 
-from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json_rows, show_sections
+from contact_sim_pkg.cli.output.tables import (
+    json_option,
+    overwrite_option,
+    print_json,
+    print_json_rows,
+    show_sections,
+)
 
 
 @click.command("accuracy")
-@click.argument("what", metavar="SCENE|RIG")
+@click.argument("names", metavar="SCENE...|BAG|RIG", nargs=-1, required=True)
 @click.option(
-    "--plot", type=click.Path(path_type=Path), metavar="FILE", help="Error over time, both logarithmic, as a picture."
+    "--plot",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Of a scene or a rig: error over time, as a picture.",
 )
+@click.option("--deep", is_flag=True, help="Of a scene: 1e-4 as well, against 3e-5.")
+@click.option("--parts", is_flag=True, help="Of a scene: tables of each tolerance, grid and level instead.")
+@click.option("--whole", is_flag=True, help="Of a bag: the whole run in place of windows of 0.2 s.")
 @overwrite_option
 @json_option
-def command(what: str, plot: Path | None, overwrite: bool, as_json: bool) -> None:
-    """Error against a reference beside time, for each method (work-precision study).
+def command(
+    names: tuple[str, ...], plot: Path | None, deep: bool, parts: bool, whole: bool, overwrite: bool, as_json: bool
+) -> None:
+    """What accuracy costs in time, and what was delivered.
 
-    SCENE, a name or a path: each fidelity level, tolerance and grid. RIG (tire, seat, block,
-    impact, roller): each quantity of its contact by inexpensive and expensive formulas, on the same
-    input. For a file named like a rig write ./NAME.
+    SCENE, a name or a path, or several: the scene at 1e-1, 1e-2, 1e-3 against one finer run. BAG, the directory
+    of a recorded run: that run against a finer one. RIG (tire, seat, block, impact, roller): each
+    quantity of its contact by inexpensive and expensive formulas, on the same input. For a file
+    named like a rig write ./NAME.
     """
-    from contact_sim_pkg.report.drawing import check_picture
-    from contact_sim_pkg.studies.accuracy import work_precision
+    from contact_sim_pkg.studies.accuracy.work_precision import measured_rigs
 
+    what, rig = names[0], names[0] in measured_rigs()
+    bag = _is_bag(Path(what)) and not rig
+    _refuse_options(deep=deep, parts=parts, whole=whole, plot=plot, bag=bag, rig=rig)
+    if len(names) > 1 and (rig or bag or parts):
+        raise click.UsageError(f"several names are scenes at first look; give {what} alone")
     if plot is not None:
-        check_picture(plot, [Path(what)], overwrite=overwrite)
-    if what in work_precision.measured_rigs():
-        from contact_sim_pkg.studies.accuracy import work_precision_plot, work_precision_table
+        from contact_sim_pkg.report.drawing import check_picture
 
-        rows = work_precision.study(what, _tell)
-        draw, sections = work_precision_plot.write_plot, work_precision_table.sections
+        check_picture(plot, [Path(name) for name in names], overwrite=overwrite)
+    if bag:
+        _check(Path(what), whole=whole, as_json=as_json)
     else:
+        _study(names, plot, "rig" if rig else "parts" if parts else "", deep=deep, overwrite=overwrite, as_json=as_json)
+
+
+def _is_bag(path: Path) -> bool:
+    """Whether a path is a recording: a directory, or an MCAP file."""
+    return path.is_dir() or path.suffix == ".mcap"
+
+
+def _refuse_options(*, deep: bool, parts: bool, whole: bool, plot: Path | None, bag: bool, rig: bool) -> None:
+    """Raise UsageError for an option that has no meaning beside the others."""
+    if whole and not bag:
+        raise click.UsageError("--whole is for the bag of a recorded run; a scene has a span round its event")
+    if (deep or parts) and (bag or rig):
+        raise click.UsageError(f"--{'deep' if deep else 'parts'} is for a scene, not for a {'bag' if bag else 'rig'}")
+    if deep and parts:
+        raise click.UsageError("--parts has tables of its own; leave --deep out")
+    if plot is not None and bag:
+        raise click.UsageError("a bag has one accuracy and no picture of several; leave --plot out")
+
+
+def _check(path: Path, *, whole: bool, as_json: bool) -> None:
+    from contact_sim_pkg.cli.output.checked import check_of_bag, facts_of_check, lines_of_check
+
+    check = check_of_bag(path, whole=whole)
+    if as_json:
+        print_json(facts_of_check(check)["check"])
+    else:
+        for line in lines_of_check(check):
+            click.echo(line)
+
+
+def _study(names: tuple[str, ...], plot: Path | None, kind: str, *, deep: bool, overwrite: bool, as_json: bool) -> None:
+    """A study of scenes at first look, of the parts of one, or of a rig."""
+    if kind == "rig":
+        from contact_sim_pkg.studies.accuracy import work_precision, work_precision_plot, work_precision_table
+
+        rows = work_precision.study(names[0], _tell)
+        draw, sections = work_precision_plot.write_plot, work_precision_table.sections
+    elif kind == "parts":
         from contact_sim_pkg.studies.accuracy import scene_study
 
-        rows = scene_study.study(what, _tell)
+        rows = scene_study.study(names[0], _tell)
         draw, sections = scene_study.write_plot, scene_study.sections
+    else:
+        from contact_sim_pkg.studies.accuracy import first_look_table
+
+        rows = first_look_table.study(names, _tell, deep=deep)
+        draw, sections = first_look_table.write_plot, first_look_table.sections
     if as_json:
         print_json_rows(rows)
     else:

@@ -30,6 +30,7 @@ from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
     "--strict", is_flag=True, help="End with status 1 where an estimated numerical error is above the requested accuracy."
 )
 @click.option("--no-record", is_flag=True, help="Write no bag; the summary is then empty.")
+@click.option("--check", is_flag=True, help="Then check the accuracy that was delivered, as `bench accuracy BAG`.")
 @json_option
 @click.pass_context
 def command(
@@ -42,6 +43,7 @@ def command(
     allow_long: bool,
     strict: bool,
     no_record: bool,
+    check: bool,
     as_json: bool,
 ) -> None:
     """Run SCENE (a name or a YAML file), record it and report its outcome."""
@@ -49,6 +51,10 @@ def command(
         raise click.UsageError(f"--out {out} names a bag and --no-record writes none; leave one of them out")
     if no_record and strict:
         raise click.UsageError("--strict needs the estimates in the bag, and --no-record writes none; leave one of them out")
+    if no_record and check:
+        raise click.UsageError(
+            "--check compares the bag with a finer run and --no-record writes none; leave one of them out"
+        )
     from contact_sim_pkg.cli.run_scene import run_scene
 
     status = run_scene(
@@ -58,6 +64,7 @@ def command(
         from_bag=from_bag,
         clock=clock,
         record=not no_record,
+        check=check,
         as_json=as_json,
         allow_long=allow_long,
         strict=strict,

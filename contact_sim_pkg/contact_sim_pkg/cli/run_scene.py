@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 from contact_sim_pkg.bag.names import new_directory
 from contact_sim_pkg.cli.main import BEGAN
+from contact_sim_pkg.cli.output.checked import check_of_run, facts_of_check, lines_of_check
 from contact_sim_pkg.cli.output.outcome import describe, print_outcome, state_of
 from contact_sim_pkg.cli.output.progress import RunDisplay
 from contact_sim_pkg.cli.output.tables import print_json
@@ -78,6 +79,7 @@ def run_scene(
     from_bag: Path | None,
     clock: bool,
     record: bool,
+    check: bool,
     as_json: bool,
     allow_long: bool,
     strict: bool = False,
@@ -102,7 +104,7 @@ def run_scene(
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
     with RunDisplay(scene.duration) as display:
         ended = run(scene, directory, from_bag, display)
-    status = _report_outcome(scene, ended, forecast, as_json=as_json, strict=strict)
+    status = _report_outcome(scene, ended, forecast, check=check, as_json=as_json, strict=strict)
     # compiled code that does not return would keep the interpreter from ending
     if ended.computes_on:
         sys.stdout.flush()
@@ -112,7 +114,7 @@ def run_scene(
 
 
 def _report_outcome(
-    scene: ResolvedScene, ended: RunEnd, forecast: dict[str, Any], *, as_json: bool, strict: bool
+    scene: ResolvedScene, ended: RunEnd, forecast: dict[str, Any], *, check: bool, as_json: bool, strict: bool
 ) -> int:
     """Report the outcome of a run; returns the exit status."""
     if ended.failure:
@@ -123,10 +125,11 @@ def _report_outcome(
     # the recording is read for its summary
     with RunDisplay(1.0, "summing up"):
         facts = describe(scene, ended) | forecast
+    checked = check_of_run(scene, ended) if check else None
     if as_json:
-        print_json(facts)
+        print_json(facts | facts_of_check(checked))
     else:
-        print_outcome(facts, ended)
+        print_outcome(facts, ended, lines_of_check(checked))
     if hint:
         print(f"bench: {hint}", file=sys.stderr)
     return ended.exit_status or int(strict and _is_inaccurate(facts))

@@ -5,7 +5,9 @@ count:
 
 * `row-major, A x B`, or `length A`: the fields A and B are its sides; a number is the size of a
   side, an array is as long as the side,
-* `empty without`: the array may be empty, and is where it is not given.
+* `empty without`: the array may be empty, and is where it is not given,
+* `; kind K` at the end: what a requested accuracy bounds there, K one of `KINDS`; a column without
+  is not judged. Of an array it needs the field `sample_period` or `period`.
 
 Arrays without such sides, which are not a side themselves, have one length in a message.
 """
@@ -41,6 +43,11 @@ STANDARD = {
 _CONSTANT = re.compile(r"^\w+ +(?P<name>[A-Z]\w*) *= *(?P<value>-?\d+)$")
 _FIELD = re.compile(r"^(?P<type>[\w/]+)(?P<array>\[\])? +(?P<name>[a-z]\w*)(?: +(?P<default>\S+))?$")
 _SHAPE = re.compile(r"\brow-major, (\w+ x \w+)|\blength (\w+)$")
+_KIND = re.compile(r"; kind (\w+)$")
+_UNIT = re.compile(r"\[([^\],]+)")
+
+KINDS = ("force", "motion", "peak", "area")
+"""What `accuracy` bounds: contact forces, motion of bodies, peak pressure, contact area."""
 
 
 class Field(NamedTuple):
@@ -53,6 +60,13 @@ class Field(NamedTuple):
     shape: tuple[str, ...]  # of an array: the fields with its sides; empty where none is stated
     may_be_empty: bool
     comment: str
+    kind: str = ""  # one of `KINDS`; empty: not judged
+
+    @property
+    def unit(self) -> str:
+        """In the first brackets of the comment, such as `m/s^2`; empty where there are none."""
+        found = _UNIT.search(self.comment)
+        return found[1] if found else ""
 
     @property
     def has_default(self) -> bool:
@@ -126,7 +140,7 @@ def definition_of(name: str) -> Definition:
 def parsed(type_name: str, text: str) -> Definition:
     """Definition in the text of a `.msg` file.
 
-    Raises ValueError where a line is neither field nor constant.
+    Raises ValueError where a line is neither field nor constant, or a kind is unknown.
     """
     constants: dict[str, int] = {}
     fields: list[Field] = []
@@ -147,9 +161,17 @@ def parsed(type_name: str, text: str) -> Definition:
 
 
 def _field(found: re.Match[str], comment: str) -> Field:
-    shape, given = _SHAPE.search(comment), found["default"]
+    kind = _kind(found["name"], comment)
+    shape, given = _SHAPE.search(_KIND.sub("", comment)), found["default"]
     default: Any = None if given is None else float(given) if found["type"].startswith("float") else int(given)
     sides = tuple((shape[1] or shape[2]).split(" x ")) if shape else ()
     return Field(
-        found["name"], found["type"], bool(found["array"]), default, sides, "empty without" in comment, comment
+        found["name"], found["type"], bool(found["array"]), default, sides, "empty without" in comment, comment, kind
     )
+
+
+def _kind(name: str, comment: str) -> str:
+    found = _KIND.search(comment)
+    if found and found[1] not in KINDS:
+        raise ValueError(f"{name}: kind {found[1]!r} is none of {', '.join(KINDS)}")
+    return found[1] if found else ""

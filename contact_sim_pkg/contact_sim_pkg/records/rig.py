@@ -9,11 +9,30 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any
+from typing import Any, NamedTuple
 
 from contact_sim_pkg.records.contact import Contact
 
-__all__ = ["Rig", "load"]
+__all__ = ["Rig", "Standing", "TouchedBody", "load"]
+
+
+class TouchedBody(NamedTuple):
+    """A coordinate of a body that a contact acts on."""
+
+    contact: str
+    mass: float  # [kg]
+
+
+class Standing(NamedTuple):
+    """Loads and masses of a scene.
+
+    Attributes:
+        loads: [N] of each contact at rest, by its name; those that rest on none are left out.
+        bodies: by coordinate of `bench/motion`; bodies that no contact touches are left out.
+    """
+
+    loads: Mapping[str, float]
+    bodies: Mapping[str, TouchedBody]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +70,8 @@ class Rig:
             before the run; empty: nothing.
         rules: ``module:function`` of rules between keys of its contacts, each a scene -> its
             breaches.
+        standing: ``module:function`` of the plain data of a resolved scene -> `Standing`:
+            scales of its errors; empty: unknown, and nothing rests on a contact.
         kernels: about how many kernels its richest scene compiles at its first start; 0: unknown.
     """
 
@@ -74,6 +95,7 @@ class Rig:
     scenes: Mapping[str, int] = field(default_factory=dict)
     forecast: str = ""
     rules: tuple[str, ...] = ()
+    standing: str = ""
     kernels: int = 0
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -95,9 +96,9 @@ def _summary(bag: Path, *, lossy: bool) -> dict[str, Any]:
         return {}  # the loss was named already
 
 
-def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
-    """A few lines for a person, the path of the bag last; on standard error the findings in the
-    excitation.
+def print_outcome(facts: dict[str, Any], outcome: Outcome, checked: Iterable[str] = ()) -> None:
+    """A few lines for a person, those of a check among them, the path of the bag last; on standard
+    error the findings in the excitation.
     """
     for topic, description in facts["excitation"].items():
         for note in description.get("notes", []):
@@ -119,6 +120,8 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
         click.echo(f"  warning: {warning}")
     if "messages" in summary:
         click.echo(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")
+    for line in checked:
+        click.echo(f"  {line}")
     if facts["bag"] is not None:
         click.echo(f"bag: {facts['bag']}")
 

@@ -1,7 +1,9 @@
 """Back against a seat back: one mass or a shell with contact points. Rig backrest."""
 
+from typing import Any
+
 from contact_sim_pkg.records.contact import Contact
-from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.records.rig import Rig, Standing, TouchedBody
 from contact_sim_pkg.records.topic import FORCE, PATCH, POINTS, WRENCH
 from contact_sim_pkg.rigs.backrest.effects import BACKREST_EFFECTS
 
@@ -17,6 +19,16 @@ BACKREST = Contact(
     topics=(FORCE, WRENCH, PATCH, POINTS),
 )
 
+
+def standing(scene: dict[str, Any]) -> Standing:
+    """Preload and mass of the back of a resolved scene's plain data; a shell has modes."""
+    back = scene["backrest"]
+    shell = scene["effects"]["backrest"].get("shell_modes") is not None
+    return Standing(
+        {"backrest": back["preload"]}, {} if shell else {"occupant_x": TouchedBody("backrest", back["mass"])}
+    )
+
+
 RIGS = (
     Rig(
         name="backrest",
@@ -26,6 +38,7 @@ RIGS = (
         needs=("vibration",),
         scenes={"seat_slap": 12, "seat_slip": 13, "seat_shock": 14, "seat_general": 15},
         simulation=f"{__name__}.simulation:BackrestSimulation",
+        standing=f"{__name__}:standing",
         work=f"{__name__}.work:work_of_backrest",
         report=(f"{__name__}.report:BACKREST_REPORT",),
         unused_axes=lambda _effects: "z",

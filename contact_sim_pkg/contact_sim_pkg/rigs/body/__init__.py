@@ -1,7 +1,9 @@
 """Rigid body on the ground with friction. Rig block."""
 
+from typing import Any
+
 from contact_sim_pkg.records.contact import LOOSEST_INTEGRATION, Contact
-from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.records.rig import Rig, Standing, TouchedBody
 from contact_sim_pkg.records.topic import FORCE, POINTS, WRENCH
 from contact_sim_pkg.rigs.body.effects import BLOCK_EFFECTS
 
@@ -25,6 +27,16 @@ BLOCK = Contact(
     ),
 )
 
+
+def standing(scene: dict[str, Any]) -> Standing:
+    """Weight and mass of the body of a resolved scene's plain data."""
+    block = scene["block"]
+    touched = TouchedBody("block", block["mass"])
+    return Standing(
+        {"block": block["mass"] * block["gravity"]}, dict.fromkeys(("block_x", "block_y", "block_z"), touched)
+    )
+
+
 RIGS = (
     Rig(
         name="block",
@@ -40,6 +52,7 @@ RIGS = (
             "box_3d_tumble": 6,
         },
         simulation=f"{__name__}.simulation:BlockBodySimulation",
+        standing=f"{__name__}:standing",
         other_half=f"{__name__}.simulation:warm_up_solvers",
         work=f"{__name__}.work:work_of_block",
         report=(f"{__name__}.report:BLOCK_REPORT",),

@@ -1,7 +1,9 @@
 """Sphere that strikes a viscoelastic sample: drop tower and pendulum. Rig impact."""
 
+from typing import Any
+
 from contact_sim_pkg.records.contact import Contact
-from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.records.rig import Rig, Standing, TouchedBody
 from contact_sim_pkg.records.topic import FORCE, WRENCH, ContactTopic
 from contact_sim_pkg.rigs.impact.effects import IMPACT_EFFECTS
 
@@ -29,6 +31,14 @@ IMPACT = Contact(
     ),
 )
 
+
+def standing(scene: dict[str, Any]) -> Standing:
+    """Weight and mass of the sphere of a resolved scene's plain data."""
+    sphere = scene["impact"]
+    load = sphere["mass"] * sphere["gravity"]
+    return Standing({"impact": load}, {"sphere_z": TouchedBody("impact", sphere["mass"])})
+
+
 RIGS = (
     Rig(
         name="impact",
@@ -36,6 +46,7 @@ RIGS = (
         contacts=(IMPACT,),
         scenes={"impact_rubber_drop": 18, "impact_pendulum": 19, "impact_steel": 20, "impact_temperature_sweep": 21},
         simulation=f"{__name__}.simulation:ImpactSimulation",
+        standing=f"{__name__}:standing",
         report=(f"{__name__}.report:IMPACT_REPORT",),
         accuracy=(f"{__name__}.studies.accuracy",),
         work_precision=tuple(

@@ -3,8 +3,10 @@
 Rig roller.
 """
 
+from typing import Any
+
 from contact_sim_pkg.records.contact import Contact
-from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.records.rig import Rig, Standing, TouchedBody
 from contact_sim_pkg.records.topic import BLOCK, FORCE, ContactTopic
 from contact_sim_pkg.rigs.roller.effects import ROLLER_EFFECTS
 
@@ -30,6 +32,12 @@ ROLLER = Contact(
     ),
 )
 
+
+def standing(scene: dict[str, Any]) -> Standing:
+    """Mass of the roller of a resolved scene's plain data; its load is a programme."""
+    return Standing({}, {"roller_z": TouchedBody("roller", scene["roller"]["mass"])})
+
+
 RIGS = (
     Rig(
         name="roller",
@@ -45,6 +53,7 @@ RIGS = (
             "roller_programme": 11,
         },
         simulation=f"{__name__}.simulation:RollerSimulation",
+        standing=f"{__name__}:standing",
         work=f"{__name__}.work:work_of_roller",
         report=(f"{__name__}.report:ROLLER_REPORT",),
         accuracy=(f"{__name__}.studies.accuracy",),

@@ -47,6 +47,7 @@ _OTHER_HALF = f"{__name__}.other_half:compile_all_but_fields"
 _ACCURACY = (f"{__name__}.studies.accuracy",)
 _TIRE_REPORT, _SEAT_REPORT = f"{__name__}.tire.report:TIRE_REPORT", f"{__name__}.seat.report:SEAT_REPORT"
 _ROAD_STRIP = f"{__name__}.lattice:road_strip"
+_STANDING = f"{__name__}.lattice:standing"
 
 RIGS = (
     Rig(
@@ -70,6 +71,7 @@ RIGS = (
         work=f"{__name__}.work:work_of_tire",
         report=(_TIRE_REPORT,),
         road_strip=_ROAD_STRIP,
+        standing=_STANDING,
         accuracy=_ACCURACY,
         work_precision=tuple(
             f"{__name__}.studies.work_precision.{name}"
@@ -93,6 +95,7 @@ RIGS = (
         report=(_SEAT_REPORT,),
         unused_axes=lambda effects: "x" if effects["seat"].get("friction") is None else "",
         validation=tuple(f"{__name__}.studies.validation_{name}" for name in ("occupant", "seat")),
+        standing=_STANDING,
         accuracy=_ACCURACY,
         hard_cases=(f"{__name__}.studies.hard_cases.cushion",),
         work_precision=(
@@ -116,6 +119,7 @@ RIGS = (
         work=f"{__name__}.work:work_of_car",
         report=(_TIRE_REPORT, _SEAT_REPORT),
         road_strip=_ROAD_STRIP,
+        standing=_STANDING,
         accuracy=_ACCURACY,
         goals=(f"{__name__}.studies.goals",),
     ),

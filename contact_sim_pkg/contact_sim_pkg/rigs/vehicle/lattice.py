@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from contact_sim_pkg.excitation.blocks import RoadLattice
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt, widened
 from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.records.rig import Standing, TouchedBody
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, tire_body
 from contact_sim_pkg.scene.resolved_scene import plain
 
@@ -92,6 +93,23 @@ def plain_load(scene: dict[str, Any]) -> float:
     """
     occupant = plain(scene["seat"]["occupant"]) if scene["rig"] == "car" else None
     return standing_load(plain(scene["tire"]), occupant)
+
+
+def standing(scene: dict[str, Any]) -> Standing:
+    """Loads and masses of a resolved scene's plain data: wheel, belt, frame of the occupant."""
+    loads, bodies = {}, {}
+    if scene["rig"] in ("tire", "car"):
+        loads["tire"] = plain_load(scene)
+        bodies["wheel_z"] = TouchedBody("tire", plain(scene["tire"]).wheel_mass)
+        ring = plain(scene["effects"]["tire"].get("rigid_ring"))
+        if ring is not None:
+            bodies["belt_z"] = TouchedBody("tire", ring.belt_mass)
+    if scene["rig"] != "tire":
+        occupant = plain(scene["seat"]["occupant"])
+        loads["seat"] = occupant_mass(occupant) * GRAVITY
+        if occupant.frame_mass > 0.0:
+            bodies["seat_frame_z"] = TouchedBody("seat", occupant.frame_mass)
+    return Standing(loads, bodies)
 
 
 def plain_field(scene: dict[str, Any], body: TireBody) -> FieldSettings | None:

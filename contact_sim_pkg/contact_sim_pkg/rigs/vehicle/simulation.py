@@ -46,7 +46,7 @@ class Simulation:
         self.cautions = self._cautions()
         grids = self.model.tire_field
         self._has_edge = sharp_edge(scene, None if grids is None else grids.usual.settings) is not None
-        self._next_block = 0
+        self._first_block = self._next_block = 0
         self._reset()
 
     def _cautions(self) -> tuple[str, ...]:
@@ -85,6 +85,10 @@ class Simulation:
         self._next_block = 0
         self._coupling.reset()
 
+    def begin_at(self, block: int) -> None:
+        """Begin the run with a later block, standing on the road there. After `prepare`."""
+        self._first_block = self._next_block = block
+
     def _flat_patch(self) -> RoadPatch:
         geometry, travel = self.model.tire_geometry, self._travel
         assert geometry is not None
@@ -116,7 +120,7 @@ class Simulation:
         drive = block_drive(self.model, self._travel, block, inputs.get(ROAD), inputs.get(VIBRATION))
         coupling = self._coupling
         # The run starts from the standing state.
-        if block == 0:
+        if block == self._first_block:
             coupling.start(drive)
         coupling.bodies.work.counters[:] = 0.0
         for interval in range(self.model.timing.intervals):

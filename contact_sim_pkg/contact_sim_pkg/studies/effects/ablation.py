@@ -11,6 +11,7 @@ import statistics
 from collections.abc import Callable
 from typing import Any
 
+from contact_sim_pkg.compare.changes import changes_of
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.registry import rigs
@@ -19,7 +20,6 @@ from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, load_resolved, read_explicit
-from contact_sim_pkg.studies.effects.ablation_changes import changes_of
 from contact_sim_pkg.studies.effects.ablation_runs import Pair, paired
 
 __all__ = ["sections", "study"]
@@ -41,7 +41,7 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     `cost` (median difference of the pairs), `cost_noise` (half the range of these differences: a
     cost below it was not resolved), `cost_share` (`cost` over `cost_with`), `load_mean_change`
     and `load_rms_change` (relative, of the normal force), `changes` (of each output that the effect
-    feeds, the field that changes most: `ablation_changes`), `called_for` (`needed`, `not needed` or
+    feeds, the field that changes most: `compare.changes`), `called_for` (`needed`, `not needed` or
     `no rule`), `verdict` (`as it should be`, `on but not needed`, `off but needed`, `not
     available`, `carries the load`) and `why`. `progress` receives each phase as a sentence. Raises
     SceneError where the scene is wrong.

@@ -1,0 +1,1 @@
+"""Two runs of a scene beside each other: what an effect changes, what accuracy was delivered."""

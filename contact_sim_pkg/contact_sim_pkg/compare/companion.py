@@ -1,0 +1,109 @@
+"""The companion of a scene: the same scene with each dial one level finer.
+
+Orders that are assumed when the error follows from the difference of the two:
+
+* time integration: the error is proportional to the tolerance, which is a hundredth: at a tenth a
+  run whose steps end with its samples has the same bits,
+* coupling: second order in the step between two solutions of a field, which is half as long,
+* grid: second order in the cell, which is two thirds as long.
+
+The error of the companion is then a share of that of the scene, and the delivered error is the
+difference over (1 - share). Where fields are coupled to bodies, the share of force and motion is
+that of the coupling, which rules their error; peak pressure and area have that of the grid.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.records.registry import rigs
+from contact_sim_pkg.scene.overrides import set_value
+from contact_sim_pkg.scene.resolve import read_explicit
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.pressure_field import MOST_CELLS_A_SIDE
+
+__all__ = ["Companion", "companion_of", "dials_of", "factor_of", "integrated_finer"]
+
+INTEGRATION, COUPLING, LENGTH, CELLS, SOLVER = 0.01, 0.25, 0.5, 1.5, 0.1
+"""Factors on tolerance of the integration, tolerance and length of the coupling, cells a side,
+tolerance of the field.
+"""
+LEAST = {"relative_tolerance": 1e-13, "coupling_tolerance": 1e-8, "tolerance": 1e-12, "cell": 0.005}
+"""Bounds of the schema."""
+
+
+class Companion(NamedTuple):
+    """A finer scene, and which dials were turned."""
+
+    scene: ResolvedScene
+    dials: tuple[str, ...]  # keys that are finer
+    grid: bool  # whether grids are finer
+
+
+def companion_of(scene: ResolvedScene, *, grid: bool = True) -> Companion:
+    """The scene with each dial one level finer; without the ``grid`` fields keep their cells."""
+    values = dict(_dials(scene.data, grid=grid))
+    finer = read_explicit(
+        scene.to_yaml(), f"companion of {scene.name}", [set_value(f"{key}={value}") for key, value in values.items()]
+    )
+    cells = any(key.endswith((".rows", ".cell")) for key in values)
+    return Companion(ResolvedScene(finer, scene.files), tuple(values), cells)
+
+
+def integrated_finer(scene: ResolvedScene) -> ResolvedScene:
+    """The scene with the time integration alone one level finer."""
+    tolerance = max(LEAST["relative_tolerance"], INTEGRATION * scene.data["integrator"]["relative_tolerance"])
+    integrator = {**scene.data["integrator"], "relative_tolerance": tolerance}
+    return ResolvedScene({**scene.data, "integrator": integrator}, scene.files)
+
+
+def dials_of(data: dict[str, Any]) -> dict[str, Any]:
+    """Values of the dials in the plain data of a resolved scene, by dotted key."""
+    found = {}
+    for key in dict(_dials(data, grid=True)):
+        value: Any = data
+        for part in key.split("."):
+            value = value[part]
+        found[key] = value
+    return found
+
+
+def factor_of(kind: str, companion: Companion) -> float:
+    """Delivered error over the difference of the two runs: 1 / (1 - share)."""
+    coupled = any("coupling" in dial for dial in companion.dials)
+    if coupled and kind in ("force", "motion"):
+        share = LENGTH**2
+    elif companion.grid:
+        share = CELLS**-2
+    else:
+        share = LENGTH**2 if coupled else INTEGRATION
+    return 1.0 / (1.0 - share)
+
+
+def _dials(data: dict[str, Any], *, grid: bool) -> Iterator[tuple[str, Any]]:
+    """Dotted keys of the dials that the scene has, with their finer values."""
+    integrator = data["integrator"]
+    for key, factor in (
+        ("relative_tolerance", INTEGRATION), ("coupling_tolerance", COUPLING), ("coupling_length", LENGTH),
+    ):  # fmt: skip
+        if integrator.get(key) is not None:
+            finer = max(LEAST.get(key, 0.0), factor * integrator[key])
+            if finer < integrator[key]:
+                yield f"integrator.{key}", finer
+    for contact in rigs()[data["rig"]].contacts:
+        for effect, keys in (data["effects"].get(contact.name) or {}).items():
+            if keys is not None:
+                yield from _grid_dials(f"effects.{contact.name}.{effect}", keys, grid=grid)
+
+
+def _grid_dials(where: str, keys: dict[str, Any], *, grid: bool) -> Iterator[tuple[str, Any]]:
+    """Dials of an effect that is a pressure field or a cushion with a map."""
+    is_field = "rows" in keys and "corrector_passes" in keys
+    if is_field and keys["tolerance"] > LEAST["tolerance"]:
+        yield f"{where}.tolerance", max(LEAST["tolerance"], SOLVER * keys["tolerance"])
+    if grid and is_field:
+        for side in ("rows", "cols"):
+            yield f"{where}.{side}", min(MOST_CELLS_A_SIDE, 2 * round(0.5 * CELLS * keys[side]))
+    if grid and keys.get("cell") is not None and keys["cell"] > LEAST["cell"]:
+        yield f"{where}.cell", max(LEAST["cell"], round(keys["cell"] / CELLS, 6))

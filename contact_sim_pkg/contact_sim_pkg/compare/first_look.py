@@ -1,0 +1,185 @@
+"""What accuracy costs: a scene at several requests beside one finer run of the same span.
+
+The finer run is the scene at a tenth of the smallest request, its time integration one level finer
+still: that is tight at every request. Scales are those of the whole run, at the coarsest request.
+The span is 0.2 s round the event of the excitation where the rig can begin there, else the run
+from its start, shorter where the finer run would take long. Keys that the scene gives itself are
+the same in all runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from contact_sim_pkg.compare.columns import Column, Key
+from contact_sim_pkg.compare.companion import dials_of, integrated_finer
+from contact_sim_pkg.compare.judgement import (
+    Judgement,
+    Scale,
+    cell_of,
+    judged,
+    larger_scales,
+    largest_by_kind,
+    scales_of,
+    standing_of,
+)
+from contact_sim_pkg.compare.parting import parting_of, until
+from contact_sim_pkg.compare.span import Notify, Span, SpanRun, begins_later, prepared, run_span
+from contact_sim_pkg.compare.windows import event_block, span_round
+from contact_sim_pkg.records.messages import SolverCost
+from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.accuracy import requested
+
+__all__ = ["REQUESTS", "FirstLook", "Request", "cheapest_for", "first_look"]
+
+REQUESTS = (1e-1, 1e-2, 1e-3)
+REFERENCE, FINER = 1e-4, 0.3
+"""Request of the finer run, and its largest part of the smallest request that is judged."""
+DEEP, DEEP_REFERENCE = 1e-4, 3e-5
+FINEST = 1e-8  # that a scene may request
+MOST_CPU, MOST_SCALE_CPU = 30.0, 5.0  # [s] of the finer run, and of the run for the scales
+SHORT, REPEATS = 0.5, 3
+"""[s] of CPU below which a run is made so many times, and the least counts."""
+CHEAPER = 0.9
+"""Of the cost of a coarser run, from which on a finer one counts as cheaper."""
+ESTIMATES = ("force_error", "motion_error", "peak_error", "area_error")
+"""Columns of `bench/cost` with estimated errors over the scale, where it has them."""
+MOVED = ("force", "motion")  # kinds that decide what holds
+
+
+class Request(NamedTuple):
+    """A scene at one requested accuracy."""
+
+    requested: float
+    errors: dict[str, float]  # largest over the scale, by kind
+    judgements: tuple[Judgement, ...]
+    estimated: float | None
+    cost: float  # [CPU s] per simulated s
+    agrees_until: float | None  # [s] where it parts from the finer run for good
+    own: bool  # what the scene itself requests
+
+    def holds(self, request: float) -> bool:
+        """Whether force and motion are within a request."""
+        return all(self.errors.get(kind, 0.0) <= request for kind in MOVED)
+
+
+class FirstLook(NamedTuple):
+    """A scene at several requests."""
+
+    scene: str
+    requests: tuple[Request, ...]  # coarsest first
+    start: float  # [s]
+    end: float
+    reference: float  # request of the finer run
+    reference_cost: float  # [CPU s] per simulated s
+    same: tuple[str, ...]  # dials that are the same in all runs
+
+
+def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstLook:
+    """Run a scene, by name or path, at each request.
+
+    Raises SceneError where the scene is wrong, RunError where a run fails.
+    """
+    scene = load_resolved(scene_name)
+    own = requested(scene.accuracy)
+    requests = sorted({*REQUESTS, *((DEEP,) if deep else ()), own}, reverse=True)
+    finest = max(FINEST, min(DEEP_REFERENCE if deep else REFERENCE, FINER * requests[-1]))
+    notify(f"{scene.name}: {', '.join(f'{each:g}' for each in requests)} beside {finest:g}")
+    scenes = {each: scene if each == own else _at(scene_name, each) for each in requests}
+    finer, span = integrated_finer(_at(scene_name, finest)), _span_of(scene)
+    notify("kernels: compiled, or from the disk")
+    simulation = prepared(finer, notify, first=True)
+    notify(f"{scene.name} at {finest:g}: {_times(scene, span)}")
+    reference = run_span(finer, span, notify, simulation=simulation, most_cpu=MOST_CPU)
+    span = span._replace(end=span.first + reference.blocks)
+    scales = _scales(scene, reference)
+    if span.first:
+        notify(f"{scene.name} at {requests[0]:g}: the whole run, for the scales of its errors")
+        whole = Span(0, 0, round(scene.duration / scene.block_length))
+        scales = larger_scales(
+            scales, _scales(scene, run_span(scenes[requests[0]], whole, notify, most_cpu=MOST_SCALE_CPU))
+        )
+    rows = []
+    for each in requests:
+        notify(f"{scene.name} at {each:g}: {_times(scene, span)}")
+        run = _cheapest_run(scenes[each], span, notify)
+        rows.append(_request(each, run, reference.columns, scales, own=each == own, length=scene.block_length))
+    return FirstLook(
+        scene.name, tuple(rows), span.shown * scene.block_length, span.end * scene.block_length, finest,
+        _cost(reference, scene.block_length), _same([*scenes.values(), finer]),
+    )  # fmt: skip
+
+
+def cheapest_for(rows: Sequence[Request], request: float) -> Request | None:
+    """The least expensive run whose force and motion are within a request; None where none is."""
+    found: Request | None = None
+    for row in rows:
+        if row.holds(request) and (found is None or row.cost < CHEAPER * found.cost):
+            found = row
+    return found
+
+
+def _at(scene_name: str, accuracy: float) -> ResolvedScene:
+    return load_resolved(scene_name, f"accuracy={accuracy:g}")
+
+
+def _span_of(scene: ResolvedScene) -> Span:
+    """What is run: round the event where the rig can begin there, else from the start."""
+    blocks = round(scene.duration / scene.block_length)
+    sources = make_sources(scene)
+    if begins_later(scene) and sources:
+        return span_round(scene, event_block(sources, blocks), blocks)
+    return Span(0, 0, blocks)
+
+
+def _scales(scene: ResolvedScene, run: SpanRun) -> dict[Key, Scale]:
+    return scales_of(run.columns, standing_of(scene), cell_of(run.outputs))
+
+
+def _times(scene: ResolvedScene, span: Span) -> str:
+    return f"{span.shown * scene.block_length:g} to {span.end * scene.block_length:g} s"
+
+
+def _cheapest_run(scene: ResolvedScene, span: Span, notify: Notify) -> SpanRun:
+    """A run, repeated where it is so short that its cost is uncertain."""
+    run = run_span(scene, span, notify)
+    repeats = REPEATS - 1 if run.cpu < SHORT else 0
+    cpu = min([run.cpu, *(run_span(scene, span, notify).cpu for _ in range(repeats))])
+    return run._replace(cpu=cpu)
+
+
+def _request(
+    requested: float,
+    run: SpanRun,
+    finer: Mapping[Key, Column],
+    scales: Mapping[Key, Scale],
+    *,
+    own: bool,
+    length: float,
+) -> Request:
+    parting = parting_of(run.columns, finer, scales, requested)
+    columns = run.columns if parting is None else until(run.columns, parting.time)
+    judgements = judged(columns, finer, scales)
+    return Request(
+        requested, largest_by_kind(judgements), tuple(judgements), _estimated(run.costs), _cost(run, length),
+        None if parting is None else parting.time, own,
+    )  # fmt: skip
+
+
+def _cost(run: SpanRun, length: float) -> float:
+    return run.cpu / (run.blocks * length)
+
+
+def _estimated(costs: Sequence[SolverCost]) -> float | None:
+    """Largest estimated error of the blocks; None where `bench/cost` has no column for it."""
+    names = [name for name in ESTIMATES if name in SolverCost._fields]
+    return max((float(getattr(cost, name)) for cost in costs for name in names), default=None)
+
+
+def _same(scenes: Sequence[ResolvedScene]) -> tuple[str, ...]:
+    """Dials with one value in all scenes."""
+    found = [dials_of(scene.data) for scene in scenes]
+    return tuple(key for key, value in found[0].items() if all(each.get(key) == value for each in found))

@@ -1,0 +1,98 @@
+"""Windows of a run in which its accuracy is checked: 0.2 s round the largest force, the shortest
+coupling step and the event of the excitation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.compare.columns import Column, Key
+from contact_sim_pkg.compare.span import Span
+from contact_sim_pkg.records.messages import RoadPatch, SolverCost, VibrationBlock
+from contact_sim_pkg.run.block_simulation import InputBlock
+from contact_sim_pkg.run.sources import Source
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+__all__ = ["LEAD", "LENGTH", "Window", "event_block", "from_the_start", "span_round", "windows_of"]
+
+LENGTH = 0.2  # [s]
+LEAD = 0.1  # [s] from standstill to the window
+MOST_LOOKS = 400
+"""Blocks of the excitation that are looked at for its event, at most."""
+NANOSECONDS = 1_000_000_000
+
+
+class Window(NamedTuple):
+    """A span of a run, and why it is checked."""
+
+    span: Span
+    reasons: tuple[str, ...]
+
+
+def windows_of(
+    scene: ResolvedScene, columns: Mapping[Key, Column], costs: Sequence[SolverCost], sources: Mapping[str, Source],
+    blocks: int,
+) -> list[Window]:  # fmt: skip
+    """Windows of a run of so many blocks, those of the same blocks as one, in order of time."""
+    places = {"largest force": _largest_force(scene, columns)}
+    if any(cost.stretches > 1 for cost in costs):
+        places["shortest coupling step"] = max(costs, key=lambda cost: cost.stretches).block
+    if sources:
+        places["event of the excitation"] = event_block(sources, blocks)
+    found: list[Window] = []
+    for reason, place in sorted(places.items(), key=lambda item: item[1]):
+        span = span_round(scene, place, blocks)
+        if found and span.shown < found[-1].span.end:  # overlaps: one longer window
+            last = found.pop()
+            span, before = last.span._replace(end=span.end), last.reasons
+            found.append(Window(span, (*before, reason)))
+        else:
+            found.append(Window(span, (reason,)))
+    return found
+
+
+def span_round(scene: ResolvedScene, block: int, blocks: int) -> Span:
+    """The window with a block in its middle, within a run of so many blocks, and its lead-in."""
+    length, lead = (max(1, round(seconds / scene.block_length)) for seconds in (LENGTH, LEAD))
+    shown = max(0, min(block - length // 2, blocks - length))
+    return Span(max(0, shown - lead), shown, min(blocks, shown + length))
+
+
+def from_the_start(windows: Iterable[Window]) -> list[Window]:
+    """One window from the start of the run to the end of the last: for a rig that begins nowhere
+    else.
+    """
+    windows = list(windows)
+    end = max(window.span.end for window in windows)
+    return [Window(Span(0, 0, end), ("from the start", *(each for window in windows for each in window.reasons)))]
+
+
+def event_block(sources: Mapping[str, Source], blocks: int) -> int:
+    """The block whose excitation is largest: the steepest road, else the largest acceleration."""
+    source = sources.get("road/patch") or next(iter(sources.values()))
+    looked = range(0, blocks, max(1, -(-blocks // MOST_LOOKS)))
+    return max(looked, key=lambda block: _size(source.block(block)))
+
+
+def _size(block: InputBlock) -> float:
+    """Largest slope [1] under the wheel centre, or largest acceleration [m/s^2], of a block."""
+    if isinstance(block, VibrationBlock):
+        return float(max(numpy.abs(block.acceleration_x).max(), numpy.abs(block.acceleration_z).max()))
+    assert isinstance(block, RoadPatch)
+    first, last = sorted((block.travel_start, block.travel_end))
+    low = max(0, int(first / block.cell_x) - block.first_row)
+    high = max(low + 2, int(last / block.cell_x) - block.first_row + 2)
+    return float(numpy.abs(numpy.diff(block.height[low:high], axis=0)).max(initial=0.0)) / block.cell_x
+
+
+def _largest_force(scene: ResolvedScene, columns: Mapping[Key, Column]) -> int:
+    """Block of the largest force component."""
+    forces = [column for column in columns.values() if column.kind == "force" and len(column.values)]
+    if not forces:
+        return 0
+    largest = max(forces, key=lambda column: float(numpy.abs(column.values).max()))
+    instant = largest.instants[int(numpy.argmax(numpy.abs(largest.values)))]
+    return int(instant) // round(scene.block_length * NANOSECONDS)

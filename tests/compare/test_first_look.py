@@ -1,0 +1,74 @@
+"""First look at the accuracy of a scene: its rows, marks and picture."""
+
+import pytest
+
+from contact_sim_pkg.compare.first_look import FirstLook, Request, cheapest_for, first_look
+from contact_sim_pkg.compare.judgement import Judgement, Unresolved
+from contact_sim_pkg.studies.accuracy.first_look_table import rows_of, sections, write_plot
+
+
+def request(requested, force, cost, *, own=False, unresolved=()):
+    return Request(
+        requested=requested,
+        errors={"force": force, "motion": 0.5 * force},
+        judgements=(
+            Judgement("tire", "force", force, "normal", 0.1, unresolved),
+            Judgement("wheel_z", "motion", 0.5 * force, "velocity", 0.1),
+        ),
+        estimated=None,
+        cost=cost,
+        agrees_until=None,
+        own=own,
+    )
+
+
+@pytest.fixture
+def look():
+    rows = (
+        request(1e-1, 3.8e-2, 0.2, unresolved=(Unresolved("axle longitudinal", 0.47),)),
+        request(1e-2, 1.2e-2, 0.28, own=True),
+        request(1e-3, 8e-4, 3.9),
+    )
+    return FirstLook("tire_rough_road", rows, 0.1, 0.3, 1e-4, 9.6, ())
+
+
+def test_the_cheapest_that_holds_is_marked(look):
+    """1.2e-2 does not hold 1e-2: the run at 1e-3 is the cheapest that does."""
+    assert [cheapest_for(look.requests, each).requested for each in (1e-1, 1e-2, 1e-3)] == [1e-1, 1e-3, 1e-3]
+    assert cheapest_for(look.requests, 1e-4) is None
+
+
+def test_a_finer_run_of_the_same_cost_is_not_cheaper():
+    rows = (request(1e-1, 1e-9, 0.065), request(1e-2, 1e-9, 0.064))
+    assert cheapest_for(rows, 1e-2) is rows[0]
+
+
+def test_the_table_has_a_line_a_request(look):
+    [section] = sections(rows_of(look))
+    assert [line["requested"] for line in section.rows] == ["1e-1", "1e-2", "1e-3"]
+    assert [line["force"] for line in section.rows] == ["3.8e-2", "1.2e-2 !", "8e-4"]
+    assert [line["peak"] for line in section.rows] == ["-", "-", "-"]
+    assert [line[""] for line in section.rows] == ["cheapest for 1e-1", "<- this scene", "cheapest for 1e-2, 1e-3"]
+    assert section.rows[0]["not resolved"] == "tire axle longitudinal (47 %)"
+    assert "from 0.1 to 0.3 s, against the scene at 1e-4" in section.note
+
+
+def test_the_picture_of_one_scene_and_of_two(look, tmp_path):
+    rows = rows_of(look)
+    for name, drawn in (("one.png", rows), ("two.png", [*rows, *({**row, "scene": "other"} for row in rows)])):
+        assert write_plot(drawn, tmp_path / name).stat().st_size > 10_000
+
+
+def test_a_scene_is_run_at_each_request_and_at_its_own(tmp_path):
+    lines = []
+    scene = tmp_path / "slope.yaml"
+    scene.write_text(
+        "rig: block\ndescription: slides\nduration: 0.1\naccuracy: 3e-3\nblock: {velocity: [1.0, 0.0, 0.0]}\n"
+        "effects: {block: {rigid_contact: {friction: 0.3, restitution: 0.0}}}\n"
+    )
+    look = first_look(str(scene), lines.append)
+    assert [each.requested for each in look.requests] == [1e-1, 1e-2, 3e-3, 1e-3]
+    assert [each.own for each in look.requests] == [False, False, True, False]
+    assert (look.start, look.end, look.reference) == (0.0, pytest.approx(0.1), 1e-4)
+    assert all(each.errors["motion"] < 1e-6 and each.cost > 0.0 for each in look.requests)
+    assert lines[0] == "slope: 0.1, 0.01, 0.003, 0.001 beside 0.0001"
