@@ -30,8 +30,14 @@ def _shaken_seat(friction, fore_aft=0.0, count=1500):
     scale[-2:] = numpy.inf
     work, mode = make_workspace(states, event_count(rig)), numpy.zeros(1, dtype=numpy.int64)
     samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
-    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None, (None, None))
-    assert entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, None, (None, None), 1, 0, *samples) == 0
+    straight = (None, None)
+    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None, straight)
+    assert (
+        entries.advance(
+            rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, None, (None, None), 1, 0, *samples
+        )
+        == 0
+    )
     return samples[0], samples[2]
 
 

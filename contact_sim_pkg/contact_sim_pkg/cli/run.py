@@ -27,7 +27,9 @@ from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
 )
 @click.option("--allow-long", is_flag=True, help="Run even if the estimate is above 10 min of computing.")
 @click.option(
-    "--strict", is_flag=True, help="End with status 1 where an estimated numerical error is above the requested accuracy."
+    "--strict",
+    is_flag=True,
+    help="End with status 1 where an estimated numerical error is above the requested accuracy.",
 )
 @click.option("--no-record", is_flag=True, help="Write no bag; the summary is then empty.")
 @click.option("--check", is_flag=True, help="Then check the accuracy that was delivered, as `bench accuracy BAG`.")
@@ -50,7 +52,9 @@ def command(
     if no_record and out is not None:
         raise click.UsageError(f"--out {out} names a bag and --no-record writes none; leave one of them out")
     if no_record and strict:
-        raise click.UsageError("--strict needs the estimates in the bag, and --no-record writes none; leave one of them out")
+        raise click.UsageError(
+            "--strict needs the estimates in the bag, and --no-record writes none; leave one of them out"
+        )
     if no_record and check:
         raise click.UsageError(
             "--check compares the bag with a finer run and --no-record writes none; leave one of them out"

@@ -136,10 +136,10 @@ def _report_outcome(
 
 
 def _is_inaccurate(facts: dict[str, Any]) -> bool:
-    from contact_sim_pkg.report.accuracy import is_above
+    from contact_sim_pkg.report.accuracy import above
 
     numbers = facts["summary"].get("accuracy")
-    return bool(numbers) and is_above(numbers)
+    return bool(numbers) and bool(above(numbers))
 
 
 def _leave_metadata(scene: ResolvedScene, ended: RunEnd) -> str:

@@ -13,7 +13,7 @@ from contact_sim_pkg.records.definitions import definition_of
 from contact_sim_pkg.report.series import Estimate, Recording
 from contact_sim_pkg.scene.schema.accuracy import requested
 
-__all__ = ["accuracy_lines", "accuracy_numbers", "is_above"]
+__all__ = ["above", "accuracy_lines", "accuracy_numbers", "short"]
 
 RESOLVED = 0.1
 """Error of a component of a force over its own largest value above which it is not resolved."""
@@ -31,7 +31,7 @@ def accuracy_numbers(recording: Recording) -> dict[str, Any]:
     asked = recording.scene.get("accuracy")
     if asked is None or not recording.contacts:
         return {}
-    types = {topic.name: topic.type.rpartition("/")[2] for topic in recording.topics}
+    types = {topic.name.lstrip("/"): topic.type.rpartition("/")[2] for topic in recording.topics}
     by_kind: dict[str, dict[str, list[Estimate]]] = {name: {"force": []} for name in recording.contacts}
     for name in recording.fields:
         by_kind.setdefault(name, {}).update({"peak": [], "area": []})
@@ -41,7 +41,7 @@ def accuracy_numbers(recording: Recording) -> dict[str, Any]:
     estimated = {
         contact: {kind: _over_scale(found) for kind, found in kinds.items()} for contact, kinds in by_kind.items()
     }
-    forces = [kinds["force"] for kinds in estimated.values() if kinds.get("force") is not None]
+    forces = [error for kinds in estimated.values() if (error := kinds.get("force")) is not None]
     if recording.motion is not None:
         estimated["motion"] = {"motion": max(forces) if forces else None}
     lost = {
@@ -51,31 +51,43 @@ def accuracy_numbers(recording: Recording) -> dict[str, Any]:
     return {"requested": requested(asked), "estimated": estimated, "not_resolved": lost}
 
 
-def is_above(numbers: dict[str, Any]) -> bool:
-    """Whether an estimated error is above the requested one."""
-    known = (error for kinds in numbers["estimated"].values() for error in kinds.values() if error is not None)
-    return any(error > numbers["requested"] for error in known)
+def above(numbers: dict[str, Any]) -> list[str]:
+    """What is estimated to err by more than requested, as ``tire force 1.4e-2``."""
+    return [
+        f"{_named(place, kind)} {short(error)}" for place, kinds in numbers["estimated"].items()
+        for kind, error in kinds.items() if error is not None and error > numbers["requested"]
+    ]  # fmt: skip
 
 
 def accuracy_lines(numbers: dict[str, Any]) -> list[str]:
     """A line for each contact, and for the motion: what was requested, what is estimated."""
     asked, lines = numbers["requested"], []
     for place, kinds in numbers["estimated"].items():
-        known = [f"{WORDS[kind]} {_said(error, asked)}" for kind, error in kinds.items() if error is not None]
-        unknown = [WORDS[kind] for kind, error in kinds.items() if error is None]
-        parts = [f"requested {asked:.0e}, estimated {', '.join(known)}"] if known else [f"requested {asked:.0e}"]
+        first, *others = kinds
+        parts = [f"{_named(place, first)}: requested {short(asked)}, {_said(kinds[first], asked)}"]
         parts += [
-            f"{column.partition('.')[2]} of {column.partition('.')[0]} not resolved ({100.0 * share:.0f} % of its own)"
+            f"{column.partition('.')[2]} not resolved ({100.0 * share:.0f} % of its own)"
             for column, share in numbers["not_resolved"].items() if column.startswith(f"{place}/")
         ]  # fmt: skip
-        if unknown:
-            parts.append(f"{' and '.join(unknown)} not estimated")
-        lines.append(f"{place}: {'; '.join(parts)}")
+        parts += [f"{WORDS[kind]}: {_said(kinds[kind], asked)}" for kind in others]
+        lines.append("; ".join(parts))
     return lines
 
 
-def _said(error: float, asked: float) -> str:
-    return f"{error:.1e}{' (above)' if error > asked else ''}"
+def short(number: float) -> str:
+    """A number in two digits, without zeros that say nothing: 1e-2, 1.4e-2."""
+    mantissa, _e, exponent = f"{number:.1e}".partition("e")
+    return f"{mantissa.removesuffix('.0')}e{int(exponent)}"
+
+
+def _named(place: str, kind: str) -> str:
+    return place if place == kind else f"{place} {WORDS[kind]}"
+
+
+def _said(error: float | None, asked: float) -> str:
+    if error is None:
+        return "not estimated"
+    return f"estimated {short(error)}{' (above)' if error > asked else ''}"
 
 
 def _kind_of(column: str, types: dict[str, str]) -> str:

@@ -29,9 +29,7 @@ def run(scene, duration, *sets):
     simulation.prepare()
     outputs = []
     for block in range(simulation.blocks):
-        outputs += simulation.advance(
-            block, {topic: source.block(block) for topic, source in sources.items()}
-        ).outputs
+        outputs += simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()}).outputs
     return outputs
 
 
@@ -43,7 +41,10 @@ def estimated(outputs, name):
     """Largest estimated error of a column."""
     costs = [each.record for each in outputs if each.topic == "bench/cost"]
     return max(
-        error for cost in costs for named, error in zip(cost.estimated, cost.estimated_error, strict=True) if named == name
+        error
+        for cost in costs
+        for named, error in zip(cost.estimated, cost.estimated_error, strict=True)
+        if named == name
     )
 
 
@@ -131,7 +132,9 @@ def test_an_edge_that_no_grid_resolves_has_no_estimate_of_its_peak():
     named = {name for each in sharp if each.topic == "bench/cost" for name in each.record.estimated}
     assert "tire/force.normal" in named
     assert "tire/patch.peak" not in named
-    cautions = Simulation(resolved("tire_bump", "road={kind: cleat, position: 3, height: 0.005, length: 0.05}")).cautions
+    cautions = Simulation(
+        resolved("tire_bump", "road={kind: cleat, position: 3, height: 0.005, length: 0.05}")
+    ).cautions
     assert any("not determined" in caution for caution in cautions)
     flanks = resolved("tire_bump", "road={kind: cleat, position: 3, height: 0.005, length: 0.05, edge: 0.02}")
     assert not Simulation(flanks).cautions

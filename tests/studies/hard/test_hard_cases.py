@@ -100,9 +100,13 @@ def test_friction_never_chatters_nor_passes_its_limit_while_the_seat_shakes_and_
     work, mode = make_workspace(7, event_count(rig)), numpy.zeros(1, dtype=numpy.int64)
     samples = (numpy.zeros((count, 7)), numpy.zeros((count, 7)), numpy.zeros((count, entries.FORCES)))
     scale = numpy.array([1e-2, 0.5, 1e-2, 0.5, 1e-2, numpy.inf, numpy.inf]) * 1e-6
-    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None, (None, None))
+    straight = (None, None)
+    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None, straight)
     assert (
-        entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, None, (None, None), 1, 0, *samples) == DONE
+        entries.advance(
+            rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, None, (None, None), 1, 0, *samples
+        )
+        == DONE
     )
     normal, tangential = samples[2][:, entries.SEAT_NORMAL], samples[2][:, entries.SEAT_TANGENTIAL]
     assert normal.min() >= 0.0

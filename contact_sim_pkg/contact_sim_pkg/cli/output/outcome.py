@@ -130,12 +130,12 @@ def _echo_accuracy(numbers: dict[str, Any] | None) -> None:
     """What was requested and what is estimated, the warning of it on standard error."""
     if not numbers:
         return
-    from contact_sim_pkg.report.accuracy import accuracy_lines, is_above
+    from contact_sim_pkg.report.accuracy import above, accuracy_lines, short
 
     for line in accuracy_lines(numbers):
-        click.echo(f"  accuracy of {line}")
-    if is_above(numbers):
-        click.echo("bench: an estimated error is above the requested accuracy", err=True)
+        click.echo(f"  {line}")
+    if beyond := above(numbers):
+        click.echo(f"bench: estimated above the requested {short(numbers['requested'])}: {', '.join(beyond)}", err=True)
 
 
 def _slap_line(slaps: dict[str, Any]) -> str:

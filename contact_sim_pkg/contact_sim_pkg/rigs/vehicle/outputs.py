@@ -139,9 +139,9 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
     )
     steps, rejected, events = (int(value) for value in record.counters)
     cost = solver_cost(
-        stamps, wall_time, _estimates(outputs, record.missed), steps=steps, rejected_steps=rejected, events=events, field_iterations=record.field_iterations,
-        field_residual=record.field_residual, field_jump=record.field_jump, stretches=record.stretches,
-        stretches_repeated=record.stretches_repeated, coupling_error=record.coupling_error,
+        stamps, wall_time, _estimates(outputs, record.missed), steps=steps, rejected_steps=rejected, events=events,
+        field_iterations=record.field_iterations, field_residual=record.field_residual, field_jump=record.field_jump,
+        stretches=record.stretches, stretches_repeated=record.stretches_repeated, coupling_error=record.coupling_error,
     )  # fmt: skip
     return [
         *outputs, Output("bench/motion", stamps.start, motion), Output("bench/energy", stamps.start, _ledger(record)),

@@ -156,7 +156,9 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     scale = numpy.array([1e-2, 0.5, 1e-2, 0.5, 1e-2, numpy.inf, numpy.inf]) * 1e-9
     before = numpy.array(entries.energies(rig, mode, state, 0.0, 0.0))
     entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None, (None, None))
-    status = entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, None, (None, None), 1, 0, *samples)
+    status = entries.advance(
+        rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, None, (None, None), 1, 0, *samples
+    )
     if status != DONE:
         raise ArithmeticError(f"status {status}")
     kinetic, potential, stored, supplied, dissipated = (

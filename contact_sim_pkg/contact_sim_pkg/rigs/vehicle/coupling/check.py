@@ -145,9 +145,10 @@ class Halved:
         cell, pressure, half = fine.cell_area, usual.pressure, self._field.pressure
         areas = numpy.count_nonzero(pressure) * cell, numpy.count_nonzero(half) * 4.0 * cell
         return Missed(
-            self._load_missed(self._field.load - usual.load) / HALVED, 0.0, abs(float(half.max()) - float(pressure.max())) / HALVED, abs(areas[0] - areas[1]) / HALVED
+            normal=self._load_missed(self._field.load - usual.load) / HALVED,
+            peak=abs(float(half.max()) - float(pressure.max())) / HALVED,
+            area=abs(areas[0] - areas[1]) / HALVED,
         )
-
 
     def _load_missed(self, more: float) -> float:
         """Error [N] of a force where this grid carries so much ``more`` [N] than the usual one: beside
@@ -245,5 +246,3 @@ def _missed(contact: Contact | None, approach: float, height: float, step: Coupl
     loss = contact.dissipative
     damping = loss.damping if isinstance(loss, NormalDissipative) else 0.0
     return Missed(normal + force * damping * EDGE_OF_RATE * abs(height) / step.duration)
-
-

@@ -32,8 +32,9 @@ def edge_cautions(scene: ResolvedScene, field: FieldSettings | None) -> tuple[st
     length = sharp_edge(scene, field)
     if length is None or field is None:
         return ()
-    return (
+    sentence = (
         f"tire: its peak pressure on the edge of the road is not determined: the edge is {1e3 * length:g} mm long, three cells "
         f"of effects.tire.contact_field are {1e3 * CELLS * field.cell_x:.3g} mm, and each finer grid finds a higher peak; "
-        "forces and motion converge",
+        "forces and motion converge"
     )
+    return (sentence,)

@@ -99,9 +99,26 @@ def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
     state, mode = drive.start.copy(), numpy.zeros(1, dtype=numpy.int64)
     rig, a_x, a_z = drive.model.rig, drive.acceleration_x, drive.acceleration_z
     work, cushion = make_workspace(states, event_count(rig)), numpy.zeros(count + 1)
-    entries.start(rig, mode, state, work, drive.segment, drive.height[:2], cushion[:2], a_x[:2], a_z[:2], None, (None, None))
+    entries.start(
+        rig, mode, state, work, drive.segment, drive.height[:2], cushion[:2], a_x[:2], a_z[:2], None, (None, None)
+    )
     status = entries.advance(
-        rig, mode, state, scale, work, 0.0, drive.segment, drive.height, cushion, a_x, a_z, None, (None, None), 1, 0, *samples
+        rig,
+        mode,
+        state,
+        scale,
+        work,
+        0.0,
+        drive.segment,
+        drive.height,
+        cushion,
+        a_x,
+        a_z,
+        None,
+        (None, None),
+        1,
+        0,
+        *samples,
     )
     if status != DONE:
         raise ArithmeticError(SENTENCES[status])

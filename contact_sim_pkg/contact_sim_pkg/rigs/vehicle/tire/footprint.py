@@ -229,11 +229,12 @@ def effective_between(
 
     smooth: smooth height [points] [m], rate: its rate [m/s]; correction: effective-height
     corrections [m] at the ends, ``duration`` [s] apart, and four times the sagitta [m] by which
-    they lie below a straight line in the middle: a parabola. What the smooth height has beside a straight line is right to first order
-    in the roughness only: at an edge it falls in a curve where the tire, which stands on the edge,
-    does not, and the correction cancels nearly all of it. So its factor is ``1 - CANCELLED r``, at
-    least 0, with r the part of the change of the smooth height that the correction cancels; times
-    the range of the smooth height over the change of the correction, where that is less than 1.
+    they lie below a straight line in the middle: a parabola. What the smooth height has beside a
+    straight line is right to first order in the roughness only: at an edge it falls in a curve
+    where the tire, which stands on the edge, does not, and the correction cancels nearly all of
+    it. So its factor is ``1 - CANCELLED r``, at least 0, with r the part of the change of the
+    smooth height that the correction cancels; times the range of the smooth height over the change
+    of the correction, where that is less than 1.
     """
     last = smooth.shape[0] - 1
     highest, lowest = smooth[0], smooth[0]
