@@ -139,7 +139,7 @@ def solver_cost(
     factor = stamps.timing.block_length / wall_time
     return SolverCost(
         block=stamps.block, wall_time=wall_time, real_time_factor=factor,
-        estimated=[each.column for each in estimates], estimated_error=numpy.array([each.error for each in estimates]),
+        estimated=tuple(each.column for each in estimates), estimated_error=numpy.array([each.error for each in estimates]),
         estimated_of=numpy.array([each.largest for each in estimates]), **counted,
     )  # fmt: skip
 

@@ -15,6 +15,7 @@ from contact_sim_pkg.records.messages import ContactForce, ContactPatch, SolverC
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.scene.errors import SceneError
 
 STANDING = 3335.0  # [N]
 ROADS = {
@@ -172,3 +173,34 @@ def test_a_belt_that_yields_beside_the_footprint_keeps_the_usual_grid():
         result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
         fields = [decode(ContactPatch, data) for topic, _stamp, data in result.messages if topic == "tire/patch"]
         assert {field.pressure.shape for field in fields} == {(128, 96)}
+
+
+WALLS = {
+    "higher than the axle": ("{kind: step, position: 1.0, height: 0.3}", r"road\.height: 0\.3 m .* no tire climbs it; at most 0\.28 m"),
+    "steep and higher": ("{kind: step, position: 1.5, height: 0.4, length: 0.1}", "no tire climbs it"),
+    "high": ("{kind: step, position: 1.0, height: 0.2}", r"contact_field\.length: .* 0\.35 m are enough"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("wall", WALLS)
+def test_a_wall_that_cannot_be_climbed_is_refused_before_the_start(wall):
+    road, sentence = WALLS[wall]
+    with pytest.raises(SceneError, match=sentence):
+        Simulation(resolved("tire_bump", f"road={road}"))
+
+
+@pytest.mark.parametrize(
+    "cured",
+    [
+        ("road={kind: step, position: 1.0, height: 0.28}", "effects.tire.contact_field.length=0.37"),
+        ("road={kind: step, position: 1.0, height: 0.2}", "effects.tire.contact_field.length=0.35"),
+        ("road={kind: step, position: 1.0, height: 0.12}",),
+    ],
+)
+def test_what_the_refusals_of_walls_allow_runs_to_its_end(cured):
+    force, _costs = run(*cured, "travel.speed=8", "duration=0.3")
+    assert force.max() > 2.0 * STANDING
+
+
+def test_a_wall_behind_the_end_of_the_run_is_no_wall():
+    assert Simulation(resolved("tire_bump", "road={kind: step, position: 31.0, height: 0.4}", "duration=1.0"))

@@ -16,6 +16,7 @@ from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, Friction
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
+from contact_sim_pkg.rigs.vehicle.coupling.edges import refuse_high_walls
 from contact_sim_pkg.rigs.vehicle.coupling.rule import (
     CouplingRule,
     allowance_of,
@@ -103,6 +104,7 @@ def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
         rig = rig._replace(back=build_back(lean, occupant, seat_contact, GRAVITY, last))
     if tire is not None:
         rig = rig._replace(tire=tire.tire, rigid_ring=tire.rigid_ring, tire_contact=tire.contact)
+        refuse_high_walls(scene, tire.geometry.form, None if tire_field is None else tire_field.usual.settings)
     # A footprint on a road bounds the length of the coupling steps, and so the segments.
     footprint = None if tire is None or tire_field is None else tire.footprint_length
     timing = coupled_timing(scene, tire_field is not None or seat_field is not None, footprint)

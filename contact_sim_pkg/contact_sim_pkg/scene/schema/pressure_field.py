@@ -17,6 +17,10 @@ LOOSER = 3.0
 """Factor on the tolerance of the least expensive level where an error of `FASTEST` or more is allowed."""
 
 
+SOLVER_SHARE = 0.1
+"""Of the request: tolerance of the solver at most."""
+
+
 class GridSection(NamedTuple):
     """A pressure field at one fidelity level."""
 
@@ -62,7 +66,7 @@ class PressureFieldSection(Section):
         level = self.levels_of(scene)[level_of(scene.accuracy)]
         if requested(scene.accuracy) >= FASTEST:
             level = level._replace(tolerance=LOOSER * level.tolerance)
-        return level._asdict()
+        return level._replace(tolerance=min(level.tolerance, requested(scene.accuracy) * SOLVER_SHARE))._asdict()
 
     def cells(self, scene: Scene) -> tuple[int, int]:
         """Rows and cols: as given, else those of the level."""

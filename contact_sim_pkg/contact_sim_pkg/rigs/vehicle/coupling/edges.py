@@ -1,14 +1,35 @@
-"""What no grid resolves: the peak pressure on an edge of the road, said once before the run."""
+"""Edges and walls of a road: what no grid resolves is said once before the run, what no tire climbs
+is refused.
+"""
 
 from __future__ import annotations
 
+import math
+
+import numpy
+
 from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
+from contact_sim_pkg.rigs.vehicle.tire.footprint import height_along
+from contact_sim_pkg.run.sources import make_surface, make_travel
+from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["edge_cautions", "sharp_edge"]
+__all__ = ["edge_cautions", "refuse_high_walls", "sharp_edge"]
 
 CELLS = 3.0
 """Cells along an edge: on a shorter one the peak pressure grows with every finer grid."""
+
+CLIMBED, CLIMBED_HIGH, HIGHEST = 0.995, 0.95, 0.88
+"""Of the radius: a tire that touches further before its axle does not climb, or not as far as the top
+of what is higher than `HIGHEST`, the height of a sharp wall that it does climb.
+"""
+
+BESIDE, ROOM = 0.018, 0.05
+"""[m] of contact beside the place where a rigid tire touches: known to be there, and enough."""
+
+SPACING, MOST_PLACES = 1e-3, 2000
+"""[m] of the places that are looked at, and how many of them the wheel stands over."""
 
 
 def sharp_edge(scene: ResolvedScene, field: FieldSettings | None) -> float | None:
@@ -38,3 +59,52 @@ def edge_cautions(scene: ResolvedScene, field: FieldSettings | None) -> tuple[st
         "forces and motion converge"
     )
     return (sentence,)
+
+
+def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings | None) -> None:
+    """Raise SceneError where the tire is to roll against an obstacle that it cannot climb, or that it
+    would touch further before its axle than its field reaches.
+
+    That is known of an obstacle that rises out of even road. The tire is taken as rigid: its height
+    over the road is ``max over x of road(s + x) - z(x)``, z the ``form`` over its lowest point, and
+    it touches where that is largest.
+    """
+    road = scene.road
+    if field is None or road is None or road.kind not in ("bump", "cleat", "step") or road.height <= 0.0:
+        return
+    reached, radius = _touched(scene, form)
+    steepest = CLIMBED if road.height <= HIGHEST * radius else CLIMBED_HIGH
+    if reached > steepest * radius:
+        fault = Fault(
+            "scene", 0, 0, "road.height",
+            f"{road.height:g} m is a wall as high as the axle, which stands {radius:.3g} m above the road, and no tire climbs "
+            f"it; at most {HIGHEST * radius:.2g} m, or flanks less steep: a longer road.{'edge' if road.kind == 'cleat' else 'length'}",
+        )  # fmt: skip
+        raise SceneError([fault])
+    half = field.rows * field.cell_x  # of the wide grid
+    if reached + BESIDE > half:
+        needed = math.ceil(100.0 * (reached + ROOM)) / 100.0
+        sentence = (
+            f"the tire touches the {road.kind} of {road.height:g} m already {reached:.3g} m before its axle, and a field of "
+            f"{half:.3g} m sees no further than that; {needed:g} m are enough"
+        )
+        raise SceneError([Fault("scene", 0, 0, "effects.tire.contact_field.length", sentence)])
+
+
+def _touched(scene: ResolvedScene, form: TireForm) -> tuple[float, float]:
+    """Furthest place before the axle [m] at which a rigid tire touches the obstacle within the run,
+    and its radius [m].
+    """
+    road, radius = scene.road, form.radius_rolling
+    assert road is not None
+    start, end = make_travel(scene).extent(0.0, scene.duration)
+    if not start + radius < road.position < end + radius:
+        return 0.0, radius
+    surface = make_surface(scene, SPACING)
+    x = numpy.arange(0.0, radius, SPACING)
+    height = numpy.array([height_along(form, each) for each in x])
+    first, last = road.position - 0.5 * road.length - radius, road.position + 0.5 * road.length
+    places = numpy.arange(first, last, max(SPACING, (last - first) / MOST_PLACES))
+    line = numpy.zeros(1)
+    furthest = [int(numpy.argmax(surface.heights(place + x, line)[:, 0] - height)) for place in places]
+    return float(x[max(furthest, default=0)]), radius

@@ -115,9 +115,9 @@ class TireField(PressureFieldSection):
     """Pressure field of the tire; it is the contact, its integral drives the wheel."""
 
     # The residual is over all that yields; of a belt and a ring that is ten times the tread
-    levels = (GridSection(72, 48, 1e-3, 1), GridSection(90, 60, 1e-4, 1), GridSection(216, 144, 1e-7, 4))
+    levels = (GridSection(72, 48, 1e-3, 1), GridSection(90, 60, 1e-4, 1), GridSection(144, 96, 1e-6, 2))
     half_space_levels: ClassVar = (
-        GridSection(48, 64, 1e-3, 1), GridSection(96, 128, 1e-4, 1), GridSection(192, 256, 1e-6, 4),
+        GridSection(48, 64, 1e-3, 1), GridSection(96, 128, 1e-4, 1), GridSection(144, 192, 1e-6, 2),
     )  # fmt: skip
 
     length: float | None = number(
