@@ -20,7 +20,7 @@ __all__ = ["edge_cautions", "refuse_high_walls", "sharp_edge"]
 CELLS = 3.0
 """Cells along an edge: on a shorter one the peak pressure grows with every finer grid."""
 
-CLIMBED, CLIMBED_HIGH, HIGHEST = 0.995, 0.95, 0.88
+CLIMBED, CLIMBED_HIGH, HIGHEST = 0.998, 0.95, 0.89
 """Of the radius: a tire that touches further before its axle does not climb, or not as far as the top
 of what is higher than `HIGHEST`, the height of a sharp wall that it does climb.
 """
@@ -75,12 +75,12 @@ def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings
     reached, radius = _touched(scene, form)
     steepest = CLIMBED if road.height <= HIGHEST * radius else CLIMBED_HIGH
     if reached > steepest * radius:
-        fault = Fault(
-            "scene", 0, 0, "road.height",
+        flank = "edge" if road.kind == "cleat" else "length"
+        sentence = (
             f"{road.height:g} m is a wall as high as the axle, which stands {radius:.3g} m above the road, and no tire climbs "
-            f"it; at most {HIGHEST * radius:.2g} m, or flanks less steep: a longer road.{'edge' if road.kind == 'cleat' else 'length'}",
-        )  # fmt: skip
-        raise SceneError([fault])
+            f"it; at most {HIGHEST * radius:.2g} m, or flanks less steep: a longer road.{flank}"
+        )
+        raise SceneError([Fault("scene", 0, 0, "road.height", sentence)])
     half = field.rows * field.cell_x  # of the wide grid
     if reached + BESIDE > half:
         needed = math.ceil(100.0 * (reached + ROOM)) / 100.0
