@@ -1,10 +1,10 @@
 """What accuracy costs: a scene at several requests beside one finer run of the same span.
 
-The finer run is the scene at a tenth of the smallest request, its time integration one level finer
-still: that is tight at every request. Scales are those of the whole run, at the coarsest request.
+The finer run is the scene at a tenth of the smallest request. What it would share with the run at
+that request is one level finer still: keys that the scene gives itself, the last level of a grid,
+and the time integration, which is tight at every request. Scales are those of the whole run, at the coarsest request.
 The span is 0.2 s round the event of the excitation where the rig can begin there, else the run
-from its start, shorter where the finer run would take long. Keys that the scene gives itself are
-the same in all runs.
+from its start, shorter where the finer run would take long.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from contact_sim_pkg.compare.columns import Column, Key
-from contact_sim_pkg.compare.companion import dials_of, integrated_finer
+from contact_sim_pkg.compare.companion import dials_of, finer_than
 from contact_sim_pkg.compare.judgement import (
     Judgement,
     Scale,
@@ -75,7 +75,7 @@ class FirstLook(NamedTuple):
     end: float
     reference: float  # request of the finer run
     reference_cost: float  # [CPU s] per simulated s
-    same: tuple[str, ...]  # dials that are the same in all runs
+    same: tuple[str, ...]  # dials that no request moves
 
 
 def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstLook:
@@ -89,7 +89,7 @@ def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstL
     finest = max(FINEST, min(DEEP_REFERENCE if deep else REFERENCE, FINER * requests[-1]))
     notify(f"{scene.name}: {', '.join(f'{each:g}' for each in requests)} beside {finest:g}")
     scenes = {each: scene if each == own else _at(scene_name, each) for each in requests}
-    finer, span = integrated_finer(_at(scene_name, finest)), _span_of(scene)
+    finer, span = finer_than(_at(scene_name, finest), scenes[requests[-1]]), _span_of(scene)
     notify("kernels: compiled, or from the disk")
     simulation = prepared(finer, notify, first=True)
     notify(f"{scene.name} at {finest:g}: {_times(scene, span)}")
@@ -109,7 +109,7 @@ def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstL
         rows.append(_request(each, run, reference.columns, scales, own=each == own, length=scene.block_length))
     return FirstLook(
         scene.name, tuple(rows), span.shown * scene.block_length, span.end * scene.block_length, finest,
-        _cost(reference, scene.block_length), _same([*scenes.values(), finer]),
+        _cost(reference, scene.block_length), _same([*scenes.values()]),
     )  # fmt: skip
 
 
@@ -180,6 +180,6 @@ def _estimated(costs: Sequence[SolverCost]) -> float | None:
 
 
 def _same(scenes: Sequence[ResolvedScene]) -> tuple[str, ...]:
-    """Dials with one value in all scenes."""
+    """Dials with one value at all requests."""
     found = [dials_of(scene.data) for scene in scenes]
     return tuple(key for key, value in found[0].items() if all(each.get(key) == value for each in found))
