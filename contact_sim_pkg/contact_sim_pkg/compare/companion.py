@@ -5,6 +5,8 @@ Orders that are assumed when the error follows from the difference of the two:
 * time integration: the error is proportional to the tolerance, which is a hundredth: at a tenth a
   run whose steps end with its samples has the same bits,
 * coupling: second order in the step between two solutions of a field, which is half as long,
+* samples of force: a coupling step is a whole number of segments, which are no longer than a
+  sample, so four times as many let it be shorter,
 * grid: second order in the cell, which is two thirds as long.
 
 The error of the companion is then a share of that of the scene, and the delivered error is the
@@ -26,8 +28,9 @@ from contact_sim_pkg.scene.schema.pressure_field import MOST_CELLS_A_SIDE
 __all__ = ["Companion", "companion_of", "dials_of", "factor_of", "finer_than"]
 
 INTEGRATION, COUPLING, LENGTH, CELLS, SOLVER = 0.01, 0.25, 0.5, 1.5, 0.1
+SAMPLES = 4.0
 """Factors on tolerance of the integration, tolerance and length of the coupling, cells a side,
-tolerance of the field.
+tolerance of the field, and rate of the samples of force.
 """
 INTEGRATOR = "relative_tolerance"
 LEAST = {INTEGRATOR: 1e-13, "coupling_tolerance": 1e-8, "tolerance": 1e-12, "cell": 0.005}
@@ -105,6 +108,8 @@ def _dials(data: dict[str, Any], *, grid: bool) -> Iterator[tuple[str, Any]]:
             finer = max(LEAST.get(key, 0.0), factor * integrator[key])
             if finer < integrator[key]:
                 yield f"integrator.{key}", finer
+    if integrator.get("coupling_tolerance") is not None:
+        yield "outputs.force_rate", SAMPLES * data["outputs"]["force_rate"]
     for contact in rigs()[data["rig"]].contacts:
         for effect, keys in (data["effects"].get(contact.name) or {}).items():
             if keys is not None:

@@ -180,6 +180,10 @@ def _estimated(costs: Sequence[SolverCost]) -> float | None:
 
 
 def _same(scenes: Sequence[ResolvedScene]) -> tuple[str, ...]:
-    """Dials with one value at all requests."""
+    """Dials with one value at all requests, rates of outputs left out."""
     found = [dials_of(scene.data) for scene in scenes]
-    return tuple(key for key, value in found[0].items() if all(each.get(key) == value for each in found))
+    return tuple(
+        key
+        for key, value in found[0].items()
+        if not key.startswith("outputs.") and all(each.get(key) == value for each in found)
+    )
