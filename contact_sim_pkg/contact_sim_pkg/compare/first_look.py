@@ -28,7 +28,9 @@ from contact_sim_pkg.compare.parting import parting_of, until
 from contact_sim_pkg.compare.span import Notify, Span, SpanRun, begins_later, prepared, run_span
 from contact_sim_pkg.compare.windows import event_block, span_round
 from contact_sim_pkg.records.messages import SolverCost
+from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import requested
@@ -81,7 +83,7 @@ class FirstLook(NamedTuple):
 def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstLook:
     """Run a scene, by name or path, at each request.
 
-    Raises SceneError where the scene is wrong, RunError where a run fails.
+    Raises SceneError where the scene is wrong, RunError where the finer run fails.
     """
     scene = load_resolved(scene_name)
     own = requested(scene.accuracy)
@@ -89,7 +91,7 @@ def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstL
     finest = max(FINEST, min(DEEP_REFERENCE if deep else REFERENCE, FINER * requests[-1]))
     notify(f"{scene.name}: {', '.join(f'{each:g}' for each in requests)} beside {finest:g}")
     scenes = {each: scene if each == own else _at(scene_name, each) for each in requests}
-    finer, span = finer_than(_at(scene_name, finest), scenes[requests[-1]]), _span_of(scene)
+    finer, span = _finer(_at(scene_name, finest), scenes[requests[-1]], notify), _span_of(scene)
     notify("kernels: compiled, or from the disk")
     simulation = prepared(finer, notify, first=True)
     notify(f"{scene.name} at {finest:g}: {_times(scene, span)}")
@@ -106,7 +108,8 @@ def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstL
     for each in requests:
         notify(f"{scene.name} at {each:g}: {_times(scene, span)}")
         run = _cheapest_run(scenes[each], span, notify)
-        rows.append(_request(each, run, reference.columns, scales, own=each == own, length=scene.block_length))
+        if run is not None:
+            rows.append(_request(each, run, reference.columns, scales, own=each == own, length=scene.block_length))
     return FirstLook(
         scene.name, tuple(rows), span.shown * scene.block_length, span.end * scene.block_length, finest,
         _cost(reference, scene.block_length), _same([*scenes.values()]),
@@ -126,6 +129,15 @@ def _at(scene_name: str, accuracy: float) -> ResolvedScene:
     return load_resolved(scene_name, f"accuracy={accuracy:g}")
 
 
+def _finer(scene: ResolvedScene, judged_scene: ResolvedScene, notify: Notify) -> ResolvedScene:
+    """The scene of the finer run, as it is where it does not take what would be finer still."""
+    try:
+        return finer_than(scene, judged_scene)
+    except SceneError as error:
+        notify(f"the finer run shares what it cannot have finer: {error}")
+        return scene
+
+
 def _span_of(scene: ResolvedScene) -> Span:
     """What is run: round the event where the rig can begin there, else from the start."""
     blocks = round(scene.duration / scene.block_length)
@@ -143,9 +155,15 @@ def _times(scene: ResolvedScene, span: Span) -> str:
     return f"{span.shown * scene.block_length:g} to {span.end * scene.block_length:g} s"
 
 
-def _cheapest_run(scene: ResolvedScene, span: Span, notify: Notify) -> SpanRun:
-    """A run, repeated where it is so short that its cost is uncertain."""
-    run = run_span(scene, span, notify)
+def _cheapest_run(scene: ResolvedScene, span: Span, notify: Notify) -> SpanRun | None:
+    """A run, repeated where it is so short that its cost is uncertain; None where it ends in a named
+    failure.
+    """
+    try:
+        run = run_span(scene, span, notify)
+    except RunError as error:
+        notify(f"  it ends: {error}")
+        return None
     repeats = REPEATS - 1 if run.cpu < SHORT else 0
     cpu = min([run.cpu, *(run_span(scene, span, notify).cpu for _ in range(repeats))])
     return run._replace(cpu=cpu)
