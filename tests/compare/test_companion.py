@@ -2,7 +2,7 @@
 
 import pytest
 
-from contact_sim_pkg.compare.companion import companion_of, dials_of, factor_of, integrated_finer
+from contact_sim_pkg.compare.companion import companion_of, dials_of, factor_of, finer_than
 from contact_sim_pkg.compare.excitation_check import foreign_topics, other_road
 from contact_sim_pkg.run.sources import make_sources, make_surface, road_lattice
 from contact_sim_pkg.scene.resolve import load_resolved
@@ -22,9 +22,11 @@ def test_each_dial_is_one_level_finer_and_nothing_else_changes(scene):
     assert ratios["effects.tire.contact_field.rows"] == pytest.approx(1.5, rel=1e-12)
     assert ratios["effects.tire.contact_field.cols"] == pytest.approx(1.5, rel=1e-12)
     assert ratios["effects.tire.contact_field.tolerance"] == pytest.approx(0.1, rel=1e-12)
-    assert {key: value for key, value in finer.scene.data.items() if key not in ("integrator", "effects")} == {
-        key: value for key, value in scene.data.items() if key not in ("integrator", "effects")
-    }
+    assert ratios["outputs.force_rate"] == pytest.approx(4.0, rel=1e-12)
+    turned = ("integrator", "effects", "outputs")
+    assert [key for key in scene.data if finer.scene.data[key] != scene.data[key]] == [
+        key for key in scene.data if key in turned
+    ]
 
 
 def test_without_the_grid_fields_keep_their_cells(scene):
@@ -42,7 +44,18 @@ def test_the_longest_way_between_two_fields_is_a_dial_where_the_scene_has_it(sce
 def test_a_dial_at_its_bound_stays():
     finest = load_resolved("block_slope", "integrator.relative_tolerance=1e-13")
     assert companion_of(finest).dials == ()
-    assert integrated_finer(finest).data == finest.data
+    assert finer_than(finest, finest).data == finest.data
+
+
+def test_a_reference_shares_no_dial_with_what_it_judges():
+    """The grid of tire_texture is given, its tolerances follow from the request."""
+    judged, reference = (load_resolved("tire_texture", f"accuracy={accuracy}") for accuracy in ("1e-3", "1e-4"))
+    finer = dials_of(finer_than(reference, judged).data)
+    given, free = dials_of(judged.data), dials_of(reference.data)
+    assert finer["effects.tire.contact_field.rows"] == 1.5 * given["effects.tire.contact_field.rows"]
+    assert finer["integrator.coupling_tolerance"] == free["integrator.coupling_tolerance"]
+    assert finer["integrator.relative_tolerance"] == pytest.approx(0.01 * free["integrator.relative_tolerance"])
+    assert not any(finer[key] == given[key] for key in given)
 
 
 def test_the_delivered_error_follows_from_the_share_of_the_finer_run(scene):

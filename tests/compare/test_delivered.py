@@ -4,8 +4,9 @@ import pytest
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.compare.companion import companion_of
-from contact_sim_pkg.compare.delivered import check_bag
-from contact_sim_pkg.compare.judgement import judged, largest_by_kind, scales_of, standing_of
+from contact_sim_pkg.compare.delivered import Check, check_bag
+from contact_sim_pkg.compare.judgement import Judgement, judged, largest_by_kind, scales_of, standing_of
+from contact_sim_pkg.compare.parting import Parting, Statistic
 from contact_sim_pkg.compare.sentences import facts_of, lines_of, number_of
 from contact_sim_pkg.compare.span import Span, begins_later, run_span
 from contact_sim_pkg.run.offline import run_offline
@@ -104,6 +105,21 @@ def test_a_vehicle_that_begins_later_stands_there():
     normal = next(column for key, column in run.columns.items() if key.field == "normal")
     assert normal.instants[0] == 400_000_000
     assert normal.values == pytest.approx(340.0 * 9.81, rel=2e-3)
+
+
+def test_runs_that_part_are_no_failure():
+    """A back that hardly loses energy in its slaps: the finer run leaves it at the instant of one of them."""
+    judgement = Judgement("backrest", "force", 1.01e-3, "normal", 4.18)
+    parting = Parting(4.181, (Statistic("occupant_x", "position", 1.3e-2, 1.2e-2, 2.3e-2),))
+    check = Check("seat_slap", 1e-3, (judgement,), (), (), "", parting, (), 1.0)
+    lines = [*lines_of(check)]
+    assert lines[0] == "backrest force: requested 1e-3, delivered 1e-3 (until the runs part) (normal at 4.18 s)"
+    assert lines[1] == (
+        "the runs agree until 4.181 s and part there; beyond it means differ by 1.3e-2, rms by 1.2e-2, quantiles by 2.3e-2 of "
+        "the scale at most (occupant_x position)"
+    )
+    assert facts_of(check)["delivered"][0]["held"]
+    assert facts_of(check)["agrees_until_s"] == 4.181
 
 
 @pytest.mark.parametrize(

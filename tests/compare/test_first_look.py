@@ -2,9 +2,16 @@
 
 import pytest
 
+from contact_sim_pkg.compare import first_look as module
 from contact_sim_pkg.compare.first_look import FirstLook, Request, cheapest_for, first_look
 from contact_sim_pkg.compare.judgement import Judgement, Unresolved
+from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.studies.accuracy.first_look_table import rows_of, sections, write_plot
+
+SLOPE = (
+    "rig: block\ndescription: slides\nduration: 0.1\naccuracy: 3e-3\nblock: {velocity: [1.0, 0.0, 0.0]}\n"
+    "effects: {block: {rigid_contact: {friction: 0.3, restitution: 0.0}}}\n"
+)
 
 
 def request(requested, force, cost, *, own=False, unresolved=()):
@@ -62,13 +69,25 @@ def test_the_picture_of_one_scene_and_of_two(look, tmp_path):
 def test_a_scene_is_run_at_each_request_and_at_its_own(tmp_path):
     lines = []
     scene = tmp_path / "slope.yaml"
-    scene.write_text(
-        "rig: block\ndescription: slides\nduration: 0.1\naccuracy: 3e-3\nblock: {velocity: [1.0, 0.0, 0.0]}\n"
-        "effects: {block: {rigid_contact: {friction: 0.3, restitution: 0.0}}}\n"
-    )
+    scene.write_text(SLOPE)
     look = first_look(str(scene), lines.append)
     assert [each.requested for each in look.requests] == [1e-1, 1e-2, 3e-3, 1e-3]
     assert [each.own for each in look.requests] == [False, False, True, False]
     assert (look.start, look.end, look.reference) == (0.0, pytest.approx(0.1), 1e-4)
     assert all(each.errors["motion"] < 1e-6 and each.cost > 0.0 for each in look.requests)
     assert lines[0] == "slope: 0.1, 0.01, 0.003, 0.001 beside 0.0001"
+
+
+def test_a_request_at_which_the_run_ends_has_no_row(monkeypatch, tmp_path):
+    scene = tmp_path / "slope.yaml"
+    scene.write_text(SLOPE.replace("3e-3", "1e-2"))
+    real, lines = module.run_span, []
+
+    def ends_at_1e1(scene, *arguments, **options):
+        if scene.accuracy == 0.1:
+            raise RunError("block 3: the step is too long")
+        return real(scene, *arguments, **options)
+
+    monkeypatch.setattr(module, "run_span", ends_at_1e1)
+    assert [each.requested for each in first_look(str(scene), lines.append).requests] == [1e-2, 1e-3]
+    assert "  it ends: block 3: the step is too long" in lines

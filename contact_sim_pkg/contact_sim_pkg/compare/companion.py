@@ -5,6 +5,8 @@ Orders that are assumed when the error follows from the difference of the two:
 * time integration: the error is proportional to the tolerance, which is a hundredth: at a tenth a
   run whose steps end with its samples has the same bits,
 * coupling: second order in the step between two solutions of a field, which is half as long,
+* samples of force: a coupling step is a whole number of segments, which are no longer than a
+  sample, so four times as many let it be shorter,
 * grid: second order in the cell, which is two thirds as long.
 
 The error of the companion is then a share of that of the scene, and the delivered error is the
@@ -14,7 +16,7 @@ that of the coupling, which rules their error; peak pressure and area have that 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.records.registry import rigs
@@ -23,13 +25,15 @@ from contact_sim_pkg.scene.resolve import read_explicit
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.pressure_field import MOST_CELLS_A_SIDE
 
-__all__ = ["Companion", "companion_of", "dials_of", "factor_of", "integrated_finer"]
+__all__ = ["Companion", "companion_of", "dials_of", "factor_of", "finer_than"]
 
 INTEGRATION, COUPLING, LENGTH, CELLS, SOLVER = 0.01, 0.25, 0.5, 1.5, 0.1
+SAMPLES = 4.0
 """Factors on tolerance of the integration, tolerance and length of the coupling, cells a side,
-tolerance of the field.
+tolerance of the field, and rate of the samples of force.
 """
-LEAST = {"relative_tolerance": 1e-13, "coupling_tolerance": 1e-8, "tolerance": 1e-12, "cell": 0.005}
+INTEGRATOR = "relative_tolerance"
+LEAST = {INTEGRATOR: 1e-13, "coupling_tolerance": 1e-8, "tolerance": 1e-12, "cell": 0.005}
 """Bounds of the schema."""
 
 
@@ -42,31 +46,44 @@ class Companion(NamedTuple):
 
 
 def companion_of(scene: ResolvedScene, *, grid: bool = True) -> Companion:
-    """The scene with each dial one level finer; without the ``grid`` fields keep their cells."""
+    """The scene with each dial one level finer; without the ``grid`` fields keep their cells.
+
+    Raises SceneError where the scene does not take finer grids: their memory, for one.
+    """
     values = dict(_dials(scene.data, grid=grid))
-    finer = read_explicit(
-        scene.to_yaml(), f"companion of {scene.name}", [set_value(f"{key}={value}") for key, value in values.items()]
-    )
     cells = any(key.endswith((".rows", ".cell")) for key in values)
-    return Companion(ResolvedScene(finer, scene.files), tuple(values), cells)
+    return Companion(_with(scene, values), tuple(values), cells)
 
 
-def integrated_finer(scene: ResolvedScene) -> ResolvedScene:
-    """The scene with the time integration alone one level finer."""
-    tolerance = max(LEAST["relative_tolerance"], INTEGRATION * scene.data["integrator"]["relative_tolerance"])
-    integrator = {**scene.data["integrator"], "relative_tolerance": tolerance}
-    return ResolvedScene({**scene.data, "integrator": integrator}, scene.files)
+def finer_than(scene: ResolvedScene, other: ResolvedScene) -> ResolvedScene:
+    """A scene at a finer request than another, with those dials one level finer still that have the
+    same value in both, and the time integration.
+
+    Raises SceneError as `companion_of`.
+    """
+    shared = dials_of(other.data)
+    values = {
+        key: value
+        for key, value in _dials(scene.data, grid=True)
+        if key == f"integrator.{INTEGRATOR}" or shared.get(key) == _value(scene.data, key)
+    }
+    return _with(scene, values)
+
+
+def _with(scene: ResolvedScene, values: Mapping[str, Any]) -> ResolvedScene:
+    overrides = [set_value(f"{key}={value}") for key, value in values.items()]
+    return ResolvedScene(read_explicit(scene.to_yaml(), f"{scene.name}, finer", overrides), scene.files)
 
 
 def dials_of(data: dict[str, Any]) -> dict[str, Any]:
     """Values of the dials in the plain data of a resolved scene, by dotted key."""
-    found = {}
-    for key in dict(_dials(data, grid=True)):
-        value: Any = data
-        for part in key.split("."):
-            value = value[part]
-        found[key] = value
-    return found
+    return {key: _value(data, key) for key, _ in _dials(data, grid=True)}
+
+
+def _value(data: Any, key: str) -> Any:
+    for part in key.split("."):
+        data = data[part]
+    return data
 
 
 def factor_of(kind: str, companion: Companion) -> float:
@@ -85,12 +102,14 @@ def _dials(data: dict[str, Any], *, grid: bool) -> Iterator[tuple[str, Any]]:
     """Dotted keys of the dials that the scene has, with their finer values."""
     integrator = data["integrator"]
     for key, factor in (
-        ("relative_tolerance", INTEGRATION), ("coupling_tolerance", COUPLING), ("coupling_length", LENGTH),
+        (INTEGRATOR, INTEGRATION), ("coupling_tolerance", COUPLING), ("coupling_length", LENGTH),
     ):  # fmt: skip
         if integrator.get(key) is not None:
             finer = max(LEAST.get(key, 0.0), factor * integrator[key])
             if finer < integrator[key]:
                 yield f"integrator.{key}", finer
+    if integrator.get("coupling_tolerance") is not None:
+        yield "outputs.force_rate", SAMPLES * data["outputs"]["force_rate"]
     for contact in rigs()[data["rig"]].contacts:
         for effect, keys in (data["effects"].get(contact.name) or {}).items():
             if keys is not None:

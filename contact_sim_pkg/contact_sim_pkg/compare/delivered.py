@@ -111,7 +111,7 @@ def _companions(path: Path, scene: ResolvedScene, blocks: int) -> _Companions:
     made, limited = _made(lambda: make_sources(scene))
     if not limited and (foreign := foreign_topics(recorded, made, looked)):
         limited = f"{' and '.join(foreign)} of the bag {'is' if len(foreign) == 1 else 'are'} not what its scene makes"
-    companion = companion_of(scene, grid=not limited)
+    companion, limited = _companion(scene, limited)
     if limited or not companion.grid or "road/patch" not in recorded:
         return _Companions(scene, companion, recorded, recorded, limited)
     finer, limited = _made(lambda: make_sources(companion.scene))
@@ -122,6 +122,18 @@ def _companions(path: Path, scene: ResolvedScene, blocks: int) -> _Companions:
     if limited:
         return _Companions(scene, companion_of(scene, grid=False), recorded, recorded, limited)
     return _Companions(scene, companion, recorded, finer, "")
+
+
+def _companion(scene: ResolvedScene, limited: str) -> tuple[Companion, str]:
+    """The companion, without finer grids where there is a reason, or where the scene does not take
+    them.
+    """
+    if not limited:
+        try:
+            return companion_of(scene), ""
+        except SceneError as error:
+            limited = f"the finer grid is refused: {error}"
+    return companion_of(scene, grid=False), limited
 
 
 def _made(make: Callable[[], dict[str, Source]]) -> tuple[dict[str, Source], str]:

@@ -1,10 +1,10 @@
 """What accuracy costs: a scene at several requests beside one finer run of the same span.
 
-The finer run is the scene at a tenth of the smallest request, its time integration one level finer
-still: that is tight at every request. Scales are those of the whole run, at the coarsest request.
+The finer run is the scene at a tenth of the smallest request. What it would share with the run at
+that request is one level finer still: keys that the scene gives itself, the last level of a grid,
+and the time integration, which is tight at every request. Scales are those of the whole run, at the coarsest request.
 The span is 0.2 s round the event of the excitation where the rig can begin there, else the run
-from its start, shorter where the finer run would take long. Keys that the scene gives itself are
-the same in all runs.
+from its start, shorter where the finer run would take long.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from contact_sim_pkg.compare.columns import Column, Key
-from contact_sim_pkg.compare.companion import dials_of, integrated_finer
+from contact_sim_pkg.compare.companion import dials_of, finer_than
 from contact_sim_pkg.compare.judgement import (
     Judgement,
     Scale,
@@ -28,7 +28,9 @@ from contact_sim_pkg.compare.parting import parting_of, until
 from contact_sim_pkg.compare.span import Notify, Span, SpanRun, begins_later, prepared, run_span
 from contact_sim_pkg.compare.windows import event_block, span_round
 from contact_sim_pkg.records.messages import SolverCost
+from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import requested
@@ -75,13 +77,13 @@ class FirstLook(NamedTuple):
     end: float
     reference: float  # request of the finer run
     reference_cost: float  # [CPU s] per simulated s
-    same: tuple[str, ...]  # dials that are the same in all runs
+    same: tuple[str, ...]  # dials that no request moves
 
 
 def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstLook:
     """Run a scene, by name or path, at each request.
 
-    Raises SceneError where the scene is wrong, RunError where a run fails.
+    Raises SceneError where the scene is wrong, RunError where the finer run fails.
     """
     scene = load_resolved(scene_name)
     own = requested(scene.accuracy)
@@ -89,7 +91,7 @@ def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstL
     finest = max(FINEST, min(DEEP_REFERENCE if deep else REFERENCE, FINER * requests[-1]))
     notify(f"{scene.name}: {', '.join(f'{each:g}' for each in requests)} beside {finest:g}")
     scenes = {each: scene if each == own else _at(scene_name, each) for each in requests}
-    finer, span = integrated_finer(_at(scene_name, finest)), _span_of(scene)
+    finer, span = _finer(_at(scene_name, finest), scenes[requests[-1]], notify), _span_of(scene)
     notify("kernels: compiled, or from the disk")
     simulation = prepared(finer, notify, first=True)
     notify(f"{scene.name} at {finest:g}: {_times(scene, span)}")
@@ -106,10 +108,11 @@ def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstL
     for each in requests:
         notify(f"{scene.name} at {each:g}: {_times(scene, span)}")
         run = _cheapest_run(scenes[each], span, notify)
-        rows.append(_request(each, run, reference.columns, scales, own=each == own, length=scene.block_length))
+        if run is not None:
+            rows.append(_request(each, run, reference.columns, scales, own=each == own, length=scene.block_length))
     return FirstLook(
         scene.name, tuple(rows), span.shown * scene.block_length, span.end * scene.block_length, finest,
-        _cost(reference, scene.block_length), _same([*scenes.values(), finer]),
+        _cost(reference, scene.block_length), _same([*scenes.values()]),
     )  # fmt: skip
 
 
@@ -124,6 +127,15 @@ def cheapest_for(rows: Sequence[Request], request: float) -> Request | None:
 
 def _at(scene_name: str, accuracy: float) -> ResolvedScene:
     return load_resolved(scene_name, f"accuracy={accuracy:g}")
+
+
+def _finer(scene: ResolvedScene, judged_scene: ResolvedScene, notify: Notify) -> ResolvedScene:
+    """The scene of the finer run, as it is where it does not take what would be finer still."""
+    try:
+        return finer_than(scene, judged_scene)
+    except SceneError as error:
+        notify(f"the finer run shares what it cannot have finer: {error}")
+        return scene
 
 
 def _span_of(scene: ResolvedScene) -> Span:
@@ -143,9 +155,15 @@ def _times(scene: ResolvedScene, span: Span) -> str:
     return f"{span.shown * scene.block_length:g} to {span.end * scene.block_length:g} s"
 
 
-def _cheapest_run(scene: ResolvedScene, span: Span, notify: Notify) -> SpanRun:
-    """A run, repeated where it is so short that its cost is uncertain."""
-    run = run_span(scene, span, notify)
+def _cheapest_run(scene: ResolvedScene, span: Span, notify: Notify) -> SpanRun | None:
+    """A run, repeated where it is so short that its cost is uncertain; None where it ends in a named
+    failure.
+    """
+    try:
+        run = run_span(scene, span, notify)
+    except RunError as error:
+        notify(f"  it ends: {error}")
+        return None
     repeats = REPEATS - 1 if run.cpu < SHORT else 0
     cpu = min([run.cpu, *(run_span(scene, span, notify).cpu for _ in range(repeats))])
     return run._replace(cpu=cpu)
@@ -180,6 +198,10 @@ def _estimated(costs: Sequence[SolverCost]) -> float | None:
 
 
 def _same(scenes: Sequence[ResolvedScene]) -> tuple[str, ...]:
-    """Dials with one value in all scenes."""
+    """Dials with one value at all requests, rates of outputs left out."""
     found = [dials_of(scene.data) for scene in scenes]
-    return tuple(key for key, value in found[0].items() if all(each.get(key) == value for each in found))
+    return tuple(
+        key
+        for key, value in found[0].items()
+        if not key.startswith("outputs.") and all(each.get(key) == value for each in found)
+    )

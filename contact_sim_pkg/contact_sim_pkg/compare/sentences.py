@@ -19,7 +19,7 @@ MODEL = "numerical error only; the error of the model is on the validation page"
 def lines_of(check: Check) -> Iterator[str]:
     """Lines of a check: delivered errors, what is not resolved, what is not judged."""
     for judgement in check.judgements:
-        yield _line(judgement, check.requested)
+        yield _line(judgement, check.requested, parted=check.parting is not None)
     if not any(judgement.error for judgement in check.judgements):
         yield SAME_BITS
     if check.parting is not None:
@@ -37,7 +37,7 @@ def facts_of(check: Check) -> dict[str, Any]:
     rows = [
         {
             **{name: getattr(each, name) for name in ("place", "kind", "error", "column", "time")},
-            "held": each.error <= check.requested,
+            "held": each.error <= check.requested or check.parting is not None,
             "not_resolved": {lost.column: lost.share for lost in each.unresolved},
         }
         for each in check.judgements
@@ -68,8 +68,8 @@ def number_of(value: float) -> str:
     return f"{digits:g}e{exponent}" if exponent else f"{digits:g}"
 
 
-def _line(judgement: Judgement, request: float) -> str:
-    held = "" if judgement.error <= request else " (not held)"
+def _line(judgement: Judgement, request: float, *, parted: bool) -> str:
+    held = "" if judgement.error <= request else " (until the runs part)" if parted else " (not held)"
     parts = [
         f"{judgement.place} {judgement.kind}: requested {number_of(request)}, delivered {number_of(judgement.error)}{held}"
         + (f" ({judgement.column} at {judgement.time:.4g} s)" if judgement.error > 0.0 else "")

@@ -5,8 +5,8 @@ the scale of its kind, null where the scene has none), `estimated` by the run it
 `cpu_s_per_s`, `own` (what the scene requests), `held` (force and motion), `cheapest_for` (requests
 that no cheaper run holds), `not_resolved` (by contact and component, error over its own largest
 value), `largest` (by kind, where the error is largest), `agrees_until_s` (where the run parts from
-the finer one), and of all rows `start_s`, `end_s`, `reference`, `same` (dials that the scene
-fixes).
+the finer one), and of all rows `start_s`, `end_s`, `reference`, `same` (dials that no request
+moves).
 """
 
 from __future__ import annotations
@@ -103,7 +103,7 @@ def _section(name: str, rows: list[Row]) -> Section:
     if not any(row[kind] for row in rows for kind in KINDS):
         note += f"; {SAME_BITS}"
     if first["same"]:
-        note += f"; the same in all runs, so not judged: {', '.join(first['same'])}"
+        note += f"; no request moves {', '.join(first['same'])}"
     return Section(name, lines, note)
 
 
