@@ -22,7 +22,7 @@ def request(requested, force, cost, *, own=False, unresolved=()):
             Judgement("tire", "force", force, "normal", 0.1, unresolved),
             Judgement("wheel_z", "motion", 0.5 * force, "velocity", 0.1),
         ),
-        estimated=None,
+        estimated={},
         cost=cost,
         agrees_until=None,
         own=own,

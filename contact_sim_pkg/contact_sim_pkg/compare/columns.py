@@ -14,7 +14,7 @@ from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.definitions import Field, definition_of
 
-__all__ = ["Column", "Key", "columns_of", "judged_topics", "not_judged", "paired"]
+__all__ = ["Column", "Key", "columns_of", "judged_topics", "kind_of", "not_judged", "paired"]
 
 NANOSECONDS = 1e9
 Instants = NDArray[numpy.int64]
@@ -52,6 +52,12 @@ class Column(NamedTuple):
 def judged_topics(topics: Iterable[str]) -> list[str]:
     """Those of the topics with a judged column."""
     return [topic for topic in topics if topic in TOPICS and _judged(TOPICS[topic].type)]
+
+
+def kind_of(key: Key) -> str:
+    """Kind of a column; empty where it is not judged."""
+    fields = {field.name: field.kind for field in _judged(TOPICS[key.topic].type)}
+    return fields.get(key.field, "")
 
 
 def not_judged(topics: Iterable[str]) -> list[str]:

@@ -9,10 +9,10 @@ from its start, shorter where the finer run would take long.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from contact_sim_pkg.compare.columns import Column, Key
+from contact_sim_pkg.compare.columns import Column, Key, kind_of
 from contact_sim_pkg.compare.companion import dials_of, finer_than
 from contact_sim_pkg.compare.judgement import (
     Judgement,
@@ -35,7 +35,7 @@ from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import requested
 
-__all__ = ["REQUESTS", "FirstLook", "Request", "cheapest_for", "first_look"]
+__all__ = ["REQUESTS", "FirstLook", "Request", "cheapest_for", "estimated_of", "first_look"]
 
 REQUESTS = (1e-1, 1e-2, 1e-3)
 REFERENCE, FINER = 1e-4, 0.3
@@ -47,8 +47,6 @@ SHORT, REPEATS = 0.5, 3
 """[s] of CPU below which a run is made so many times, and the least counts."""
 CHEAPER = 0.9
 """Of the cost of a coarser run, from which on a finer one counts as cheaper."""
-ESTIMATES = ("force_error", "motion_error", "peak_error", "area_error")
-"""Columns of `bench/cost` with estimated errors over the scale, where it has them."""
 MOVED = ("force", "motion")  # kinds that decide what holds
 
 
@@ -58,7 +56,7 @@ class Request(NamedTuple):
     requested: float
     errors: dict[str, float]  # largest over the scale, by kind
     judgements: tuple[Judgement, ...]
-    estimated: float | None
+    estimated: dict[str, float]  # by the run itself, by kind
     cost: float  # [CPU s] per simulated s
     agrees_until: float | None  # [s] where it parts from the finer run for good
     own: bool  # what the scene itself requests
@@ -182,7 +180,7 @@ def _request(
     columns = run.columns if parting is None else until(run.columns, parting.time)
     judgements = judged(columns, finer, scales)
     return Request(
-        requested, largest_by_kind(judgements), tuple(judgements), _estimated(run.costs), _cost(run, length),
+        requested, largest_by_kind(judgements), tuple(judgements), estimated_of(run.costs, scales), _cost(run, length),
         None if parting is None else parting.time, own,
     )  # fmt: skip
 
@@ -191,10 +189,17 @@ def _cost(run: SpanRun, length: float) -> float:
     return run.cpu / (run.blocks * length)
 
 
-def _estimated(costs: Sequence[SolverCost]) -> float | None:
-    """Largest estimated error of the blocks; None where `bench/cost` has no column for it."""
-    names = [name for name in ESTIMATES if name in SolverCost._fields]
-    return max((float(getattr(cost, name)) for cost in costs for name in names), default=None)
+def estimated_of(costs: Iterable[SolverCost], scales: Mapping[Key, Scale]) -> dict[str, float]:
+    """Largest error of each kind that a run estimates itself, over the scales of its columns."""
+    found: dict[str, float] = {}
+    for cost in costs:
+        for name, error in zip(cost.estimated, cost.estimated_error, strict=True):
+            topic, _dot, field = name.partition(".")
+            key = Key(topic, field)
+            if key in scales and scales[key].scale > 0.0:
+                kind = kind_of(key)
+                found[kind] = max(found.get(kind, 0.0), float(error) / scales[key].scale)
+    return found
 
 
 def _same(scenes: Sequence[ResolvedScene]) -> tuple[str, ...]:

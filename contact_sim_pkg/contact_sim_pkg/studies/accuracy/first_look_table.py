@@ -86,7 +86,7 @@ def _section(name: str, rows: list[Row]) -> Section:
         {
             "requested": number_of(row["requested"]),
             **{kind: _error(row[kind], row["requested"]) for kind in KINDS},
-            "estimated": "-" if row["estimated"] is None else number_of(row["estimated"]),
+            "estimated": number_of(row["estimated"]["force"]) if "force" in row["estimated"] else "-",
             "CPU s/s": f"{row['cpu_s_per_s']:.2g}",
             "": _marks(row),
             "not resolved": ", ".join(f"{what} ({100.0 * share:.0f} %)" for what, share in row["not_resolved"].items()),

@@ -14,6 +14,7 @@ from contact_sim_pkg.rigs.vehicle.tire.footprint import height_along
 from contact_sim_pkg.run.sources import make_surface, make_travel
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.road import BumpRoad, CleatRoad, StepRoad
 
 __all__ = ["edge_cautions", "refuse_high_walls", "sharp_edge"]
 
@@ -72,7 +73,7 @@ def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings
     road = scene.road
     if field is None or road is None or road.kind not in ("bump", "cleat", "step") or road.height <= 0.0:
         return
-    reached, radius = _touched(scene, form)
+    reached, radius = _touched(scene, road, form), form.radius_rolling
     steepest = CLIMBED if road.height <= HIGHEST * radius else CLIMBED_HIGH
     if reached > steepest * radius:
         flank = "edge" if road.kind == "cleat" else "length"
@@ -91,20 +92,17 @@ def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings
         raise SceneError([Fault("scene", 0, 0, "effects.tire.contact_field.length", sentence)])
 
 
-def _touched(scene: ResolvedScene, form: TireForm) -> tuple[float, float]:
-    """Furthest place before the axle [m] at which a rigid tire touches the obstacle within the run,
-    and its radius [m].
-    """
-    road, radius = scene.road, form.radius_rolling
-    assert road is not None
+def _touched(scene: ResolvedScene, road: BumpRoad | CleatRoad | StepRoad, form: TireForm) -> float:
+    """Furthest place before the axle [m] at which a rigid tire touches the obstacle within the run."""
+    radius = form.radius_rolling
     start, end = make_travel(scene).extent(0.0, scene.duration)
     if not start + radius < road.position < end + radius:
-        return 0.0, radius
+        return 0.0
     surface = make_surface(scene, SPACING)
     x = numpy.arange(0.0, radius, SPACING)
-    height = numpy.array([height_along(form, each) for each in x])
+    height = numpy.array([height_along(form, float(each)) for each in x])
     first, last = road.position - 0.5 * road.length - radius, road.position + 0.5 * road.length
     places = numpy.arange(first, last, max(SPACING, (last - first) / MOST_PLACES))
     line = numpy.zeros(1)
     furthest = [int(numpy.argmax(surface.heights(place + x, line)[:, 0] - height)) for place in places]
-    return float(x[max(furthest, default=0)]), radius
+    return float(x[max(furthest, default=0)])
