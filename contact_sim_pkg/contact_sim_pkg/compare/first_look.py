@@ -195,7 +195,8 @@ def estimated_of(costs: Iterable[SolverCost], scales: Mapping[Key, Scale]) -> di
     for cost in costs:
         for name, error in zip(cost.estimated, cost.estimated_error, strict=True):
             topic, _dot, field = name.partition(".")
-            key = Key(topic, field)
+            column, _of, body = field.partition(" of ")
+            key = Key(topic, column, body)
             if key in scales and scales[key].scale > 0.0:
                 kind = kind_of(key)
                 found[kind] = max(found.get(kind, 0.0), float(error) / scales[key].scale)

@@ -4,8 +4,8 @@ documentation go over these records; a rig's lie beside its kernels.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy
@@ -48,6 +48,8 @@ class Effect:
         feeds: topics of the contact whose values it changes.
         inputs: sections of the scene that act through it alone.
         called_for: rule that says from a scene and its result whether the scene calls for it.
+        not_below: numerical error, by kind as of `definitions.KINDS`, that no request makes smaller:
+            measured, of a table or a number of parts that has no dial.
     """
 
     name: str
@@ -61,6 +63,7 @@ class Effect:
     feeds: tuple[str, ...]
     inputs: tuple[str, ...] = ()
     called_for: Rule
+    not_below: Mapping[str, float] = field(default_factory=dict)
 
 
 def choice_of_model(why: str) -> Rule:

@@ -7,9 +7,11 @@ contacts, and err by no more of theirs: motion has the error of the force that e
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from contact_sim_pkg.records.definitions import definition_of
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.report.series import Estimate, Recording
 from contact_sim_pkg.scene.schema.accuracy import requested
 
@@ -18,6 +20,7 @@ __all__ = ["above", "accuracy_lines", "accuracy_numbers", "short"]
 RESOLVED = 0.1
 """Error of a component of a force over its own largest value above which it is not resolved."""
 
+MOTION = "motion"
 WORDS = {"force": "force", "motion": "motion", "peak": "peak pressure", "area": "area"}
 
 
@@ -25,51 +28,86 @@ def accuracy_numbers(recording: Recording) -> dict[str, Any]:
     """Section ``accuracy`` of the summary; empty for a bag without a scene, or without a contact.
 
     ``requested`` [1]; ``estimated``: of each contact, and of the ``motion`` of the bodies, largest
-    estimated error [1] by kind, None where it is not estimated; ``not_resolved``: components of
+    estimated error [1] by kind, None where it is not estimated; ``not_below``: the same, an error
+    that no request makes smaller, with the effect that has it; ``not_resolved``: components of
     forces by column, with their error over their own largest value.
     """
     asked = recording.scene.get("accuracy")
     if asked is None or not recording.contacts:
         return {}
-    types = {topic.name.lstrip("/"): topic.type.rpartition("/")[2] for topic in recording.topics}
-    by_kind: dict[str, dict[str, list[Estimate]]] = {name: {"force": []} for name in recording.contacts}
-    for name in recording.fields:
-        by_kind.setdefault(name, {}).update({"peak": [], "area": []})
-    for estimate in recording.estimates:
-        contact = estimate.column.partition("/")[0]
-        by_kind.setdefault(contact, {}).setdefault(_kind_of(estimate.column, types), []).append(estimate)
-    estimated = {
-        contact: {kind: _over_scale(found) for kind, found in kinds.items()} for contact, kinds in by_kind.items()
-    }
+    found = _by_kind(recording)
+    estimated = {place: {kind: _over_scale(each) for kind, each in kinds.items()} for place, kinds in found.items()}
     forces = [error for kinds in estimated.values() if (error := kinds.get("force")) is not None]
     if recording.motion is not None:
-        estimated["motion"] = {"motion": max(forces) if forces else None}
+        # A body that no estimate names moves by the forces on it
+        speeds = [error] if (error := estimated.get(MOTION, {}).get(MOTION)) is not None else []
+        estimated[MOTION] = {MOTION: max([*forces, *speeds], default=None)}
     lost = {
-        each.column: each.error / each.largest for kinds in by_kind.values() for each in kinds.get("force", [])
+        each.column: each.error / each.largest for kinds in found.values() for each in kinds.get("force", [])
         if each.largest > 0.0 and each.error > RESOLVED * each.largest
     }  # fmt: skip
-    return {"requested": requested(asked), "estimated": estimated, "not_resolved": lost}
+    return {
+        "requested": requested(asked), "estimated": estimated, "not_below": _not_below(recording, estimated),
+        "not_resolved": lost,
+    }  # fmt: skip
+
+
+def _by_kind(recording: Recording) -> dict[str, dict[str, list[Estimate]]]:
+    """Estimates of each contact, and of the motion, by kind."""
+    types = {topic.name.lstrip("/"): topic.type.rpartition("/")[2] for topic in recording.topics}
+    found: dict[str, dict[str, list[Estimate]]] = {name: {"force": []} for name in recording.contacts}
+    for name in recording.fields:
+        found.setdefault(name, {}).update({"peak": [], "area": []})
+    for estimate in recording.estimates:
+        kind = _kind_of(estimate.column, types)
+        place = MOTION if kind == MOTION else estimate.column.partition("/")[0]
+        found.setdefault(place, {}).setdefault(kind, []).append(estimate)
+    return found
+
+
+def _not_below(recording: Recording, estimated: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, list[Any]]]:
+    """Largest error by place and kind that no request makes smaller, and its effect."""
+    rig = rigs().get(str(recording.scene.get("rig")))
+    found: dict[str, dict[str, list[Any]]] = {}
+    for contact in () if rig is None else rig.contacts:
+        acting = recording.scene.get("effects", {}).get(contact.name) or {}
+        for effect in contact.effects:
+            if acting.get(effect.name) is None:
+                continue
+            for kind, error in effect.not_below.items():
+                place = MOTION if kind == MOTION else contact.name
+                before = found.setdefault(place, {}).get(kind, [0.0, ""])
+                if kind in estimated.get(place, {}):
+                    found[place][kind] = max(before, [error, f"{contact.name} {effect.name}"])
+    return {place: kinds for place, kinds in found.items() if kinds}
 
 
 def above(numbers: dict[str, Any]) -> list[str]:
-    """What is estimated to err by more than requested, as ``tire force 1.4e-2``."""
-    return [
-        f"{_named(place, kind)} {short(error)}" for place, kinds in numbers["estimated"].items()
-        for kind, error in kinds.items() if error is not None and error > numbers["requested"]
-    ]  # fmt: skip
+    """What is estimated to err by more than requested, as ``tire force 1.4e-2``, or cannot err by so
+    little.
+    """
+    asked, found = numbers["requested"], []
+    for place, kinds in numbers["estimated"].items():
+        for kind, error in kinds.items():
+            least, effect = numbers["not_below"].get(place, {}).get(kind, (0.0, ""))
+            if error is not None and error > asked:
+                found.append(f"{_named(place, kind)} {short(error)}")
+            elif least > asked:
+                found.append(f"{_named(place, kind)}, not below {short(least)} with {effect}")
+    return found
 
 
 def accuracy_lines(numbers: dict[str, Any]) -> list[str]:
     """A line for each contact, and for the motion: what was requested, what is estimated."""
-    asked, lines = numbers["requested"], []
+    lines = []
     for place, kinds in numbers["estimated"].items():
         first, *others = kinds
-        parts = [f"{_named(place, first)}: requested {short(asked)}, {_said(kinds[first], asked)}"]
+        parts = [f"{_named(place, first)}: requested {short(numbers['requested'])}, {_said(numbers, place, first)}"]
         parts += [
             f"{column.partition('.')[2]} not resolved ({100.0 * share:.0f} % of its own)"
             for column, share in numbers["not_resolved"].items() if column.startswith(f"{place}/")
         ]  # fmt: skip
-        parts += [f"{WORDS[kind]}: {_said(kinds[kind], asked)}" for kind in others]
+        parts += [f"{WORDS[kind]}: {_said(numbers, place, kind)}" for kind in others]
         lines.append("; ".join(parts))
     return lines
 
@@ -84,14 +122,18 @@ def _named(place: str, kind: str) -> str:
     return place if place == kind else f"{place} {WORDS[kind]}"
 
 
-def _said(error: float | None, asked: float) -> str:
-    if error is None:
-        return "not estimated"
-    return f"estimated {short(error)}{' (above)' if error > asked else ''}"
+def _said(numbers: dict[str, Any], place: str, kind: str) -> str:
+    error, asked = numbers["estimated"][place][kind], numbers["requested"]
+    least, effect = numbers["not_below"].get(place, {}).get(kind, (0.0, ""))
+    if error is not None:
+        said = f"estimated {short(error)}{' (above)' if error > asked else ''}"
+        return f"{said}, not below {short(least)} with {effect}" if least > error else said
+    return f"not below {short(least)} with {effect}" if least else "not estimated"
 
 
 def _kind_of(column: str, types: dict[str, str]) -> str:
-    topic, _dot, name = column.partition(".")
+    topic, _dot, field = column.partition(".")
+    name = field.partition(" of ")[0]
     fields = {field.name: field.kind for field in definition_of(types[topic]).fields}
     return fields[name]
 

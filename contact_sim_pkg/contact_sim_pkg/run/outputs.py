@@ -125,7 +125,7 @@ def energy_ledger(
 class Estimate(NamedTuple):
     """Estimated numerical error of a column in one block."""
 
-    column: str  # topic and column, as tire/force.normal
+    column: str  # topic and column, as of `largest_of`
     error: float  # in the unit of the column
     largest: float  # largest magnitude of the column in the block
 
@@ -145,10 +145,17 @@ def solver_cost(
 
 
 def largest_of(outputs: Iterable[Output], column: str) -> float:
-    """Largest magnitude of a column, as ``tire/force.normal``, in some outputs; 0 without any."""
-    topic, _dot, name = column.partition(".")
-    chosen = (numpy.abs(getattr(each.record, name)) for each in outputs if each.topic == topic)
-    return max((float(value.max()) for value in chosen if value.size), default=0.0)
+    """Largest magnitude of a column in some outputs, as ``tire/force.normal``, or of one body as
+    ``bench/motion.velocity of wheel_z``; 0 without any.
+    """
+    topic, _dot, field = column.partition(".")
+    name, _of, body = field.partition(" of ")
+    chosen = []
+    for each in outputs:
+        if each.topic == topic:
+            values = numpy.asarray(getattr(each.record, name))
+            chosen.append(values[each.record.bodies.index(body)] if body else values)
+    return max((float(numpy.abs(values).max()) for values in chosen if values.size), default=0.0)
 
 
 def largest(outputs: Iterable[Output], part: str, column: str) -> float:

@@ -36,6 +36,7 @@ BACKREST_EFFECTS = (
         name="cushion", section=f"{_SCHEMA}:BackCushion", help="foam of finite thickness and its pressure map",
         source="Johnson, Contact Mechanics, 5.8", carries=True, excludes=("normal_elastic", "foam", "shell_modes"),
         feeds=("force", "wrench", "patch", "points"), called_for=_LAW,
+        not_below={"force": 1e-3, "motion": 3e-3, "peak": 6e-3, "area": 7e-2},
     ),
     Effect(
         name="normal_dissipative", section=f"{_SCHEMA}:BackLoss", help="loss", source="Driver and Seat",
@@ -61,6 +62,7 @@ BACKREST_EFFECTS = (
     Effect(
         name="shell_modes", section=f"{_SCHEMA}:ShellModesSection", help="back as a shell with many contact points",
         source="Driver and Seat", needs=("normal_elastic",), feeds=("force", "wrench", "patch", "points"), called_for=_BENDS,
+        not_below={"force": 8e-2, "motion": 0.14},
     ),
     Effect(
         name="contact_search", section=f"{_SCHEMA}:ContactSearchSection", help="moving contact point of the shell",

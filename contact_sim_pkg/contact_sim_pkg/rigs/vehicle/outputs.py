@@ -28,8 +28,8 @@ from contact_sim_pkg.run.outputs import BlockStamps, Estimate, contact_outputs, 
 Array = NDArray[numpy.float64]
 
 ESTIMATED = (
-    ("tire/force.normal", "tire/axle.longitudinal", "tire/patch.peak", "tire/patch.area"),
-    ("seat/force.normal", "", "seat/patch.peak", "seat/patch.area"),
+    ("tire/force.normal", "tire/axle.longitudinal", "tire/patch.peak", "tire/patch.area", "bench/motion.velocity"),
+    ("seat/force.normal", "", "seat/patch.peak", "seat/patch.area", ""),
 )
 """Columns by the contacts and kinds of `coupling/check.py`."""
 
@@ -137,27 +137,30 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
     motion = BodyMotion(
         block=record.block, sample_period=stamps.period, bodies=model.bodies, **_motion_rows(model, record)
     )
+    outputs += [
+        Output("bench/motion", stamps.start, motion), Output("bench/energy", stamps.start, _ledger(record)),
+    ]  # fmt: skip
     steps, rejected, events = (int(value) for value in record.counters)
     cost = solver_cost(
-        stamps, wall_time, _estimates(outputs, record.missed), steps=steps, rejected_steps=rejected, events=events,
+        stamps, wall_time, _estimates(outputs, record.missed, model.bodies), steps=steps, rejected_steps=rejected, events=events,
         field_iterations=record.field_iterations, field_residual=record.field_residual, field_jump=record.field_jump,
         stretches=record.stretches, stretches_repeated=record.stretches_repeated, coupling_error=record.coupling_error,
     )  # fmt: skip
-    return [
-        *outputs, Output("bench/motion", stamps.start, motion), Output("bench/energy", stamps.start, _ledger(record)),
-        Output("bench/cost", stamps.start, cost),
-    ]  # fmt: skip
+    return [*outputs, Output("bench/cost", stamps.start, cost)]
 
 
-def _estimates(outputs: list[Output], missed: Array | None) -> list[Estimate]:
+def _estimates(outputs: list[Output], missed: Array | None, bodies: tuple[str, ...]) -> list[Estimate]:
     """Estimated errors of the outputs of a block: those that are known."""
     if missed is None:
         return []
-    named = [
-        (column, float(error)) for names, errors in zip(ESTIMATED, missed, strict=True)
-        for column, error in zip(names, errors, strict=True) if column and error == error
-    ]  # fmt: skip
-    return [Estimate(column, error, largest_of(outputs, column)) for column, error in named]
+    touches = "belt_z" if "belt_z" in bodies else bodies[0]
+    found = []
+    for names, errors in zip(ESTIMATED, missed, strict=True):
+        for name, error in zip(names, errors, strict=True):
+            column = f"{name} of {touches}" if name.startswith("bench/motion") else name
+            if column and not numpy.isnan(error):
+                found.append(Estimate(column, float(error), largest_of(outputs, column)))
+    return found
 
 
 def _axle_force(model: Model, stamps: BlockStamps, record: BlockRecord) -> AxleForce:

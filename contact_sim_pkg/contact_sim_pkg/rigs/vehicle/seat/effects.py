@@ -55,7 +55,7 @@ SEAT_EFFECTS = (
     Effect(
         name="cushion", section=f"{_SCHEMA}:SeatCushion", help="foam cushion of finite thickness",
         source="Johnson, Contact Mechanics, 5.8", carries=True, excludes=("normal_elastic",),
-        feeds=("force", "wrench", "patch"), called_for=_LAW,
+        feeds=("force", "wrench", "patch"), called_for=_LAW, not_below={"force": 1e-3, "motion": 3e-3},
     ),
     Effect(
         name="normal_dissipative", section=f"{_SCHEMA}:SeatLoss", help="loss", source="Brogliato, Nonsmooth Mechanics, 2",
@@ -82,6 +82,7 @@ SEAT_EFFECTS = (
         name="contact_field", section=f"{_SCHEMA}:CushionMap", help="pressure map of the cushion",
         source="Johnson, Contact Mechanics, 5.8", needs=("cushion",), publishes="patch", feeds=("patch",),
         called_for=choice_of_model("needed where the pressure under the occupant is requested"),
+        not_below={"peak": 6e-3, "area": 2.5e-2},
     ),
     Effect(
         name="half_space_field", section=f"{_SCHEMA}:HalfSpaceField", help="pressure field of a half-space",

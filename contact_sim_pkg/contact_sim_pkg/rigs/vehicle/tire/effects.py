@@ -128,7 +128,7 @@ TIRE_EFFECTS = (
     Effect(
         name="brush", section=f"{_SCHEMA}:BrushSection", help="brush friction of a rolling tire, stick and slip of each cell",
         source="Pacejka, Tire and Vehicle Dynamics, 3", needs=("contact_field",), publishes="shear",
-        feeds=("shear", "force", "wrench"), inputs=("slip",), called_for=_brush,
+        feeds=("shear", "force", "wrench"), inputs=("slip",), called_for=_brush, not_below={"force": 1.5e-2},
     ),
     Effect(
         name="sidewall_compliance", section=f"{_SCHEMA}:SidewallComplianceSection",
