@@ -91,3 +91,15 @@ def test_a_request_at_which_the_run_ends_has_no_row(monkeypatch, tmp_path):
     monkeypatch.setattr(module, "run_span", ends_at_1e1)
     assert [each.requested for each in first_look(str(scene), lines.append).requests] == [1e-2, 1e-3]
     assert "  it ends: block 3: the step is too long" in lines
+
+
+def test_a_vehicle_is_looked_at_round_its_bump_with_the_scales_of_the_whole_run():
+    """The bump of 0.6 m at 10 m is passed at 10 m/s from 0.97 to 1.03 s."""
+    look = first_look("tire_half_space", lambda _line: None)
+    assert look.start < 0.97
+    assert look.end > 1.03
+    assert look.end - look.start == pytest.approx(0.2)
+    force = [each.errors["force"] for each in look.requests]
+    assert force[0] > force[1] > force[2] > 0.0
+    assert cheapest_for(look.requests, 1e-2).requested == 1e-2
+    assert look.reference_cost > look.requests[-1].cost
