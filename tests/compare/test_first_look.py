@@ -55,7 +55,7 @@ def test_the_table_has_a_line_a_request(look):
     assert [line["requested"] for line in section.rows] == ["1e-1", "1e-2", "1e-3"]
     assert [line["force"] for line in section.rows] == ["3.8e-2", "1.2e-2 !", "8e-4"]
     assert [line["peak"] for line in section.rows] == ["-", "-", "-"]
-    assert [line[""] for line in section.rows] == ["cheapest for 1e-1", "<- the scene", "cheapest for 1e-2, 1e-3"]
+    assert [line[""] for line in section.rows] == ["cheapest for 1e-1", "<- this scene", "cheapest for 1e-2, 1e-3"]
     assert section.rows[0]["not resolved"] == "tire axle longitudinal (47 %)"
     assert "0.1 to 0.3 s, against the scene at 1e-4" in section.note
 
@@ -64,7 +64,7 @@ def test_several_scenes_are_one_table_and_those_that_do_not_hold_are_named(look)
     rows = [*rows_of(look), *({**row, "scene": "other", "held": True} for row in rows_of(look))]
     table, held = sections(rows)
     assert [line["scene"] for line in table.rows] == ["tire_rough_road", "", "", "other", "", ""]
-    assert [line[""] for line in table.rows][1] == "<- the scene"
+    assert [line[""] for line in table.rows][1] == "<- this scene"
     assert [(line["held"], line["not held"]) for line in held.rows] == [
         ("2 of 2", ""), ("1 of 2", "tire_rough_road"), ("2 of 2", ""),
     ]  # fmt: skip

@@ -134,7 +134,7 @@ def _error(error: float | None, requested: float) -> str:
 
 
 def _marks(row: Row) -> str:
-    marks = ["<- the scene"] if row["own"] else []
+    marks = ["<- this scene"] if row["own"] else []
     if row["cheapest_for"]:
         marks.append(f"cheapest for {', '.join(map(number_of, row['cheapest_for']))}")
     if row["agrees_until_s"] is not None:
