@@ -41,7 +41,7 @@ def command(
     from contact_sim_pkg.studies.accuracy.work_precision import measured_rigs
 
     what, rig = names[0], names[0] in measured_rigs()
-    bag = _is_bag(Path(what)) and not rig
+    bag = _is_bag(what) and not rig
     _refuse_options(deep=deep, parts=parts, whole=whole, plot=plot, bag=bag, rig=rig)
     if len(names) > 1 and (rig or bag or parts):
         raise click.UsageError(f"several names are scenes at first look; give {what} alone")
@@ -55,9 +55,14 @@ def command(
         _study(names, plot, "rig" if rig else "parts" if parts else "", deep=deep, overwrite=overwrite, as_json=as_json)
 
 
-def _is_bag(path: Path) -> bool:
-    """Whether a path is a recording: a directory, or an MCAP file."""
-    return path.is_dir() or path.suffix == ".mcap"
+def _is_bag(name: str) -> bool:
+    """Whether a name is that of a recording: a directory not called as a shipped scene, or an MCAP
+    file.
+    """
+    from contact_sim_pkg.records.registry import rigs
+
+    shipped = any(name in rig.scenes for rig in rigs().values())
+    return Path(name).suffix == ".mcap" or (Path(name).is_dir() and not shipped)
 
 
 def _refuse_options(*, deep: bool, parts: bool, whole: bool, plot: Path | None, bag: bool, rig: bool) -> None:

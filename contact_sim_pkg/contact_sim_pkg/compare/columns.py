@@ -17,6 +17,8 @@ from contact_sim_pkg.records.definitions import Field, definition_of
 __all__ = ["Column", "Key", "columns_of", "judged_topics", "kind_of", "not_judged", "paired"]
 
 NANOSECONDS = 1e9
+PLACES = ("cell_", "origin_")
+"""Names of columns that say where cells lie."""
 Instants = NDArray[numpy.int64]
 
 
@@ -106,7 +108,9 @@ def _judged(type_name: str) -> tuple[Field, ...]:
 
 
 def _reals(type_name: str) -> tuple[Field, ...]:
-    return tuple(field for field in _record_fields(type_name) if field.type.startswith("float") and field.unit != "s")
+    """Columns of real numbers, without times and the places of cells."""
+    fields = (field for field in _record_fields(type_name) if field.type.startswith("float") and field.unit != "s")
+    return tuple(field for field in fields if not field.name.startswith(PLACES))
 
 
 def _record_fields(type_name: str) -> tuple[Field, ...]:

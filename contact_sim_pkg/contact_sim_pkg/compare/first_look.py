@@ -42,7 +42,10 @@ REFERENCE, FINER = 1e-4, 0.3
 """Request of the finer run, and its largest part of the smallest request that is judged."""
 DEEP, DEEP_REFERENCE = 1e-4, 3e-5
 FINEST = 1e-8  # that a scene may request
-MOST_CPU, MOST_SCALE_CPU = 30.0, 5.0  # [s] of the finer run, and of the run for the scales
+MOST_CPU, MOST_CPU_FROM_START, MOST_SCALE_CPU = 30.0, 8.0, 5.0
+"""[s] of the finer run round an event, of one from the start, which costs about as much at every
+request, and of the run for the scales.
+"""
 SHORT, REPEATS = 0.5, 3
 """[s] of CPU below which a run is made so many times, and the least counts."""
 CHEAPER = 0.9
@@ -93,7 +96,8 @@ def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstL
     notify("kernels: compiled, or from the disk")
     simulation = prepared(finer, notify, first=True)
     notify(f"{scene.name} at {finest:g}: {_times(scene, span)}")
-    reference = run_span(finer, span, notify, simulation=simulation, most_cpu=MOST_CPU)
+    most_cpu = MOST_CPU if begins_later(scene) else MOST_CPU_FROM_START
+    reference = run_span(finer, span, notify, simulation=simulation, most_cpu=most_cpu)
     span = span._replace(end=span.first + reference.blocks)
     scales = _scales(scene, reference)
     if span.first:

@@ -174,7 +174,9 @@ def _largest_forces(columns: Mapping[Key, Column], standing: Standing) -> dict[s
     squares: dict[str, Vector] = {}
     for key, column in columns.items():
         if column.kind == "force":
-            squares[key.topic] = squares.get(key.topic, numpy.zeros(1)) + column.values**2
+            before = squares.setdefault(key.topic, numpy.zeros_like(column.values))
+            # A component that some blocks leave out is no part of the vector
+            squares[key.topic] = before + column.values**2 if before.shape == column.values.shape else before
     return {
         topic: max(float(numpy.sqrt(square.max())), standing.loads.get(topic.partition("/")[0], 0.0))
         for topic, square in squares.items()

@@ -47,7 +47,7 @@ def parting_of(
     compared = {
         key: paired(column, finer[key])
         for key, column in run.items()
-        if column.kind in ("force", "motion") and key in finer and scales[key].scale > 0.0
+        if column.kind in ("force", "motion") and key in finer and key in scales and scales[key].scale > 0.0
     }
     times = [
         _parted(instants, numpy.abs(values - others) / scales[key].scale, request)

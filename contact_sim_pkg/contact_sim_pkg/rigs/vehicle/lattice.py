@@ -100,10 +100,11 @@ def standing(scene: dict[str, Any]) -> Standing:
     loads, bodies = {}, {}
     if scene["rig"] in ("tire", "car"):
         loads["tire"] = plain_load(scene)
-        bodies["wheel_z"] = TouchedBody("tire", plain(scene["tire"]).wheel_mass)
-        ring = plain(scene["effects"]["tire"].get("rigid_ring"))
+        wheel, ring = plain(scene["tire"]).wheel_mass, plain(scene["effects"]["tire"].get("rigid_ring"))
+        belt = 0.0 if ring is None else ring.belt_mass
+        bodies["wheel_z"] = TouchedBody("tire", wheel - belt)
         if ring is not None:
-            bodies["belt_z"] = TouchedBody("tire", ring.belt_mass)
+            bodies["belt_z"] = TouchedBody("tire", belt)
     if scene["rig"] != "tire":
         occupant = plain(scene["seat"]["occupant"])
         loads["seat"] = occupant_mass(occupant) * GRAVITY

@@ -24,6 +24,7 @@ from contact_sim_pkg.studies.accuracy.first_look_plot import write_plot
 __all__ = ["rows_of", "sections", "study", "write_plot"]
 
 Row = dict[str, Any]
+EXPLAINED = "largest errors over the scale of their kind; 0: less than 1e-15; !: more than requested"
 
 
 def study(scene_names: Sequence[str], progress: Callable[[str], None], *, deep: bool = False) -> list[Row]:
@@ -42,11 +43,26 @@ def rows_of(look: FirstLook) -> list[Row]:
 
 
 def sections(rows: list[Row]) -> list[Section]:
-    """A table a scene."""
-    return [
-        _section(name, [row for row in rows if row["scene"] == name])
-        for name in dict.fromkeys(row["scene"] for row in rows)
-    ]
+    """The table of one scene; of several one table, and how many of them hold each request."""
+    groups = [[row for row in rows if row["scene"] == name] for name in dict.fromkeys(row["scene"] for row in rows)]
+    if len(groups) == 1:
+        return [Section(groups[0][0]["scene"], _lines(rows), _note(rows))]
+    named: list[dict[str, str]] = []
+    for group in groups:
+        names = [group[0]["scene"], *("" for _ in group[1:])]
+        named += [{"scene": name, **line} for name, line in zip(names, _lines(group), strict=True)]
+    return [Section(f"{len(groups)} scenes", named, f"{EXPLAINED}; {MODEL}"), _held(groups)]
+
+
+def _held(groups: list[list[Row]]) -> Section:
+    """At each request: how many scenes hold it in force and motion, and which do not."""
+    lines = []
+    for request in sorted({row["requested"] for group in groups for row in group}, reverse=True):
+        at_request = [row for group in groups for row in group if row["requested"] == request]
+        lost = [row["scene"] for row in at_request if not row["held"]]
+        held = f"{len(at_request) - len(lost)} of {len(at_request)}"
+        lines.append({"requested": number_of(request), "held": held, "not held": ", ".join(lost)})
+    return Section("force and motion", lines)
 
 
 def _row(look: FirstLook, request: Request, cheapest: list[float]) -> Row:
@@ -80,8 +96,7 @@ def _largest(judgements: list[Judgement]) -> dict[str, Any]:
     return {"place": worst.place, "column": worst.column, "time_s": worst.time}
 
 
-def _section(name: str, rows: list[Row]) -> Section:
-    first = rows[0]
+def _lines(rows: list[Row]) -> list[dict[str, str]]:
     lines = [
         {
             "requested": number_of(row["requested"]),
@@ -95,16 +110,21 @@ def _section(name: str, rows: list[Row]) -> Section:
     ]
     if not any(line["not resolved"] for line in lines):
         lines = [{key: value for key, value in line.items() if key != "not resolved"} for line in lines]
+    return lines
+
+
+def _note(rows: list[Row]) -> str:
+    """What the errors of one scene are, and what they leave out."""
+    first = rows[0]
     note = (
-        f"largest errors over the scale of their kind from {first['start_s']:g} to {first['end_s']:g} s, against the scene at "
-        f"{number_of(first['reference'])} ({first['reference_cpu_s_per_s']:.2g} CPU s/s), itself only estimated; "
-        f"0: less than 1e-15; !: more than requested; {MODEL}"
+        f"{EXPLAINED}; {first['start_s']:g} to {first['end_s']:g} s, against the scene at {number_of(first['reference'])} "
+        f"({first['reference_cpu_s_per_s']:.2g} CPU s/s), itself only estimated; {MODEL}"
     )
     if not any(row[kind] for row in rows for kind in KINDS):
         note += f"; {SAME_BITS}"
     if first["same"]:
         note += f"; no request moves {', '.join(first['same'])}"
-    return Section(name, lines, note)
+    return note
 
 
 def _error(error: float | None, requested: float) -> str:
