@@ -16,7 +16,7 @@ from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, Friction
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
-from contact_sim_pkg.rigs.vehicle.coupling.edges import refuse_high_walls
+from contact_sim_pkg.rigs.vehicle.coupling.edges import refuse_high_walls, sharp_edge
 from contact_sim_pkg.rigs.vehicle.coupling.rule import (
     CouplingRule,
     allowance_of,
@@ -75,6 +75,7 @@ class Model:
     corrector_passes: int
     coupling: CouplingRule | None  # None without a pressure field
     shaken: bool  # whether the scene has a vibration
+    has_edge: bool  # whether the road has an edge that no grid resolves
 
     @property
     def states(self) -> int:
@@ -129,6 +130,7 @@ def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
         ),
         coupling=_coupling(scene, rig, footprint, timing, (tire_field, seat_field), tire),
         shaken=scene.vibration is not None,
+        has_edge=sharp_edge(scene, None if tire_field is None else tire_field.usual.settings) is not None,
     )
 
 

@@ -13,7 +13,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.rigs.vehicle import entries as columns
 from contact_sim_pkg.rigs.vehicle.coupling.check import KINDS
-from contact_sim_pkg.rigs.vehicle.coupling.edges import edge_cautions, sharp_edge
+from contact_sim_pkg.rigs.vehicle.coupling.edges import edge_cautions
 from contact_sim_pkg.rigs.vehicle.coupling.steps import Coupling
 from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive
 from contact_sim_pkg.rigs.vehicle.model import Model, build
@@ -44,8 +44,6 @@ class Simulation:
         self._travel = make_travel(scene) if self.model.tire_geometry is not None else None
         self._coupling = Coupling(self.model)
         self.cautions = self._cautions()
-        grids = self.model.tire_field
-        self._has_edge = sharp_edge(scene, None if grids is None else grids.usual.settings) is not None
         self._first_block = self._next_block = 0
         self._reset()
 
@@ -133,7 +131,7 @@ class Simulation:
             record.field_iterations += iterations
             record.field_residual = max(record.field_residual, residual)
         record.missed = coupling.missed.pop()
-        if self._has_edge:
+        if self.model.has_edge:
             record.missed[0, KINDS.index("peak")] = numpy.nan
         self._map_seat(record)
         outputs = self._outputs(record, began)

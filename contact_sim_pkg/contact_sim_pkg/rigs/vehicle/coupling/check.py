@@ -48,8 +48,10 @@ SAMPLED = 0.85
 
 COLUMNS = 2 * len(KINDS)
 
-HALVED = 3.0
-"""Error of a grid of half as many cells each way over that of the grid, less one: of second order."""
+HALVED, HALVED_AT_EDGE = 3.0, 1.0
+"""Error of a grid of half as many cells each way over that of the grid, less one: of second order; of
+first order on an edge of the road that no grid resolves.
+"""
 
 EDGE_OF_RATE = 2.0
 """Rate at the ends of a step whose height errs by so much less in its middle, over its length: of a
@@ -117,8 +119,9 @@ def _errors(middle: Missed, grid: Missed) -> tuple[float, ...]:
 class Halved:
     """The grid of a contact with half as many cells each way."""
 
-    def __init__(self, settings: FieldSettings, contact: str) -> None:
-        """Make the grid; it has the same extent."""
+    def __init__(self, settings: FieldSettings, contact: str, *, at_edge: bool) -> None:
+        """Make the grid; it has the same extent. ``at_edge``: of the road that no grid resolves."""
+        self._order = HALVED_AT_EDGE if at_edge else HALVED
         half = settings._replace(
             rows=settings.rows // 2, cols=settings.cols // 2, cell_x=2.0 * settings.cell_x, cell_y=2.0 * settings.cell_y
         )
@@ -149,9 +152,9 @@ class Halved:
         cell, pressure, half = fine.cell_area, usual.pressure, self._field.pressure
         areas = numpy.count_nonzero(pressure) * cell, numpy.count_nonzero(half) * 4.0 * cell
         return Missed(
-            normal=self._load_missed(self._field.load - usual.load) / HALVED,
-            peak=abs(float(half.max()) - float(pressure.max())) / HALVED,
-            area=abs(areas[0] - areas[1]) / HALVED,
+            normal=self._load_missed(self._field.load - usual.load) / self._order,
+            peak=abs(float(half.max()) - float(pressure.max())) / self._order,
+            area=abs(areas[0] - areas[1]) / self._order,
         )
 
     def _load_missed(self, more: float) -> float:
@@ -173,7 +176,7 @@ class CouplingCheck:
         self._seat = CushionField(_closer(model.seat_field, "seat"), seat.contact, model.seat_shape)
         self._halves = tuple(
             None if grids is None or grids.usual.settings.rows % 2 or grids.usual.settings.cols % 2
-            else Halved(grids.usual.settings, name)
+            else Halved(grids.usual.settings, name, at_edge=model.has_edge)
             for grids, name in ((model.tire_field, "tire"), (model.seat_field, "seat"))
         )  # fmt: skip
         self.reset()
