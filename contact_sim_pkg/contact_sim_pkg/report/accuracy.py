@@ -38,10 +38,10 @@ def accuracy_numbers(recording: Recording) -> dict[str, Any]:
     found = _by_kind(recording)
     estimated = {place: {kind: _over_scale(each) for kind, each in kinds.items()} for place, kinds in found.items()}
     for kinds in estimated.values():  # pressure and area err with the force that makes them
+        force = kinds.get("force") or 0.0
         kinds |= {
-            kind: max(error, kinds["force"]) for kind, error in kinds.items()
-            if kind in ("peak", "area") and error is not None and kinds.get("force") is not None
-        }  # fmt: skip
+            kind: max(error, force) for kind, error in kinds.items() if kind in ("peak", "area") and error is not None
+        }
     forces = [error for kinds in estimated.values() if (error := kinds.get("force")) is not None]
     if recording.motion is not None:
         # A body that no estimate names moves by the forces on it
