@@ -53,7 +53,9 @@ class _Scene(Section):
         0.001, 0.1, "s", "simulated time of a block, a whole number of nanoseconds", default=0.01
     )
     accuracy: Accuracy = choice(
-        "requested relative error of forces and pressures, or the best in real time", default=0.01
+        "bound of the largest numerical error over the run: forces over the largest force of their contact, motion, peak"
+        " pressure and contact area over their largest; a number from 1e-8 to 0.1, or realtime",
+        default=0.01,
     )
     travel: TravelSection | None = choice("speed programme (rigs tire and car)", default=None, example={"speed": 10.0})
     road: Road | None = choice(
