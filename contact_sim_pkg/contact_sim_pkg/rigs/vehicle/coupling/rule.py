@@ -44,6 +44,11 @@ SHORTEST_FOR_NOISE = 1e-3
 FIRST_WAY = 0.125
 """Of the standing footprint's length: the first coupling steps, before any was checked."""
 
+SILENT, SILENT_WAY = 1e-3, 2.5
+"""Part of the allowed error below which a step has met nothing, as on level road, and how many first
+ways steps that have met nothing may be long: of what comes they know nothing.
+"""
+
 AIM, UNLUCKY, NEWEST = 0.9, 3.0, 0.125
 """Of `MeasuredWay`: part of the allowed error that is aimed at, largest value over the root mean
 square, weight of the newest value in that.
@@ -81,7 +86,7 @@ class MeasuredWay:
 
     def learn(self, way: float, missed: float) -> None:
         """A step over a ``way`` [m] ``missed`` this part of what it may."""
-        if way <= 0.0:
+        if way <= 0.0 or (missed < SILENT and self.longest >= SILENT_WAY * self._first):
             return
         self._square += NEWEST * ((missed / way) ** 2 - self._square)
         wanted = AIM / max(UNLUCKY * math.sqrt(self._square), 1e-9)
