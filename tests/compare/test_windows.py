@@ -22,16 +22,21 @@ def test_a_window_has_the_block_in_its_middle_and_a_lead_in():
     assert span_round(SCENE, 3, 5) == Span(0, 0, 5)
 
 
-def test_windows_lie_round_the_largest_force_and_the_shortest_step():
+def cost(block, error):
+    """Cost of a block with an estimated error of the normal force."""
+    return SolverCost(
+        block=block, wall_time=0.0, real_time_factor=0.0, estimated=("tire/patch.peak", "tire/force.normal"),
+        estimated_error=numpy.array([1e6 - block, error]), estimated_of=numpy.array([2e6, 1e3]),
+    )  # fmt: skip
+
+
+def test_windows_lie_round_the_largest_force_and_the_largest_estimated_error():
     normal = numpy.ones(1000)
     normal[755] = 2.0  # block 75
-    costs = [
-        SolverCost(block=block, wall_time=0.0, real_time_factor=0.0, stretches=1 + (block == 20))
-        for block in range(100)
-    ]
+    costs = [cost(block, 3.0 if block == 20 else 1.0) for block in range(100)]
     found = windows_of(SCENE, columns_of([force(normal)]), costs, {}, 100)
     assert [(each.span.shown, each.reasons) for each in found] == [
-        (10, ("shortest coupling step",)),
+        (10, ("largest estimated error",)),
         (65, ("largest force",)),
     ]
     [whole] = from_the_start(found)
@@ -41,13 +46,10 @@ def test_windows_lie_round_the_largest_force_and_the_shortest_step():
 def test_windows_that_overlap_are_one():
     normal = numpy.ones(1000)
     normal[300] = 2.0
-    costs = [
-        SolverCost(block=block, wall_time=0.0, real_time_factor=0.0, stretches=1 + (block == 20))
-        for block in range(100)
-    ]
+    costs = [cost(block, 3.0 if block == 20 else 1.0) for block in range(100)]
     [found] = windows_of(SCENE, columns_of([force(normal)]), costs, {}, 100)
     assert found.span == Span(0, 10, 40)
-    assert found.reasons == ("shortest coupling step", "largest force")
+    assert found.reasons == ("largest estimated error", "largest force")
 
 
 def test_the_event_of_a_road_is_where_the_wheel_passes_its_steepest_part():

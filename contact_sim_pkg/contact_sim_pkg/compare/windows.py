@@ -1,5 +1,5 @@
-"""Windows of a run in which its accuracy is checked: 0.2 s round the largest force, the shortest
-coupling step and the event of the excitation.
+"""Windows of a run in which its accuracy is checked: 0.2 s round the largest force, the largest
+estimated error and the event of the excitation.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ def windows_of(
 ) -> list[Window]:  # fmt: skip
     """Windows of a run of so many blocks, those of the same blocks as one, in order of time."""
     places = {"largest force": _largest_force(scene, columns)}
-    if any(cost.stretches > 1 for cost in costs):
-        places["shortest coupling step"] = max(costs, key=lambda cost: cost.stretches).block
+    if any(len(cost.estimated_error) for cost in costs):
+        places["largest estimated error"] = max(costs, key=_estimated).block
     if sources:
         places["event of the excitation"] = event_block(sources, blocks)
     found: list[Window] = []
@@ -52,6 +52,12 @@ def windows_of(
         else:
             found.append(Window(span, (reason,)))
     return found
+
+
+def _estimated(cost: SolverCost) -> float:
+    """Largest estimated error of a normal force [N] in a block."""
+    pairs = zip(cost.estimated, cost.estimated_error, strict=True)
+    return max((float(error) for name, error in pairs if name.endswith("force.normal")), default=0.0)
 
 
 def span_round(scene: ResolvedScene, block: int, blocks: int) -> Span:
