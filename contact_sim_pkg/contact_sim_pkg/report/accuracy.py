@@ -21,6 +21,7 @@ RESOLVED = 0.1
 """Error of a component of a force over its own largest value above which it is not resolved."""
 
 MOTION = "motion"
+ROUNDING = 1e-15
 WORDS = {"force": "force", "motion": "motion", "peak": "peak pressure", "area": "area"}
 
 
@@ -118,7 +119,9 @@ def accuracy_lines(numbers: dict[str, Any]) -> list[str]:
 
 
 def short(number: float) -> str:
-    """A number in two digits, without zeros that say nothing: 1e-2, 1.4e-2."""
+    """A number in two digits, without zeros that say nothing: 1e-2, 1.4e-2; 0 for what is rounding."""
+    if number < ROUNDING:
+        return "0"
     mantissa, _e, exponent = f"{number:.1e}".partition("e")
     return f"{mantissa.removesuffix('.0')}e{int(exponent)}"
 
