@@ -54,9 +54,13 @@ def windows_of(
     return found
 
 
-def span_round(scene: ResolvedScene, block: int, blocks: int) -> Span:
-    """The window with a block in its middle, within a run of so many blocks, and its lead-in."""
-    length, lead = (max(1, round(seconds / scene.block_length)) for seconds in (LENGTH, LEAD))
+def span_round(
+    scene: ResolvedScene, block: int, blocks: int, seconds: float = LENGTH, standstill: float = LEAD
+) -> Span:
+    """The window of so many ``seconds`` with a block in its middle, within a run of so many blocks,
+    and its lead-in from ``standstill`` [s] before it.
+    """
+    length, lead = max(1, round(seconds / scene.block_length)), round(standstill / scene.block_length)
     shown = max(0, min(block - length // 2, blocks - length))
     return Span(max(0, shown - lead), shown, min(blocks, shown + length))
 
