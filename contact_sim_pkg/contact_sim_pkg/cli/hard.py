@@ -8,7 +8,9 @@ from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show
 
 
 @click.command("hard")
-@click.option("--accuracy", is_flag=True, help="Hard scenes at 1e-1 to 1e-4 instead: held, named by the run, or missed.")
+@click.option(
+    "--accuracy", is_flag=True, help="Hard scenes at 1e-1 to 1e-4 instead: held, named by the run, or missed."
+)
 @json_option
 @click.pass_context
 def command(context: click.Context, accuracy: bool, as_json: bool) -> None:

@@ -33,5 +33,7 @@ def least_errors(scene: Mapping[str, Any]) -> dict[str, dict[str, LeastError]]:
                 continue
             for kind, error in effect.not_below.items():
                 kinds = found.setdefault(MOTION if kind == MOTION else contact.name, {})
-                kinds[kind] = max(kinds.get(kind, LeastError(0.0, "")), LeastError(error, f"{contact.name} {effect.name}"))
+                kinds[kind] = max(
+                    kinds.get(kind, LeastError(0.0, "")), LeastError(error, f"{contact.name} {effect.name}")
+                )
     return found
