@@ -20,7 +20,7 @@ class AccuracyCase(NamedTuple):
 SLOW = "travel.speed=5"
 CASES = (
     AccuracyCase(
-        "kerb up", "a sharp edge of 30 mm, steeper than the tire's own flank", "tire_bump",
+        "kerb up", "a sharp edge of 30 mm between two nodes of the grid", "tire_bump",
         ("duration=0.4", SLOW, "road={kind: step, position: 0.16, height: 0.03}"),
     ),
     AccuracyCase(
@@ -32,7 +32,7 @@ CASES = (
         ("duration=0.4", "road={kind: pothole, position: 0.3, depth: 0.05, length: 0.3}"), 0.06,
     ),
     AccuracyCase(
-        "stones", "bars of 10 mm every 0.1 m, two under the footprint", "tire_bump",
+        "stones", "bars of 10 mm every 0.1 m, one or two under the footprint", "tire_bump",
         ("duration=0.4", SLOW, "road={kind: cleat, position: 0.15, height: 0.01, length: 0.02, edge: 0.005, period: 0.1}"), 0.04,
     ),
     AccuracyCase(
@@ -44,7 +44,7 @@ CASES = (
         ("duration=0.4", "road={kind: step, position: 0.05, height: -0.1}"), 0.1,
     ),
     AccuracyCase(
-        "class E", "a very poor road: waves of 0.3 m and texture, the contact may open", "tire_rough_road",
+        "class E", "a very poor road, round its steepest place", "tire_rough_road",
         ("duration=0.4", "travel={speed: 8}", "road.roughness_class=E"), 0.01,
     ),
     AccuracyCase(
@@ -52,7 +52,7 @@ CASES = (
         ("duration=0.4", "travel={speed: 30}"), 0.01,
     ),
     AccuracyCase(
-        "loss of 1 s/m", "sixty times the usual loss: the force follows the rate of the height", "tire_bump",
+        "loss of 1 s/m", "67 times the usual loss: the force follows the rate of the height", "tire_bump",
         ("duration=0.4", "road={kind: bump, position: 0.4, height: 0.03, length: 0.6}",
          "effects.tire.normal_dissipative.damping=1"), 0.06,
     ),
