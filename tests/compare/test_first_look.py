@@ -3,7 +3,7 @@
 import pytest
 
 from contact_sim_pkg.compare import first_look as module
-from contact_sim_pkg.compare.first_look import FirstLook, Request, cheapest_for, first_look
+from contact_sim_pkg.compare.first_look import Effort, FirstLook, Request, cheapest_for, first_look
 from contact_sim_pkg.compare.judgement import Judgement, Unresolved
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.studies.accuracy.first_look_table import rows_of, sections, write_plot
@@ -88,6 +88,22 @@ def test_a_scene_is_run_at_each_request_and_at_its_own(tmp_path):
     assert lines[0] == "slope: 0.1, 0.01, 0.003, 0.001 beside 0.0001"
 
 
+def test_a_scene_is_looked_at_with_values_and_a_request_outweighs_them():
+    look = first_look("block_painleve", lambda _line: None, values=("duration=0.05", "accuracy=1e-2"))
+    assert [each.requested for each in look.requests] == [1e-1, 1e-2, 1e-3]
+    assert look.end == pytest.approx(0.05)
+
+
+def test_the_span_round_an_event_and_its_lead_are_as_long_as_asked():
+    """The bump at 10 m is steepest a quarter of its length beside its middle, at 0.985 and 1.015 s; the scales are those
+    of the run, whose motion is larger than that within 20 ms."""
+    effort = Effort(repeats=1, length=0.02, lead=0.0)
+    look = first_look("tire_half_space", lambda _line: None, values=("duration=1.2",), effort=effort)
+    assert look.end - look.start == pytest.approx(0.02)
+    assert look.start <= 0.985 <= look.end or look.start <= 1.015 <= look.end
+    assert look.requests[0].holds(1e-1)
+
+
 def test_a_request_at_which_the_run_ends_has_no_row(monkeypatch, tmp_path):
     scene = tmp_path / "slope.yaml"
     scene.write_text(SLOPE.replace("3e-3", "1e-2"))
@@ -99,7 +115,9 @@ def test_a_request_at_which_the_run_ends_has_no_row(monkeypatch, tmp_path):
         return real(scene, *arguments, **options)
 
     monkeypatch.setattr(module, "run_span", ends_at_1e1)
-    assert [each.requested for each in first_look(str(scene), lines.append).requests] == [1e-2, 1e-3]
+    look = first_look(str(scene), lines.append)
+    assert [each.requested for each in look.requests] == [1e-2, 1e-3]
+    assert look.ended == ((1e-1, "block 3: the step is too long"),)
     assert "  it ends: block 3: the step is too long" in lines
 
 

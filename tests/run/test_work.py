@@ -26,6 +26,8 @@ from contact_sim_pkg.scene.load import shipped_names
 GENERAL = "effects.backrest.general_dissipative"
 DAMPER = (f"{GENERAL}.restitution=null", f"{GENERAL}.reference_speed=null", f"{GENERAL}.coefficient=1e12")
 SEAT_LOSS, SEAT_GENERAL = "effects.seat.normal_dissipative=null", "effects.seat.general_dissipative"
+MODES, SHELL = "effects.backrest.shell_modes", ("backrest.preload=20",)
+STIFF_SHELL = (*SHELL, f"{MODES}={{modes: 25, points_up: 64, points_across: 64, young_modulus: 1e12}}")
 ON_A_HALF_SPACE = ("effects.seat={normal_elastic: {}, half_space_field: {rows: 512, cols: 512}}",)
 
 
@@ -43,6 +45,7 @@ ON_A_HALF_SPACE = ("effects.seat={normal_elastic: {}, half_space_field: {rows: 5
             "damage.table_rows",
         ),
         ("seat_ride", ("duration=3600", *ON_A_HALF_SPACE), "seat.half_space_field"),
+        ("seat_slap", STIFF_SHELL, "backrest.shell_modes"),
     ],
 )
 def test_more_than_ten_minutes_are_refused_by_name_unless_they_are_allowed(scene, values, cause):
@@ -73,6 +76,27 @@ def test_a_loss_is_estimated_at_the_depth_of_the_law_that_carries():
     swing = math.sqrt(1e6 / 2.0 / (model.masses[0] or model.mass))  # of the mass on the stiffness S E / h
     assert found["steps of the integrator for seat.foam"] == pytest.approx(swing / 1.2 * scene.duration, rel=0.01)
     assert "steps of the integrator for seat.normal_elastic" not in found
+
+
+def work_of_shell(modes=9, points=16, young_modulus=1e10):
+    keys = f"{{modes: {modes}, points_up: {points}, points_across: {points}, young_modulus: {young_modulus}}}"
+    parts = estimated_work(resolved("seat_slap", "duration=1", *SHELL, f"{MODES}={keys}"))
+    return next(part for part in parts if part.what.endswith("backrest.shell_modes"))
+
+
+def test_the_work_of_a_shell_grows_with_its_stiffness_modes_and_points():
+    """Frequencies go with the square root of the modulus; steps pass 3.3 over the highest of them. Of a shell
+    0.4 m by 0.5 m, 30 mm thick, whose 9th mode has three half-waves each way (Soedel, Vibrations of Shells and
+    Plates, 6.3)."""
+    along, up = (3.0 * math.pi / length for length in (0.4, 0.5))
+    waves = along**2 + up**2
+    bending = 0.03**2 / (12.0 * (1.0 - 0.45**2)) * waves**2
+    highest = math.sqrt(1e10 / 1050.0 * (bending + ((along**2 / 1.5 + up**2 / 0.6) / waves) ** 2))
+    usual = work_of_shell()
+    assert usual.number == pytest.approx(highest / 3.3, rel=1e-6)
+    assert work_of_shell(young_modulus=1e12).number == pytest.approx(10.0 * usual.number)
+    assert work_of_shell(modes=25).seconds > 2.0 * usual.seconds
+    assert 10.0 < work_of_shell(points=64).seconds / usual.seconds < 16.0
 
 
 NEEDLE = ("block.sides=[1,1e-3,1e-3]", "block.mass=1", "block.angular_velocity=[0,0,0]", "duration=0.1")

@@ -26,7 +26,7 @@ from contact_sim_pkg.compare.judgement import (
 )
 from contact_sim_pkg.compare.parting import parting_of, until
 from contact_sim_pkg.compare.span import Notify, Span, SpanRun, begins_later, prepared, run_span
-from contact_sim_pkg.compare.windows import event_block, span_round
+from contact_sim_pkg.compare.windows import LEAD, LENGTH, event_block, span_round
 from contact_sim_pkg.records.messages import SolverCost
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import make_sources
@@ -35,22 +35,31 @@ from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import requested
 
-__all__ = ["REQUESTS", "FirstLook", "Request", "cheapest_for", "estimated_of", "first_look"]
+__all__ = ["DEEP", "MOVED", "REQUESTS", "Effort", "FirstLook", "Request", "cheapest_for", "estimated_of", "first_look"]
 
 REQUESTS = (1e-1, 1e-2, 1e-3)
 REFERENCE, FINER = 1e-4, 0.3
 """Request of the finer run, and its largest part of the smallest request that is judged."""
 DEEP, DEEP_REFERENCE = 1e-4, 3e-5
 FINEST = 1e-8  # that a scene may request
-MOST_CPU, MOST_CPU_FROM_START, MOST_SCALE_CPU = 30.0, 8.0, 5.0
-"""[s] of the finer run round an event, of one from the start, which costs about as much at every
-request, and of the run for the scales.
-"""
-SHORT, REPEATS = 0.5, 3
-"""[s] of CPU below which a run is made so many times, and the least counts."""
+SHORT = 0.5  # [s] of CPU below which a run is repeated
 CHEAPER = 0.9
 """Of the cost of a coarser run, from which on a finer one counts as cheaper."""
 MOVED = ("force", "motion")  # kinds that decide what holds
+
+
+class Effort(NamedTuple):
+    """What a first look may take."""
+
+    event: float = 30.0  # [s] of CPU of the finer run round an event
+    start: float = 8.0  # [s] of one from the start, which costs about as much at every request
+    scales: float = 5.0  # [s] of the run for the scales
+    repeats: int = 3  # of a short run, of whose costs the least counts
+    length: float = LENGTH  # [s] of the span round an event
+    lead: float = LEAD  # [s] from standstill to it
+
+
+USUAL = Effort()
 
 
 class Request(NamedTuple):
@@ -79,42 +88,49 @@ class FirstLook(NamedTuple):
     reference: float  # request of the finer run
     reference_cost: float  # [CPU s] per simulated s
     same: tuple[str, ...]  # dials that no request moves
+    ended: tuple[tuple[float, str], ...] = ()  # requests at which the run ended, and its sentence
 
 
-def first_look(scene_name: str, notify: Notify, *, deep: bool = False) -> FirstLook:
-    """Run a scene, by name or path, at each request.
+def first_look(
+    scene_name: str, notify: Notify, *, deep: bool = False, values: Sequence[str] = (), effort: Effort = USUAL
+) -> FirstLook:
+    """Run a scene, by name or path, with ``values`` as of `--set`, at each request.
 
     Raises SceneError where the scene is wrong, RunError where the finer run fails.
     """
-    scene = load_resolved(scene_name)
+    scene = load_resolved(scene_name, *values)
     own = requested(scene.accuracy)
     requests = sorted({*REQUESTS, *((DEEP,) if deep else ()), own}, reverse=True)
     finest = max(FINEST, min(DEEP_REFERENCE if deep else REFERENCE, FINER * requests[-1]))
     notify(f"{scene.name}: {', '.join(f'{each:g}' for each in requests)} beside {finest:g}")
-    scenes = {each: scene if each == own else _at(scene_name, each) for each in requests}
-    finer, span = _finer(_at(scene_name, finest), scenes[requests[-1]], notify), _span_of(scene)
+    scenes = {each: scene if each == own else _at(scene_name, values, each) for each in requests}
+    finer, span = _finer(_at(scene_name, values, finest), scenes[requests[-1]], notify), _span_of(scene, effort)
     notify("kernels: compiled, or from the disk")
     simulation = prepared(finer, notify, first=True)
     notify(f"{scene.name} at {finest:g}: {_times(scene, span)}")
-    most_cpu = MOST_CPU if begins_later(scene) else MOST_CPU_FROM_START
+    most_cpu = effort.event if begins_later(scene) else effort.start
     reference = run_span(finer, span, notify, simulation=simulation, most_cpu=most_cpu)
     span = span._replace(end=span.first + reference.blocks)
     scales = _scales(scene, reference)
-    if span.first:
+    whole = Span(0, 0, round(scene.duration / scene.block_length))
+    if span != whole and begins_later(scene):
         notify(f"{scene.name} at {requests[0]:g}: the whole run, for the scales of its errors")
-        whole = Span(0, 0, round(scene.duration / scene.block_length))
         scales = larger_scales(
-            scales, _scales(scene, run_span(scenes[requests[0]], whole, notify, most_cpu=MOST_SCALE_CPU))
+            scales, _scales(scene, run_span(scenes[requests[0]], whole, notify, most_cpu=effort.scales))
         )
-    rows = []
+    rows, ended = [], []
     for each in requests:
         notify(f"{scene.name} at {each:g}: {_times(scene, span)}")
-        run = _cheapest_run(scenes[each], span, notify)
-        if run is not None:
-            rows.append(_request(each, run, reference.columns, scales, own=each == own, length=scene.block_length))
+        try:
+            run = _cheapest_run(scenes[each], span, notify, effort.repeats)
+        except RunError as error:
+            notify(f"  it ends: {error}")
+            ended.append((each, str(error)))
+            continue
+        rows.append(_request(each, run, reference.columns, scales, own=each == own, length=scene.block_length))
     return FirstLook(
         scene.name, tuple(rows), span.shown * scene.block_length, span.end * scene.block_length, finest,
-        _cost(reference, scene.block_length), _same([*scenes.values()]),
+        _cost(reference, scene.block_length), _same([*scenes.values()]), tuple(ended),
     )  # fmt: skip
 
 
@@ -127,8 +143,8 @@ def cheapest_for(rows: Sequence[Request], request: float) -> Request | None:
     return found
 
 
-def _at(scene_name: str, accuracy: float) -> ResolvedScene:
-    return load_resolved(scene_name, f"accuracy={accuracy:g}")
+def _at(scene_name: str, values: Sequence[str], accuracy: float) -> ResolvedScene:
+    return load_resolved(scene_name, *values, f"accuracy={accuracy:g}")
 
 
 def _finer(scene: ResolvedScene, judged_scene: ResolvedScene, notify: Notify) -> ResolvedScene:
@@ -140,12 +156,12 @@ def _finer(scene: ResolvedScene, judged_scene: ResolvedScene, notify: Notify) ->
         return scene
 
 
-def _span_of(scene: ResolvedScene) -> Span:
+def _span_of(scene: ResolvedScene, effort: Effort) -> Span:
     """What is run: round the event where the rig can begin there, else from the start."""
     blocks = round(scene.duration / scene.block_length)
     sources = make_sources(scene)
     if begins_later(scene) and sources:
-        return span_round(scene, event_block(sources, blocks), blocks)
+        return span_round(scene, event_block(sources, blocks), blocks, effort.length, effort.lead)
     return Span(0, 0, blocks)
 
 
@@ -157,17 +173,14 @@ def _times(scene: ResolvedScene, span: Span) -> str:
     return f"{span.shown * scene.block_length:g} to {span.end * scene.block_length:g} s"
 
 
-def _cheapest_run(scene: ResolvedScene, span: Span, notify: Notify) -> SpanRun | None:
-    """A run, repeated where it is so short that its cost is uncertain; None where it ends in a named
-    failure.
+def _cheapest_run(scene: ResolvedScene, span: Span, notify: Notify, repeats: int) -> SpanRun:
+    """A run, repeated where it is so short that its cost is uncertain.
+
+    Raises RunError where it ends in a named failure.
     """
-    try:
-        run = run_span(scene, span, notify)
-    except RunError as error:
-        notify(f"  it ends: {error}")
-        return None
-    repeats = REPEATS - 1 if run.cpu < SHORT else 0
-    cpu = min([run.cpu, *(run_span(scene, span, notify).cpu for _ in range(repeats))])
+    run = run_span(scene, span, notify)
+    more = repeats - 1 if run.cpu < SHORT else 0
+    cpu = min([run.cpu, *(run_span(scene, span, notify).cpu for _ in range(more))])
     return run._replace(cpu=cpu)
 
 

@@ -60,9 +60,13 @@ def _estimated(cost: SolverCost) -> float:
     return max((float(error) for name, error in pairs if name.endswith("force.normal")), default=0.0)
 
 
-def span_round(scene: ResolvedScene, block: int, blocks: int) -> Span:
-    """The window with a block in its middle, within a run of so many blocks, and its lead-in."""
-    length, lead = (max(1, round(seconds / scene.block_length)) for seconds in (LENGTH, LEAD))
+def span_round(
+    scene: ResolvedScene, block: int, blocks: int, seconds: float = LENGTH, standstill: float = LEAD
+) -> Span:
+    """The window of so many ``seconds`` with a block in its middle, within a run of so many blocks,
+    and its lead-in from ``standstill`` [s] before it.
+    """
+    length, lead = max(1, round(seconds / scene.block_length)), round(standstill / scene.block_length)
     shown = max(0, min(block - length // 2, blocks - length))
     return Span(max(0, shown - lead), shown, min(blocks, shown + length))
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from contact_sim_pkg.compare.least_errors import least_errors
 from contact_sim_pkg.records.definitions import definition_of
-from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.report.series import Estimate, Recording
 from contact_sim_pkg.scene.schema.accuracy import requested
 
@@ -73,18 +73,10 @@ def _by_kind(recording: Recording) -> dict[str, dict[str, list[Estimate]]]:
 
 def _not_below(recording: Recording, estimated: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, list[Any]]]:
     """Largest error by place and kind that no request makes smaller, and its effect."""
-    rig = rigs().get(str(recording.scene.get("rig")))
-    found: dict[str, dict[str, list[Any]]] = {}
-    for contact in () if rig is None else rig.contacts:
-        acting = recording.scene.get("effects", {}).get(contact.name) or {}
-        for effect in contact.effects:
-            if acting.get(effect.name) is None:
-                continue
-            for kind, error in effect.not_below.items():
-                place = MOTION if kind == MOTION else contact.name
-                before = found.setdefault(place, {}).get(kind, [0.0, ""])
-                if kind in estimated.get(place, {}):
-                    found[place][kind] = max(before, [error, f"{contact.name} {effect.name}"])
+    found = {
+        place: {kind: [*least] for kind, least in kinds.items() if kind in estimated.get(place, {})}
+        for place, kinds in least_errors(recording.scene).items()
+    }
     return {place: kinds for place, kinds in found.items() if kinds}
 
 

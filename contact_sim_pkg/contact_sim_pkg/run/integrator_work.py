@@ -34,10 +34,10 @@ class Link(NamedTuple):
     damping: float  # [N s/m]
 
 
-def segments(scene: ResolvedScene) -> Work:
-    """Segments of the linear drive: at least one step each."""
+def segments(scene: ResolvedScene, cost: float = STEP_COST) -> Work:
+    """Segments of the linear drive: at least one step each, of so much ``cost`` [s]."""
     timing = make_timing(scene, True)
-    return Work("segments between two samples of drive or output", scene.duration / timing.segment_length, STEP_COST)
+    return Work("segments between two samples of drive or output", scene.duration / timing.segment_length, cost)
 
 
 def integrator_steps(

@@ -174,7 +174,7 @@ def _one_mass(backrest: schema.BackrestSection) -> _ModalBack:
     )
 
 
-def _shallow_shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection) -> ShallowShell:
+def shallow_shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection) -> ShallowShell:
     back = backrest.back
     return ShallowShell(
         length_1=back.width,
@@ -189,7 +189,7 @@ def _shallow_shell(backrest: schema.BackrestSection, effect: schema.ShellModesSe
 
 
 def _shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection, mat: Mat) -> _ModalBack:
-    shell = _shallow_shell(backrest, effect)
+    shell = shallow_shell(backrest, effect)
     width, height = shell.length_1, shell.length_2
     point_x, point_y = (grid.ravel() for grid in numpy.meshgrid(mat.x, mat.y, indexing="ij"))
     places = numpy.column_stack([point_y + 0.5 * width, point_x + 0.5 * height])
@@ -220,7 +220,7 @@ def _shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection, m
 
 def _search(backrest: schema.BackrestSection, effect: schema.ShellModesSection, mat: Mat) -> ContactSearch:
     """Search over the cells' centres and the sides."""
-    shell = _shallow_shell(backrest, effect)
+    shell = shallow_shell(backrest, effect)
     width, height = shell.length_1, shell.length_2
     # Candidates: the centres of the cells, and the edges of the shell.
     up, across = (

@@ -78,7 +78,8 @@ RIGS = (
             for name in ("elliptic", "force", "smooth", "rough", "area", "exponent", "road")
         ),
         hard_cases=tuple(
-            f"{__name__}.studies.hard_cases.{name}" for name in ("tire", "inflation", "rolling", "scenes", "occupant")
+            f"{__name__}.studies.hard_cases.{name}"
+            for name in ("tire", "inflation", "rolling", "obstacles", "scenes", "occupant")
         ),
         validation=(f"{__name__}.studies.validation_tire",),
     ),

@@ -80,6 +80,11 @@ class Middle(NamedTuple):
 NOTHING, UNKNOWN = Missed(), Missed(math.nan, math.nan)
 
 
+def middle_of(step: CouplingStep) -> int:
+    """Segment at whose end a step is looked at: the middle one; of a single one that, for its grid."""
+    return max(1, step.segments // 2)
+
+
 class MissedSoFar:
     """Errors that the checks of a run found, block by block: the largest of the block, or `UNLUCKY`
     times the usual one.
@@ -193,7 +198,7 @@ class CouplingCheck:
         self._since += 1
         unusual = error > max(UNUSUAL * self._usual, LEAST_UNUSUAL)
         self._usual += WEIGHT * (error - self._usual)
-        if step.segments < 2 or not (unusual or self._since >= self._pause):
+        if not (unusual or self._since >= self._pause):
             return False
         self._since, self._pause = 0, self._pause if unusual else min(2 * self._pause, LONGEST_PAUSE)
         return True
@@ -202,7 +207,7 @@ class CouplingCheck:
         """Errors in the middle of a step, where the ``bodies`` have been moved to; ``slopes`` [1]:
         effective ones of the road at both ends. What cannot be solved there is not known.
         """
-        half = step.segments // 2
+        half = middle_of(step)
         drive, laid = step.drive, bodies.laid(half)
         tire, seat = UNKNOWN, UNKNOWN
         tire_grid = seat_grid = NOTHING

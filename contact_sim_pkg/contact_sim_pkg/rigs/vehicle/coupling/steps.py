@@ -31,7 +31,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
 from contact_sim_pkg.rigs.vehicle.bodies import Bodies, Corrections, CouplingStep, Sampled, Saved
-from contact_sim_pkg.rigs.vehicle.coupling.check import CouplingCheck, Middle, MissedSoFar
+from contact_sim_pkg.rigs.vehicle.coupling.check import CouplingCheck, Middle, MissedSoFar, middle_of
 from contact_sim_pkg.rigs.vehicle.coupling.rule import STRAIGHT, Allowance, MeasuredWay
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
 from contact_sim_pkg.rigs.vehicle.entries import FORCES, SEAT_NORMAL, TIRE_NORMAL, TIRE_SHEAR, TIRE_SLOPE
@@ -46,6 +46,7 @@ SHRINK, GROW = 0.25, 2.0  # least and largest ratio of a coupling step to the on
 AGAIN = 0.7  # largest ratio of a coupling step that is repeated
 SAFETY = 0.8
 SLOPE = 0.3  # part of the largest error of a rate that counts: it is that of an instant, the allowed one is of a coupling step
+SEEN = 0.5  # the same in the estimate of the force
 SETTLED = 0.5  # a correction that changes by this part of what is allowed is not corrected again
 
 
@@ -239,23 +240,29 @@ class Coupling:
             self.bodies.restore(saved)
             record.stretches_repeated += 1
             return False
-        if error > 1.0 or not self._by_error:  # as short as it may be, and never checked
-            tire, seat = (
-                part * allowed.force if allowed.load > 0.0 else 0.0
-                for part, allowed in zip(self._errors(outcome.found, step, 1.0), self._allowances, strict=True)
-            )
-            self.missed.add_estimate(tire, seat)
+        self.missed.add_estimate(*self._estimated(outcome, step, error))
         record.stretches += 1
         if self.model.coupling is not None:
             record.coupling_error = max(record.coupling_error, outcome.error * self.model.coupling.tolerance)
         self._close(step, outcome, record)
         return True
 
+    def _estimated(self, outcome: StepOutcome, step: CouplingStep, error: float) -> tuple[float, float]:
+        """Errors [N] of the normal forces of tire and seat by the curvature of their corrections; with
+        all of a rate's error where the step is as short as it may be.
+        """
+        errors = self._errors(outcome.found, step, 1.0 if error > 1.0 else SEEN)
+        tire, seat = (
+            part * allowed.force if allowed.load > 0.0 else 0.0
+            for part, allowed in zip(errors, self._allowances, strict=True)
+        )
+        return tire, seat
+
     def _look(self, check: CouplingCheck, step: CouplingStep, saved: Saved, outcome: StepOutcome) -> Middle:
         """What a step missed in its middle."""
-        end, ends, count = self.bodies.save(), outcome.ends, step.segments
+        end, ends = self.bodies.save(), outcome.ends
         self.bodies.restore(saved)
-        self.bodies.move(step, self._corrections(), ends, self._bends(ends, step), count // 2)
+        self.bodies.move(step, self._corrections(), ends, self._bends(ends, step), middle_of(step))
         found = check.look(self.bodies, step, (self._slope, self.tire.effective_slope()))
         self.bodies.restore(end)
         return found
@@ -271,6 +278,8 @@ class Coupling:
             if math.isfinite(error)
         ]
         worst = max(parts, default=0.0)
+        if step.segments < 2:  # its middle is its end
+            return worst
         self._way.learn(float(numpy.ptp(step.drive.travel)), worst)
         return worst
 
