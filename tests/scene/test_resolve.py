@@ -32,7 +32,7 @@ def leaves(data):
     ("accuracy", "cells"),
     [
         ("realtime", (48, 64)), (0.1, (48, 64)), (1e-2, (48, 64)), (9.99e-3, (96, 128)), (1e-3, (96, 128)),
-        (9.99e-4, (192, 256)), (1e-8, (192, 256)),
+        (9.99e-4, (144, 192)), (1e-8, (144, 192)),
     ],
 )  # fmt: skip
 def test_the_cheapest_rung_that_reaches_the_accuracy_is_taken(maker, accuracy, cells):
@@ -123,7 +123,7 @@ def test_numbers_and_texts_survive_the_round_trip_to_the_bit(maker, mass, accura
 
 def test_a_resolved_text_that_leaves_something_open_is_refused(maker):
     text = resolve(maker.load("tire", {FIELD: {}})).to_yaml()
-    open_text = "".join(line for line in text.splitlines(keepends=True) if "tolerance: 0.01" not in line)
+    open_text = "".join(line for line in text.splitlines(keepends=True) if "tolerance: 0.001" not in line)
     assert open_text != text
     with pytest.raises(SceneError, match=r"contact_field\.tolerance: is left open"):
         read_resolved(open_text)

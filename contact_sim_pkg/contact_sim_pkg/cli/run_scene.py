@@ -136,7 +136,7 @@ def _report_outcome(
 
 
 def _is_inaccurate(facts: dict[str, Any]) -> bool:
-    from contact_sim_pkg.report.accuracy import above
+    from contact_sim_pkg.compare.estimated import above
 
     numbers = facts["summary"].get("accuracy")
     return bool(numbers) and bool(above(numbers))

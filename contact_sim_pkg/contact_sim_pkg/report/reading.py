@@ -14,6 +14,7 @@ import numpy as np
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.texts import scene_of_text
+from contact_sim_pkg.compare.estimated import Estimate
 from contact_sim_pkg.records.definitions import HEADER, definition_of
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.field_series import FieldReader
@@ -23,7 +24,6 @@ from contact_sim_pkg.report.series import (
     ContactSeries,
     CostSeries,
     EpisodeSeries,
-    Estimate,
     FloatArray,
     LedgerSeries,
     MotionSeries,

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_sim_pkg.compare.estimated import Estimate
 from contact_sim_pkg.records.messages import ContactEpisodes
 from contact_sim_pkg.report.point_series import PointSeries
 
@@ -165,16 +166,6 @@ class EpisodeSeries(NamedTuple):
         """The episodes of the whole contact that began with a touch."""
         chosen = (self.point == ContactEpisodes.WHOLE_CONTACT) & (self.touched == 1)
         return EpisodeSeries(*(column[chosen] for column in self))
-
-
-class Estimate(NamedTuple):
-    """Estimated numerical error of a column, as ``tire/force.normal``, over a run."""
-
-    column: str
-    error: float
-    """in the unit of the column"""
-    largest: float
-    """largest magnitude of the column"""
 
 
 class TopicCount(NamedTuple):

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from contact_sim_pkg.bag.reader import Bag
-from contact_sim_pkg.report.accuracy import accuracy_numbers
+from contact_sim_pkg.compare.estimated import accuracy_numbers
 from contact_sim_pkg.report.energy import relative_residual, throughput
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.rig_reports import contact_numbers, ledger_scope, rig_warnings, summary_numbers
@@ -58,7 +58,8 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
         summary["energy"] = energy_numbers(recording.ledger) | _scope(recording)
     if recording.cost is not None:
         summary["solver"] = solver_numbers(recording.cost)
-        summary["accuracy"] = accuracy_numbers(recording)
+        if accuracy := accuracy_numbers(recording):
+            summary["accuracy"] = accuracy
     summary["messages"] = {topic.name: topic.messages for topic in recording.topics}
     defined: dict[str, Any] = _without_nan(summary)
     return defined

@@ -128,8 +128,8 @@ def test_a_height_that_is_no_number_is_named_by_its_cell():
 
 
 def test_contact_beyond_both_grids_ends_the_run_with_its_cause():
-    short = "effects.tire.contact_field.length=0.05"
-    outcome = run_offline(resolved("tire_half_space", "duration=1.1", short), None)
+    short = ("effects.tire.contact_field.length=0.05", "road={kind: pothole, position: 10, depth: 0.03, length: 0.6}")
+    outcome = run_offline(resolved("tire_half_space", "duration=1.1", *short), None)
     assert 0 < outcome.blocks < 110
     assert "the contact reaches the edge of the grid" in outcome.failure
     assert "see effects.tire.contact_field" in outcome.failure

@@ -130,7 +130,7 @@ def _echo_accuracy(numbers: dict[str, Any] | None) -> None:
     """What was requested and what is estimated, the warning of it on standard error."""
     if not numbers:
         return
-    from contact_sim_pkg.report.accuracy import above, accuracy_lines, short
+    from contact_sim_pkg.compare.estimated import above, accuracy_lines, short
 
     for line in accuracy_lines(numbers):
         click.echo(f"  {line}")

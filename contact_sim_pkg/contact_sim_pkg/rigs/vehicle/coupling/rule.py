@@ -31,9 +31,9 @@ weights of the footprint miss a part only.
 LONGEST_UNIFORM = 0.125
 """The same where the coupling steps cannot be chosen by their error."""
 
-SHORTEST, FOR_TOLERANCE = 0.04, 1e-2
+SHORTEST, FOR_TOLERANCE, FINEST = 0.04, 1e-2, 0.05
 """Of the standing footprint's length: the segments of a block where a force may err by that much or
-more; with the square root of the tolerance they get shorter, as the coupling steps do.
+more; with the square root of the tolerance they get shorter, as the coupling steps do, down to `FINEST`.
 """
 
 
@@ -150,7 +150,7 @@ def highest_speed(scene: ResolvedScene) -> float:
 
 def shortest_way(footprint: float, integrator: Integrator) -> float:
     """Way [m] of a segment over a ``footprint`` [m]: a checked coupling step has two."""
-    finer = min(1.0, math.sqrt(given(integrator.coupling_tolerance) / FOR_TOLERANCE))
+    finer = min(1.0, max(FINEST, math.sqrt(given(integrator.coupling_tolerance) / FOR_TOLERANCE)))
     longest = math.inf if integrator.coupling_length is None else integrator.coupling_length
     return min(SHORTEST * footprint * finer, 0.5 * longest)
 

@@ -45,8 +45,7 @@ from contact_sim_pkg.run.errors import RunError
 SHRINK, GROW = 0.25, 2.0  # least and largest ratio of a coupling step to the one before
 AGAIN = 0.7  # largest ratio of a coupling step that is repeated
 SAFETY = 0.8
-SLOPE = 0.3  # part of the largest error of a rate that counts: it is that of an instant, the allowed one is of a coupling step
-SEEN = 0.5  # the same in the estimate of the force
+SLOPE = 0.6  # part of the largest error of a rate that counts: it is that of an instant, the allowed one is of a coupling step
 SETTLED = 0.5  # a correction that changes by this part of what is allowed is not corrected again
 
 
@@ -251,7 +250,7 @@ class Coupling:
         """Errors [N] of the normal forces of tire and seat by the curvature of their corrections; with
         all of a rate's error where the step is as short as it may be.
         """
-        errors = self._errors(outcome.found, step, 1.0 if error > 1.0 else SEEN)
+        errors = self._errors(outcome.found, step, 1.0 if error > 1.0 else SLOPE)
         tire, seat = (
             part * allowed.force if allowed.load > 0.0 else 0.0
             for part, allowed in zip(errors, self._allowances, strict=True)

@@ -7,15 +7,14 @@ contacts, and err by no more of theirs: motion has the error of the force that e
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, Protocol
 
 from contact_sim_pkg.compare.least_errors import least_errors
 from contact_sim_pkg.records.definitions import definition_of
-from contact_sim_pkg.report.series import Estimate, Recording
 from contact_sim_pkg.scene.schema.accuracy import requested
 
-__all__ = ["above", "accuracy_lines", "accuracy_numbers", "short"]
+__all__ = ["Estimate", "above", "accuracy_lines", "accuracy_numbers", "short"]
 
 RESOLVED = 0.1
 """Error of a component of a force over its own largest value above which it is not resolved."""
@@ -25,7 +24,57 @@ ROUNDING = 1e-15
 WORDS = {"force": "force", "motion": "motion", "peak": "peak pressure", "area": "area"}
 
 
-def accuracy_numbers(recording: Recording) -> dict[str, Any]:
+class Estimate(NamedTuple):
+    """Estimated numerical error of a column, as ``tire/force.normal``, over a run."""
+
+    column: str
+    error: float
+    """in the unit of the column"""
+    largest: float
+    """largest magnitude of the column"""
+
+
+class Topic(Protocol):
+    """A topic of a recording."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def type(self) -> str:
+        """package/msg/Type."""
+
+
+class Recorded(Protocol):
+    """What is needed of a recording."""
+
+    @property
+    def scene(self) -> Mapping[str, Any]:
+        """Resolved scene; empty for a bag without one."""
+
+    @property
+    def contacts(self) -> Mapping[str, Any]:
+        """By name."""
+
+    @property
+    def fields(self) -> Mapping[str, Any]:
+        """Contacts with a pressure field."""
+
+    @property
+    def motion(self) -> Any:
+        """None where no motion is recorded."""
+
+    @property
+    def topics(self) -> Sequence[Topic]:
+        """Of the bag."""
+
+    @property
+    def estimates(self) -> Sequence[Estimate]:
+        """The largest of the run."""
+
+
+def accuracy_numbers(recording: Recorded) -> dict[str, Any]:
     """Section ``accuracy`` of the summary; empty for a bag without a scene, or without a contact.
 
     ``requested`` [1]; ``estimated``: of each contact, and of the ``motion`` of the bodies, largest
@@ -58,7 +107,7 @@ def accuracy_numbers(recording: Recording) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _by_kind(recording: Recording) -> dict[str, dict[str, list[Estimate]]]:
+def _by_kind(recording: Recorded) -> dict[str, dict[str, list[Estimate]]]:
     """Estimates of each contact, and of the motion, by kind."""
     types = {topic.name.lstrip("/"): topic.type.rpartition("/")[2] for topic in recording.topics}
     found: dict[str, dict[str, list[Estimate]]] = {name: {"force": []} for name in recording.contacts}
@@ -71,7 +120,7 @@ def _by_kind(recording: Recording) -> dict[str, dict[str, list[Estimate]]]:
     return found
 
 
-def _not_below(recording: Recording, estimated: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, list[Any]]]:
+def _not_below(recording: Recorded, estimated: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, list[Any]]]:
     """Largest error by place and kind that no request makes smaller, and its effect."""
     found = {
         place: {kind: [*least] for kind, least in kinds.items() if kind in estimated.get(place, {})}
