@@ -16,8 +16,8 @@ from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show
 def command(context: click.Context, accuracy: bool, as_json: bool) -> None:
     """Value, expectation, margin and verdict of each hard case; exit code 1 if one fails.
 
-    With --accuracy fifteen hard scenes at four requests; exit code 1 if fewer than three quarters
-    hold their request in force and motion.
+    With --accuracy fifteen hard scenes at four requests; exit code 1 if one errs by more than it
+    requests in force or motion, and nothing names that.
     """
     if accuracy:
         from contact_sim_pkg.studies.hard import accuracy_table

@@ -11,7 +11,7 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.rigs.vehicle.coupling.rule import AIM, UNLUCKY, MeasuredWay
+from contact_sim_pkg.rigs.vehicle.coupling.rule import AIM, UNLUCKIER, UNLUCKY, MeasuredWay
 from contact_sim_pkg.rigs.vehicle.field_driver import CushionField
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
@@ -58,6 +58,16 @@ def test_the_way_follows_from_the_error_of_a_step():
     for _ in range(200):
         way.learn(0.5 * way.longest, 5.0 * way.longest)  # 10 a metre
     assert way.longest == pytest.approx(AIM / (UNLUCKY * 10.0), rel=0.01)
+
+
+def test_a_finer_request_expects_unluckier_steps():
+    ways = [MeasuredWay(0.1, 1e-6, tolerance) for tolerance in (1e-1, 1e-2, 1e-3, 1e-4)]
+    for way in ways:
+        for _ in range(300):
+            way.learn(way.longest, 10.0 * way.longest)
+    assert ways[0].longest == pytest.approx(ways[1].longest)
+    expected = [AIM / (10.0 * (UNLUCKY + more)) for more in (0.0, UNLUCKIER, 2.0 * UNLUCKIER)]
+    assert [way.longest for way in ways[1:]] == pytest.approx(expected, rel=0.01)
 
 
 def test_a_single_step_changes_the_way_by_half_or_twice():

@@ -29,7 +29,7 @@ from contact_sim_pkg.run.errors import RunError
 CLOSER = 0.1
 """Of the tolerance of the contact's field: that of the fields which check it."""
 
-FIRST_PAUSE, LONGEST_PAUSE = 1, 16
+FIRST_PAUSE, LONGEST_PAUSE = 1, 24
 """Steps from one check to the next: at the start of a run, doubled each time, and later."""
 
 UNUSUAL, LEAST_UNUSUAL = 3.0, 0.05

@@ -49,9 +49,9 @@ SILENT, SILENT_WAY = 1e-3, 2.5
 ways steps that have met nothing may be long: of what comes they know nothing.
 """
 
-AIM, UNLUCKY, NEWEST = 0.9, 3.0, 0.125
+AIM, UNLUCKY, UNLUCKIER, NEWEST = 0.9, 3.0, 0.6, 0.125
 """Of `MeasuredWay`: part of the allowed error that is aimed at, largest value over the root mean
-square, weight of the newest value in that.
+square, how much more for each tenfold finer request, weight of the newest value in that square.
 """
 
 
@@ -74,9 +74,12 @@ class MeasuredWay:
     square sigma the largest of some hundred is about `UNLUCKY` sigma.
     """
 
-    def __init__(self, first: float, shortest: float) -> None:
-        """``first`` [m]: way that a run begins with; ``shortest`` [m]: no bound is less."""
+    def __init__(self, first: float, shortest: float, tolerance: float = FOR_TOLERANCE) -> None:
+        """``first`` [m]: way that a run begins with; ``shortest`` [m]: no bound is less; ``tolerance``
+        [1] of the force: a finer one has more steps, and among them unluckier ones.
+        """
         self._first, self._shortest = first, shortest
+        self._unlucky = UNLUCKY + UNLUCKIER * max(0.0, math.log10(FOR_TOLERANCE / tolerance))
         self.reset()
 
     def reset(self) -> None:
@@ -89,7 +92,7 @@ class MeasuredWay:
         if way <= 0.0 or (missed < SILENT and self.longest >= SILENT_WAY * self._first):
             return
         self._square += NEWEST * ((missed / way) ** 2 - self._square)
-        wanted = AIM / max(UNLUCKY * math.sqrt(self._square), 1e-9)
+        wanted = AIM / max(self._unlucky * math.sqrt(self._square), 1e-9)
         self.longest = max(self._shortest, min(max(wanted, 0.5 * self.longest), 2.0 * self.longest))
 
 

@@ -81,7 +81,7 @@ class Coupling:
         self._shortest = 1 if rule is None else rule.shortest  # segments
         self._by_error = rule is not None and rule.segments is None
         self._check = CouplingCheck(model, self.tire, self.seat) if self._by_error else None
-        self._way = MeasuredWay(*((math.inf, 0.0) if rule is None else rule.ways))
+        self._way = MeasuredWay(*((math.inf, 0.0) if rule is None else (*rule.ways, rule.tolerance)))
         self.reset()
 
     def reset(self) -> None:
