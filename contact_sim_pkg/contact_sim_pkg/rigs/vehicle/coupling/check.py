@@ -105,7 +105,7 @@ class MissedSoFar:
         self._block = numpy.fmax(self._block, values)
 
     def add_estimate(self, tire: float, seat: float) -> None:
-        """Count errors [N] of the normal forces in a step that could not be made shorter."""
+        """Count errors [N] of the normal forces by the curvature over a step."""
         for place, error in ((0, tire), (len(KINDS), seat)):
             self._block[place] = max(self._block[place], error)
 

@@ -68,10 +68,10 @@ class Allowance(NamedTuple):
 class MeasuredWay:
     """Longest way of a coupling step by what steps were found to miss in their middle.
 
-    The error of a step on waves that it resolves falls with the square of its length and more, on
-    others it does not depend on it: the way that follows from a check is `AIM` over what the most
-    unlucky step would miss, to the power 1/2. Only few steps are checked: of values with a root mean
-    square sigma the largest of some hundred is about `UNLUCKY` sigma.
+    The largest error of a run falls about with the way of its steps: faster on waves that they
+    resolve, not at all on others. So the bound is the way on which the most unlucky step misses `AIM`,
+    by the root mean square of what the checked ones missed over their way. Only few are checked: of
+    values with a root mean square sigma the largest of some hundred is about `UNLUCKY` sigma.
     """
 
     def __init__(self, first: float, shortest: float, tolerance: float = FOR_TOLERANCE) -> None:

@@ -316,7 +316,7 @@ class Coupling:
 
     def _bends(self, ends: Corrections, step: CouplingStep) -> Corrections:
         """Bends of the corrections over a step: of the parabolas through three solutions, and less
-        where the step is as short as it may be and these tell nothing, as at a wall.
+        where the step is as short as it may be and these say nothing, as at a wall.
         """
         tire, seat = self._errors(ends, step, 1.0)
         return (
