@@ -10,6 +10,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.block_encoder import Output
+from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.messages import (
     AxleForce,
     BodyMotion,
@@ -142,24 +143,28 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
     ]  # fmt: skip
     steps, rejected, events = (int(value) for value in record.counters)
     cost = solver_cost(
-        stamps, wall_time, _estimates(outputs, record.missed, model.bodies), steps=steps, rejected_steps=rejected, events=events,
+        stamps, wall_time, _estimates(outputs, record.missed, model.bodies, stamps.period),
+        steps=steps, rejected_steps=rejected, events=events,
         field_iterations=record.field_iterations, field_residual=record.field_residual, field_jump=record.field_jump,
         stretches=record.stretches, stretches_repeated=record.stretches_repeated, coupling_error=record.coupling_error,
     )  # fmt: skip
     return [*outputs, Output("bench/cost", stamps.start, cost)]
 
 
-def _estimates(outputs: list[Output], missed: Array | None, bodies: tuple[str, ...]) -> list[Estimate]:
-    """Estimated errors of the outputs of a block: those that are known."""
+def _estimates(outputs: list[Output], missed: Array | None, bodies: tuple[str, ...], period: float) -> list[Estimate]:
+    """Estimated errors of the outputs of a block with samples each ``period`` [s]: those that are known."""
     if missed is None:
         return []
     touches = "belt_z" if "belt_z" in bodies else bodies[0]
     found = []
     for names, errors in zip(ESTIMATED, missed, strict=True):
         for name, error in zip(names, errors, strict=True):
-            column = f"{name} of {touches}" if name.startswith("bench/motion") else name
+            moves = name.startswith("bench/motion")
+            column = f"{name} of {touches}" if moves else name
             if column and not numpy.isnan(error):
-                found.append(Estimate(column, float(error), largest_of(outputs, column)))
+                # A wheel that stands has no speed to err by a part of: free fall during a sample
+                least = GRAVITY * period if moves else 0.0
+                found.append(Estimate(column, float(error), max(least, largest_of(outputs, column))))
     return found
 
 

@@ -84,8 +84,8 @@ def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings
     if reached > steepest * radius:
         flank = "edge" if road.kind == "cleat" else "length"
         sentence = (
-            f"{road.height:g} m is a wall as high as the axle, which stands {radius:.3g} m above the road, and no tire climbs "
-            f"it; at most {HIGHEST * radius:.2g} m, or flanks less steep: a longer road.{flank}"
+            f"{road.height:g} m is a wall near the height of the axle, which stands {radius:.3g} m above the road, and no tire "
+            f"climbs it; at most {HIGHEST * radius:.2g} m, or flanks less steep: a longer road.{flank}"
         )
         raise SceneError([Fault("scene", 0, 0, "road.height", sentence)])
     half = field.rows * field.cell_x  # of the wide grid
