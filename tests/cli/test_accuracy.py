@@ -113,9 +113,9 @@ def test_a_run_and_its_bag_are_checked_alike(capsys, tmp_path):
 def test_a_run_ends_with_its_estimate_and_strict_makes_a_miss_a_failure(tmp_path, capsys):
     run = ["run", "tire_bump", "--offline", "--duration", "0.05", "--strict"]
     assert main([*run, "--out", str(tmp_path / "fine"), "--set", "accuracy=0.1"]) == 0
-    told = capsys.readouterr()
-    assert "  tire force: requested 1e-1, estimated " in told.out
-    assert "above the requested" not in told.err
+    shown = capsys.readouterr()
+    assert "  tire force: requested 1e-1, estimated " in shown.out
+    assert "above the requested" not in shown.err
     # A field of so few cells has no area to a hundredth
     coarse = ["--set", "effects.tire.contact_field={rows: 36, cols: 24}", "--set", "accuracy=1e-2"]
     assert main([*run, "--out", str(tmp_path / "coarse"), *coarse]) == 1

@@ -7,8 +7,9 @@ from contact_sim_pkg.compare.companion import companion_of
 from contact_sim_pkg.compare.delivered import Check, check_bag
 from contact_sim_pkg.compare.judgement import Judgement, judged, largest_by_kind, scales_of, standing_of
 from contact_sim_pkg.compare.parting import Parting, Statistic
-from contact_sim_pkg.compare.sentences import facts_of, lines_of, number_of
+from contact_sim_pkg.compare.sentences import facts_of, lines_of
 from contact_sim_pkg.compare.span import Span, begins_later, run_span
+from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.resolve import load_resolved

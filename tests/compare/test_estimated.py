@@ -2,8 +2,9 @@
 
 import pytest
 
-from contact_sim_pkg.compare.estimated import Estimate, above, accuracy_lines, accuracy_numbers
+from contact_sim_pkg.compare.estimated import above, accuracy_lines, accuracy_numbers
 from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.run.outputs import Estimate
 
 ESTIMATES = [
     Estimate("tire/force.normal", 40.0, 5000.0),

@@ -8,30 +8,18 @@ contacts, and err by no more of theirs: motion has the error of the force that e
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 from contact_sim_pkg.compare.least_errors import least_errors
-from contact_sim_pkg.records.definitions import definition_of
+from contact_sim_pkg.records.definitions import RESOLVED, definition_of
+from contact_sim_pkg.records.table import number_of
+from contact_sim_pkg.run.outputs import Estimate
 from contact_sim_pkg.scene.schema.accuracy import requested
 
-__all__ = ["Estimate", "above", "accuracy_lines", "accuracy_numbers", "short"]
-
-RESOLVED = 0.1
-"""Error of a component of a force over its own largest value above which it is not resolved."""
+__all__ = ["above", "accuracy_lines", "accuracy_numbers"]
 
 MOTION = "motion"
-ROUNDING = 1e-15
 WORDS = {"force": "force", "motion": "motion", "peak": "peak pressure", "area": "area"}
-
-
-class Estimate(NamedTuple):
-    """Estimated numerical error of a column, as ``tire/force.normal``, over a run."""
-
-    column: str
-    error: float
-    """in the unit of the column"""
-    largest: float
-    """largest magnitude of the column"""
 
 
 class Topic(Protocol):
@@ -138,9 +126,9 @@ def above(numbers: dict[str, Any]) -> list[str]:
         for kind, error in kinds.items():
             least, effect = numbers["not_below"].get(place, {}).get(kind, (0.0, ""))
             if error is not None and error > asked:
-                found.append(f"{_named(place, kind)} {short(error)}")
+                found.append(f"{_named(place, kind)} {number_of(error)}")
             elif least > asked:
-                found.append(f"{_named(place, kind)}, not below {short(least)} with {effect}")
+                found.append(f"{_named(place, kind)}, not below {number_of(least)} with {effect}")
     return found
 
 
@@ -149,7 +137,7 @@ def accuracy_lines(numbers: dict[str, Any]) -> list[str]:
     lines = []
     for place, kinds in numbers["estimated"].items():
         first, *others = kinds
-        parts = [f"{_named(place, first)}: requested {short(numbers['requested'])}, {_said(numbers, place, first)}"]
+        parts = [f"{_named(place, first)}: requested {number_of(numbers['requested'])}, {_said(numbers, place, first)}"]
         parts += [
             f"{column.partition('.')[2]} not resolved ({100.0 * share:.0f} % of its own)"
             for column, share in numbers["not_resolved"].items() if column.startswith(f"{place}/")
@@ -157,14 +145,6 @@ def accuracy_lines(numbers: dict[str, Any]) -> list[str]:
         parts += [f"{WORDS[kind]}: {_said(numbers, place, kind)}" for kind in others]
         lines.append("; ".join(parts))
     return lines
-
-
-def short(number: float) -> str:
-    """A number in two digits, without zeros that say nothing: 1e-2, 1.4e-2; 0 for what is rounding."""
-    if number < ROUNDING:
-        return "0"
-    mantissa, _e, exponent = f"{number:.1e}".partition("e")
-    return f"{mantissa.removesuffix('.0')}e{int(exponent)}"
 
 
 def _named(place: str, kind: str) -> str:
@@ -175,9 +155,9 @@ def _said(numbers: dict[str, Any], place: str, kind: str) -> str:
     error, asked = numbers["estimated"][place][kind], numbers["requested"]
     least, effect = numbers["not_below"].get(place, {}).get(kind, (0.0, ""))
     if error is not None:
-        said = f"estimated {short(error)}{' (above)' if error > asked else ''}"
-        return f"{said}, not below {short(least)} with {effect}" if least > error else said
-    return f"not below {short(least)} with {effect}" if least else "not estimated"
+        said = f"estimated {number_of(error)}{' (above)' if error > asked else ''}"
+        return f"{said}, not below {number_of(least)} with {effect}" if least > error else said
+    return f"not below {number_of(least)} with {effect}" if least else "not estimated"
 
 
 def _kind_of(column: str, types: dict[str, str]) -> str:

@@ -24,7 +24,7 @@ from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.compare.columns import NANOSECONDS, Column, Key, paired
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.records.definitions import KINDS
+from contact_sim_pkg.records.definitions import KINDS, RESOLVED
 from contact_sim_pkg.records.messages import ContactPatch
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.rig import Standing, load
@@ -42,8 +42,6 @@ __all__ = [
     "standing_of",
 ]
 
-RESOLVED = 0.1
-"""Error of a component over its own largest value above which it is not resolved."""
 LEAST_COMPONENT = 1e-4
 """Of the scale of its kind: a component below it is zero by symmetry, and not judged by noise."""
 USUAL_PERIOD = 1e-3  # [s] of a sample where a column has none

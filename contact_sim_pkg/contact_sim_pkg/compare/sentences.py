@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Any
 
 from contact_sim_pkg.compare.delivered import Check
 from contact_sim_pkg.compare.judgement import Judgement
 from contact_sim_pkg.compare.parting import Parting
+from contact_sim_pkg.records.table import number_of
 
-__all__ = ["facts_of", "lines_of", "number_of"]
+__all__ = ["facts_of", "lines_of"]
 
 SAME_BITS = "the finer run has the same bits: what it has finer does not act here"
 MODEL = "numerical error only; the error of the model is on the validation page"
@@ -55,17 +55,6 @@ def facts_of(check: Check) -> dict[str, Any]:
         "not_judged": check.not_judged,
         "cpu_s": check.cpu,
     }
-
-
-def number_of(value: float) -> str:
-    """Two digits, as `7e-3` or `1.2e-2`; 0 for what is rounding, less than 1e-15."""
-    if not value > 1e-15:
-        return "0"
-    exponent = math.floor(math.log10(value))
-    digits = round(value / 10.0**exponent, 1)
-    if digits >= 10.0:
-        digits, exponent = 1.0, exponent + 1
-    return f"{digits:g}e{exponent}" if exponent else f"{digits:g}"
 
 
 def _line(judgement: Judgement, request: float, *, parted: bool) -> str:

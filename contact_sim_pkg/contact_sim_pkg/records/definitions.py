@@ -49,6 +49,9 @@ _UNIT = re.compile(r"\[([^\],]+)")
 KINDS = ("force", "motion", "peak", "area")
 """What `accuracy` bounds: contact forces, motion of bodies, peak pressure, contact area."""
 
+RESOLVED = 0.1
+"""Error of a component over its own largest value above which it is not resolved."""
+
 
 class Field(NamedTuple):
     """One field of a message."""

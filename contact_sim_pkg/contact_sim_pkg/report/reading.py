@@ -14,7 +14,6 @@ import numpy as np
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.texts import scene_of_text
-from contact_sim_pkg.compare.estimated import Estimate
 from contact_sim_pkg.records.definitions import HEADER, definition_of
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.field_series import FieldReader
@@ -31,6 +30,7 @@ from contact_sim_pkg.report.series import (
     TopicCount,
 )
 from contact_sim_pkg.report.signal.episodes import episode_series
+from contact_sim_pkg.run.outputs import Estimate
 from contact_sim_pkg.scene.errors import SceneError
 
 FORCE = "contact_msgs_defs/msg/ContactForce"

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compare.estimated import Estimate
 from contact_sim_pkg.records.messages import ContactEpisodes
 from contact_sim_pkg.report.point_series import PointSeries
+from contact_sim_pkg.run.outputs import Estimate
 
 FloatArray = NDArray[np.float64]
 CostSeries: TypeAlias = Mapping[str, FloatArray]

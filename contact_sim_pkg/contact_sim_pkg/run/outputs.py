@@ -123,11 +123,11 @@ def energy_ledger(
 
 
 class Estimate(NamedTuple):
-    """Estimated numerical error of a column in one block."""
+    """Estimated numerical error of a column, in a block or over a run."""
 
     column: str  # topic and column, as of `largest_of`
     error: float  # in the unit of the column
-    largest: float  # largest magnitude of the column in the block
+    largest: float  # largest magnitude of the column there
 
 
 def solver_cost(

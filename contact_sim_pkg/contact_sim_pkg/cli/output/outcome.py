@@ -130,12 +130,15 @@ def _echo_accuracy(numbers: dict[str, Any] | None) -> None:
     """What was requested and what is estimated, the warning of it on standard error."""
     if not numbers:
         return
-    from contact_sim_pkg.compare.estimated import above, accuracy_lines, short
+    from contact_sim_pkg.compare.estimated import above, accuracy_lines
+    from contact_sim_pkg.records.table import number_of
 
     for line in accuracy_lines(numbers):
         click.echo(f"  {line}")
     if beyond := above(numbers):
-        click.echo(f"bench: estimated above the requested {short(numbers['requested'])}: {', '.join(beyond)}", err=True)
+        click.echo(
+            f"bench: estimated above the requested {number_of(numbers['requested'])}: {', '.join(beyond)}", err=True
+        )
 
 
 def _slap_line(slaps: dict[str, Any]) -> str:

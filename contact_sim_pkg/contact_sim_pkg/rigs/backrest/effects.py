@@ -36,7 +36,7 @@ BACKREST_EFFECTS = (
         name="cushion", section=f"{_SCHEMA}:BackCushion", help="foam of finite thickness and its pressure map",
         source="Johnson, Contact Mechanics, 5.8", carries=True, excludes=("normal_elastic", "foam", "shell_modes"),
         feeds=("force", "wrench", "patch", "points"), called_for=_LAW,
-        not_below={"force": 1e-3, "motion": 3e-3, "peak": 6e-3, "area": 7e-2},
+        not_below={"force": 1e-3, "motion": 3e-3, "peak": 2.6e-3, "area": 2.5e-2},
     ),
     Effect(
         name="normal_dissipative", section=f"{_SCHEMA}:BackLoss", help="loss", source="Driver and Seat",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.compare.sentences import number_of
 from contact_sim_pkg.records.definitions import KINDS
+from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.studies.accuracy.panels import write_panels
 
 __all__ = ["write_plot"]

@@ -16,9 +16,9 @@ from typing import Any
 
 from contact_sim_pkg.compare.first_look import FirstLook, Request, cheapest_for, first_look
 from contact_sim_pkg.compare.judgement import Judgement
-from contact_sim_pkg.compare.sentences import MODEL, SAME_BITS, number_of
+from contact_sim_pkg.compare.sentences import MODEL, SAME_BITS
 from contact_sim_pkg.records.definitions import KINDS
-from contact_sim_pkg.records.table import Section
+from contact_sim_pkg.records.table import Section, number_of
 from contact_sim_pkg.studies.accuracy.first_look_plot import write_plot
 
 __all__ = ["rows_of", "sections", "study", "write_plot"]

@@ -17,8 +17,7 @@ from typing import Any
 
 from contact_sim_pkg.compare.first_look import DEEP, MOVED, REQUESTS, Effort, FirstLook, Request, first_look
 from contact_sim_pkg.compare.least_errors import LeastError, least_errors
-from contact_sim_pkg.compare.sentences import number_of
-from contact_sim_pkg.records.table import Section
+from contact_sim_pkg.records.table import Section, number_of
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.resolve import load_resolved

@@ -43,6 +43,9 @@ KINDS = ("normal", "along", "peak", "area", "speed")
 area [m^2], speed [m/s] of the body that touches.
 """
 
+LEAST_HALF = 8
+"""Rows and columns of a grid of half as many cells: with fewer it says nothing of the other."""
+
 SAMPLED = 0.85
 """Of the error in the middle of a step, where it is largest: what the samples show of it."""
 
@@ -180,7 +183,7 @@ class CouplingCheck:
         self._mass, self._swing = _swing_of(model)
         self._seat = CushionField(_closer(model.seat_field, "seat"), seat.contact, model.seat_shape)
         self._halves = tuple(
-            None if grids is None or grids.usual.settings.rows % 2 or grids.usual.settings.cols % 2
+            None if grids is None or not _can_be_halved(grids.usual.settings)
             else Halved(grids.usual.settings, name, at_edge=model.has_edge)
             for grids, name in ((model.tire_field, "tire"), (model.seat_field, "seat"))
         )  # fmt: skip
@@ -246,6 +249,12 @@ class CouplingCheck:
     @staticmethod
     def _load(field: ContactField) -> float:
         return 0.0 if field.published is None else float(field.published.pressure.sum()) * field.cell_area
+
+
+def _can_be_halved(settings: FieldSettings) -> bool:
+    """Whether half as many cells each way are whole ones, and enough to see a contact."""
+    sides = settings.rows, settings.cols
+    return not any(side % 2 for side in sides) and min(sides) >= 2 * LEAST_HALF
 
 
 def _swing_of(model: Model) -> tuple[float, float]:

@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
@@ -182,3 +185,17 @@ def uniform_segments(scene: ResolvedScene, footprint: float, timing: Timing) -> 
     way = highest_speed(scene) * timing.segment_length
     divisors = [n for n in range(1, timing.segments + 1) if timing.segments % n == 0]
     return max(n for n in divisors if n == 1 or n * way <= LONGEST_UNIFORM * footprint)
+
+
+def even_part(whole: int, most: float) -> int:
+    """A part of ``whole`` segments, at most ``most`` of them and at least one, such that the others are
+    as long.
+    """
+    parts = -(-whole // max(1, int(most)))
+    return -(-whole // parts)
+
+
+def bend_of(height: Vector) -> float:
+    """Largest distance [m] of a height [points] [m] from the straight line between its ends."""
+    line = height[0] + (height[-1] - height[0]) / (len(height) - 1) * numpy.arange(len(height))
+    return float(abs(height - line).max())

@@ -32,7 +32,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
 from contact_sim_pkg.rigs.vehicle.bodies import Bodies, Corrections, CouplingStep, Sampled, Saved
 from contact_sim_pkg.rigs.vehicle.coupling.check import CouplingCheck, Middle, MissedSoFar, middle_of
-from contact_sim_pkg.rigs.vehicle.coupling.rule import STRAIGHT, Allowance, MeasuredWay
+from contact_sim_pkg.rigs.vehicle.coupling.rule import STRAIGHT, Allowance, MeasuredWay, bend_of, even_part
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
 from contact_sim_pkg.rigs.vehicle.entries import FORCES, SEAT_NORMAL, TIRE_NORMAL, TIRE_SHEAR, TIRE_SLOPE
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField
@@ -204,8 +204,8 @@ class Coupling:
         for longest in rule.longest:
             longest = min(longest, self._way.longest)
             steps = self._proposed if travel <= 0.0 else min(self._proposed, left * longest / travel)
-            count = _even_part(left, steps)
-            if _bend(whole.smooth[first : first + count + 1]) <= STRAIGHT * self._allowances[0].height:
+            count = even_part(left, steps)
+            if bend_of(whole.smooth[first : first + count + 1]) <= STRAIGHT * self._allowances[0].height:
                 break
         return count
 
@@ -386,17 +386,3 @@ class Coupling:
             self.bodies.supply(elastic_energy(law, approach + change) - elastic_energy(law, approach))
             jump = abs(elastic_force(law, approach + change) - elastic_force(law, approach))
             record.field_jump = max(record.field_jump, jump)
-
-
-def _even_part(whole: int, most: float) -> int:
-    """A part of ``whole`` segments, at most ``most`` of them and at least one, such that the others are
-    as long.
-    """
-    parts = -(-whole // max(1, int(most)))
-    return -(-whole // parts)
-
-
-def _bend(height: Vector) -> float:
-    """Largest distance [m] of a height [points] [m] from the straight line between its ends."""
-    line = height[0] + (height[-1] - height[0]) / (len(height) - 1) * numpy.arange(len(height))
-    return float(abs(height - line).max())

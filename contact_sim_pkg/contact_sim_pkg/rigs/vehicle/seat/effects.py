@@ -82,7 +82,7 @@ SEAT_EFFECTS = (
         name="contact_field", section=f"{_SCHEMA}:CushionMap", help="pressure map of the cushion",
         source="Johnson, Contact Mechanics, 5.8", needs=("cushion",), publishes="patch", feeds=("patch",),
         called_for=choice_of_model("needed where the pressure under the occupant is requested"),
-        not_below={"peak": 6e-3, "area": 2.5e-2},
+        not_below={"peak": 6e-3, "area": 1.2e-2},
     ),
     Effect(
         name="half_space_field", section=f"{_SCHEMA}:HalfSpaceField", help="pressure field of a half-space",
