@@ -11,7 +11,7 @@ from tests.bench_process import LONGEST
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.nodes.protocol.endpoints import publisher, subscription
 from contact_sim_pkg.nodes.protocol.states import RunState
-from contact_sim_pkg.records.messages import BenchProgress
+from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
 
 class StandIn:
@@ -22,13 +22,20 @@ class StandIn:
         rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
         self.node = Node(name, context=self._context, start_parameter_services=False, enable_rosout=False)
         self.progress: BenchProgress | None = None
+        self.recorded = -1  # last block that the logger has answered for
         self.entry = publisher(self.node, topic)
-        self._kept = [subscription(self.node, "bench/progress", self._on_progress)]
+        self._kept = [
+            subscription(self.node, "bench/progress", self._on_progress),
+            subscription(self.node, "bench/recorded", self._on_recorded),
+        ]
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
 
     def _on_progress(self, data: bytes) -> None:
         self.progress = decode(BenchProgress, data)
+
+    def _on_recorded(self, data: bytes) -> None:
+        self.recorded = decode(BenchRecorded, data).block
 
     def spin_until(self, condition, seconds: float = LONGEST) -> None:
         """Hear what comes until the condition holds; fails after the time."""

@@ -18,7 +18,9 @@ class SingleSource:
     A publisher numbers its own messages 1, 2, 3, …, whatever their content, and reliable delivery
     keeps their order. So the messages of one publisher rise by one each. Those of a second one
     repeat numbers, fall behind, or leap; a leap is also what lost messages look like, and then the
-    graph decides: it knows a publisher before its first message is delivered.
+    graph decides: it knows a publisher before its first message is delivered. A second one that
+    sends as many as the run before the run is ended for it bears the next number once, and that
+    message passes for the run's.
     """
 
     def __init__(self) -> None:
