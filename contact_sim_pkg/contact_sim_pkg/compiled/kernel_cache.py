@@ -6,9 +6,9 @@ $XDG_CACHE_HOME/contact_bench or ~/.cache/contact_bench. The fingerprint hashes 
 kernels and what it imports, the versions of everything that takes part in compiling and the
 processor: an edited helper in another file, which numba itself does not notice, gives a new
 directory. What depends on packages of others too (`outside.py`) lies in a directory of that set:
-`<root>/<fingerprint>.<set>.<checksum of their sources>`. Cache files are pickles, and loading a pickle can run code, so a directory or a file that
-anyone else owns or can write to is not used. Each file starts with the hash of its content, which
-is checked before it is unpickled.
+`<root>/<fingerprint>.<set>.<checksum of their sources>`. Cache files are pickles, and loading a
+pickle can run code, so a directory or a file that anyone else owns or can write to is not used.
+Each file starts with the hash of its content, which is checked before it is unpickled.
 """
 
 # numba.core.caching has no types.
@@ -216,7 +216,7 @@ def attach_cache(dispatcher: Any, form: str = "") -> None:
     ``form`` distinguishes the files of one function that is compiled in several ways. A function
     typed at a prompt has no source whose edit could be seen, and is not kept.
     """
-    written = hasattr(dispatcher, "overloads") and os.path.isfile(dispatcher.py_func.__code__.co_filename)
+    written = hasattr(dispatcher, "overloads") and Path(dispatcher.py_func.__code__.co_filename).is_file()
     if written and _session.open() is not None:
         try:
             dispatcher._cache = _CheckedCache(dispatcher.py_func, form)
