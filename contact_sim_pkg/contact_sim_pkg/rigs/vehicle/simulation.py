@@ -131,7 +131,7 @@ class Simulation:
             record.field_iterations += iterations
             record.field_residual = max(record.field_residual, residual)
         record.missed = coupling.missed.pop()
-        if self.model.has_edge:
+        if self.model.edge is not None:
             record.missed[0, KINDS.index("peak")] = numpy.nan
         self._map_seat(record)
         outputs = self._outputs(record, began)
