@@ -189,3 +189,12 @@ def test_the_peak_at_a_corner_grows_with_every_finer_grid_and_the_force_does_not
     assert 0.7 * grown < peaks[1] - peaks[0] < 2.0 * grown
     forces = [column(each, "tire/force", "normal") for each in found]
     assert forces[0] == pytest.approx(forces[1], rel=4e-3)
+
+
+def test_a_request_that_no_step_and_no_cell_delivers_is_named_before_the_run():
+    """At 10 m/s, 144 x 96 cells and steps of a quarter of a millimetre take minutes of computing a simulated second."""
+    [caution] = Simulation(resolved("tire_rough_road", "accuracy=1e-8")).cautions
+    assert caution.startswith("tire: an error of 1e-8 is requested, that of its force is not below some 5e-5")
+    assert 90.0 < float(caution.partition(" s of computing")[0].rpartition(" ")[2]) < 270.0
+    for values in (("tire_rough_road", "accuracy=1e-4"), ("tire_bump", "accuracy=1e-8", "road={kind: flat}")):
+        assert not Simulation(resolved(*values)).cautions

@@ -1,5 +1,5 @@
-"""Edges and walls of a road: what no grid resolves is said once before the run, what no tire climbs
-is refused.
+"""Corners and walls of a road: where no grid determines the peak pressure is said once before the
+run, what no tire climbs is refused.
 """
 
 from __future__ import annotations
