@@ -213,5 +213,13 @@ def test_what_the_refusals_of_walls_allow_runs_to_its_end(cured):
     assert force.max() > 2.0 * STANDING
 
 
+def test_a_parabola_on_a_half_space_touches_a_wall_beyond_its_radius():
+    """0.2 m of a parabola of 0.3 m lie at sqrt(2 R h) = 0.346 m."""
+    wall = ("travel.speed=8", "road={kind: step, position: 1.0, height: 0.2}")
+    with pytest.raises(SceneError, match=r"as far as 0\.35 m before its axle, .*; 0\.37 m are enough"):
+        run(*wall, scene="tire_half_space")
+    run(*wall, "effects.tire.contact_field.length=0.37", "duration=0.3", scene="tire_half_space")
+
+
 def test_a_wall_behind_the_end_of_the_run_is_no_wall():
     assert Simulation(resolved("tire_bump", "road={kind: step, position: 31.0, height: 0.4}", "duration=1.0"))

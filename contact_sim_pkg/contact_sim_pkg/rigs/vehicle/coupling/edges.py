@@ -43,8 +43,10 @@ CLIMBED, CLIMBED_HIGH, HIGHEST = 0.998, 0.95, 0.89
 of what is higher than `HIGHEST`, the height of a sharp wall that it does climb.
 """
 
-ROOM = 2.0
-"""Cells beyond the furthest that the contact touches: enough."""
+RIM, ROOM = 1.5, 2.0
+"""Cells beyond the furthest place that the contact touches: needed, since its grid ends with free
+ones, and enough.
+"""
 
 SPACING, MOST_PLACES = 1e-3, 2000
 """[m] of the places that are looked at, and how many of them the wheel stands over."""
@@ -130,7 +132,7 @@ def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings
         )
         raise SceneError([Fault("scene", 0, 0, "road.height", sentence)])
     half = field.rows * field.cell_x  # of the wide grid
-    if reached + field.cell_x > half:
+    if reached + RIM * field.cell_x > half:
         needed = math.ceil(100.0 * (reached + ROOM * field.cell_x)) / 100.0
         sentence = (
             f"the tire touches the {road.kind} of {road.height:g} m as far as {reached:.3g} m before its axle, and a field of "
@@ -146,13 +148,15 @@ def _touched(
     and one that sinks in.
     """
     radius = form.radius_rolling
+    # A parabola goes on beyond its radius; on a half-space it touches to half of the overlap (Hertz)
+    seen, share = (radius, 1.0) if form.circular else (2.0 * radius, 0.5)
     start, end = make_travel(scene).extent(0.0, scene.duration)
     if not start + radius < road.position < end + radius:
         return 0.0, 0.0
     surface = make_surface(scene, SPACING)
-    x = numpy.arange(0.0, radius, SPACING)
+    x = numpy.arange(0.0, seen, SPACING)
     height = numpy.array([height_along(form, float(each)) for each in x])
-    first, last = road.position - 0.5 * road.length - radius, road.position + 0.5 * road.length
+    first, last = road.position - 0.5 * road.length - seen, road.position + 0.5 * road.length
     spacing = max(SPACING, (last - first) / MOST_PLACES)
     line, phase = numpy.zeros(1), landing.frequency * spacing / max(highest_speed(scene), SPACING)
     below, swing, rigid, reached = 0.0, 0.0, 0.0, 0.0  # wheel below where it would rest, its speed over the frequency
@@ -164,7 +168,7 @@ def _touched(
         below, swing, before = (
             below * math.cos(phase) - swing * math.sin(phase), below * math.sin(phase) + swing * math.cos(phase), lifted
         )  # fmt: skip
-        rigid = max(rigid, float(x[int(numpy.argmax(over))]))
-        touching = numpy.flatnonzero(over > lifted - max(0.0, landing.approach + below))
+        rigid = max(rigid, float(x[int(numpy.argmax(over[x < radius]))]))
+        touching = numpy.flatnonzero(over > lifted - share * max(0.0, landing.approach + below))
         reached = max(reached, float(x[touching[-1]])) if len(touching) else reached
     return rigid, reached
