@@ -113,7 +113,7 @@ def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
         load = standing_load(
             scene.section(tire_schema.TireSection), None if given_seat is None else given_seat.occupant
         )
-        landing = landing_of(tire.contact.elastic, load, tire.tire.wheel_mass)
+        landing = landing_of(tire.contact.elastic, load, tire.tire.wheel_mass, tire.footprint_length)
         refuse_high_walls(scene, tire.geometry.form, None if tire_field is None else tire_field.usual.settings, landing)
     # A footprint on a road bounds the length of the coupling steps, and so the segments.
     footprint = None if tire is None or tire_field is None else tire.footprint_length

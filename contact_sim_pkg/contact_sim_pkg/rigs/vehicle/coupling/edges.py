@@ -45,7 +45,7 @@ of what is higher than `HIGHEST`, the height of a sharp wall that it does climb.
 
 RIM, ROOM = 1.5, 2.0
 """Cells beyond the furthest place that the contact touches: needed, since its grid ends with free
-ones, and enough.
+ones, and enough beyond the furthest that it may touch.
 """
 
 SPACING, MOST_PLACES = 1e-3, 2000
@@ -101,13 +101,24 @@ class Landing(NamedTuple):
     """What the road presses into the tire as it lifts the wheel."""
 
     approach: float  # [m] at rest
+    footprint: float  # [m] length at rest
     frequency: float  # [rad/s] of the wheel on its tire
 
+    def touching(self, form: TireForm, depth: float) -> tuple[float, float]:
+        """Parts [m] of a ``depth`` [m] as far as which the tire touches, at least and at most.
 
-def landing_of(law: ElasticLaw, load: float, mass: float) -> Landing:
-    """Of a ``mass`` [kg] on a tire that carries ``load`` [N] at rest."""
+        Half of it on a half-space (Hertz: ``a^2 = R d``). The belt of an inflated tire follows the road,
+        and at least what lies deeper than the ends of the footprint at rest touches.
+        """
+        if not form.circular:
+            return 0.5 * depth, 0.5 * depth
+        return depth - max(0.0, self.approach - self.footprint**2 / (8.0 * form.radius_rolling)), depth
+
+
+def landing_of(law: ElasticLaw, load: float, mass: float, footprint: float) -> Landing:
+    """Of a ``mass`` [kg] on a tire that carries ``load`` [N] at rest on a ``footprint`` [m]."""
     approach = float(approach_of_force(law, load))
-    return Landing(approach, math.sqrt(float(elastic_stiffness(law, approach)) / mass))
+    return Landing(approach, footprint, math.sqrt(float(elastic_stiffness(law, approach)) / mass))
 
 
 def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings | None, landing: Landing) -> None:
@@ -122,7 +133,7 @@ def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings
     road = scene.road
     if field is None or road is None or road.kind not in ("bump", "cleat", "step") or road.height <= 0.0:
         return
-    (rigid, reached), radius = _touched(scene, road, form, landing), form.radius_rolling
+    (rigid, reached, most), radius = _touched(scene, road, form, landing), form.radius_rolling
     steepest = CLIMBED if road.height <= HIGHEST * radius else CLIMBED_HIGH
     if rigid > steepest * radius:
         flank = "edge" if road.kind == "cleat" else "length"
@@ -133,7 +144,7 @@ def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings
         raise SceneError([Fault("scene", 0, 0, "road.height", sentence)])
     half = field.rows * field.cell_x  # of the wide grid
     if reached + RIM * field.cell_x > half:
-        needed = math.ceil(100.0 * (reached + ROOM * field.cell_x)) / 100.0
+        needed = math.ceil(100.0 * (most + ROOM * field.cell_x)) / 100.0
         sentence = (
             f"the tire touches the {road.kind} of {road.height:g} m as far as {reached:.3g} m before its axle, and a field of "
             f"{half:.3g} m sees no further than that; {needed:g} m are enough"
@@ -143,24 +154,23 @@ def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings
 
 def _touched(
     scene: ResolvedScene, road: BumpRoad | CleatRoad | StepRoad, form: TireForm, landing: Landing
-) -> tuple[float, float]:
+) -> tuple[float, float, float]:
     """Furthest places before the axle [m] at which a rigid tire touches the obstacle within the run,
-    and one that sinks in.
+    and one that sinks in, at least and at most.
     """
     radius = form.radius_rolling
-    # A parabola goes on beyond its radius; on a half-space it touches to half of the overlap (Hertz)
-    seen, share = (radius, 1.0) if form.circular else (2.0 * radius, 0.5)
+    seen = radius if form.circular else 2.0 * radius  # a parabola goes on
     start, end = make_travel(scene).extent(0.0, scene.duration)
     if not start + radius < road.position < end + radius:
-        return 0.0, 0.0
+        return 0.0, 0.0, 0.0
     surface = make_surface(scene, SPACING)
     x = numpy.arange(0.0, seen, SPACING)
     height = numpy.array([height_along(form, float(each)) for each in x])
     first, last = road.position - 0.5 * road.length - seen, road.position + 0.5 * road.length
     spacing = max(SPACING, (last - first) / MOST_PLACES)
     line, phase = numpy.zeros(1), landing.frequency * spacing / max(highest_speed(scene), SPACING)
-    below, swing, rigid, reached = 0.0, 0.0, 0.0, 0.0  # wheel below where it would rest, its speed over the frequency
-    before = 0.0
+    below, swing, before = 0.0, 0.0, 0.0  # wheel below where it would rest, its speed over the frequency; lifted
+    rigid, reached = 0.0, [0.0, 0.0]
     for place in numpy.arange(first, last, spacing):
         over = surface.heights(place + x, line)[:, 0] - height
         lifted = float(over.max())
@@ -169,6 +179,7 @@ def _touched(
             below * math.cos(phase) - swing * math.sin(phase), below * math.sin(phase) + swing * math.cos(phase), lifted
         )  # fmt: skip
         rigid = max(rigid, float(x[int(numpy.argmax(over[x < radius]))]))
-        touching = numpy.flatnonzero(over > lifted - share * max(0.0, landing.approach + below))
-        reached = max(reached, float(x[touching[-1]])) if len(touching) else reached
-    return rigid, reached
+        for each, depth in enumerate(landing.touching(form, landing.approach + below)):
+            touching = numpy.flatnonzero(over > lifted - depth)
+            reached[each] = max(reached[each], float(x[touching[-1]]) if len(touching) else 0.0)
+    return rigid, reached[0], reached[1]
