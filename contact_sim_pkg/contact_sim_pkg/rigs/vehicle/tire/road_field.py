@@ -37,12 +37,13 @@ class RoadField(ContactField):
             field.settings.rows: numpy.empty((field.settings.rows, field.settings.cols)) for field in grids.both()
         }  # fmt: skip
         self._tread_state: TreadState | None = None
+        if grids is not None:
+            self._pressed = numpy.zeros((grids.wide.settings.rows, grids.wide.settings.cols))
         if tread is not None and grids is not None:
             wide = grids.wide.settings
             belt = tread.relaxed.belt
             bends = (belt, tread.belt) if isinstance(belt, InflatedBelt) and tread.belt is not None else None
             self._tread_state = TreadState(wide, tread.relaxed.modulus, tread.viscoelasticity, tread.step, bends)
-            self._pressed = numpy.zeros((wide.rows, wide.cols))
             self.is_viscoelastic = True
 
     def reset(self) -> None:
@@ -96,13 +97,17 @@ class RoadField(ContactField):
 
     def _on_wide(self, pressure: Gap) -> Gap:
         """A pressure field on the wide grid, which both grids share their middle with."""
-        rows, cols = (wide - own for wide, own in zip(self._pressed.shape, pressure.shape, strict=True))
-        if rows == cols == 0:
+        if pressure.shape == self._pressed.shape:
             return pressure
-        self._pressed.fill(0.0)
-        first_row, first_col = self._pressed.shape[0] // 2 - pressure.shape[0] // 2, cols // 2
-        self._pressed[first_row : first_row + pressure.shape[0], first_col : first_col + pressure.shape[1]] = pressure
+        # Always the same cells, zeros around
+        row, col, rows, cols = self._middle(pressure)
+        self._pressed[row : row + rows, col : col + cols] = pressure
         return self._pressed
+
+    def _middle(self, pressure: Gap) -> tuple[int, int, int, int]:
+        """Window of the usual grid in the wide one."""
+        (wide_rows, wide_cols), (rows, cols) = self._pressed.shape, pressure.shape
+        return wide_rows // 2 - rows // 2, (wide_cols - cols) // 2, rows, cols
 
     def road_row(self, settings: FieldSettings) -> int:
         """See `ContactField`."""
@@ -147,13 +152,9 @@ class RoadField(ContactField):
         """The same where a belt yields further than the half-space: by its displacements on the
         wide grid.
         """
-        wide, pressure = grids.wide.settings, grids.usual.pressure
-        rows, cols = pressure.shape
-        first_row, first_col = wide.rows // 2 - rows // 2, (wide.cols - cols) // 2
-        pressed = numpy.zeros((wide.rows, wide.cols))
-        pressed[first_row : first_row + rows, first_col : first_col + cols] = pressure
-        window = (first_row, first_col, rows, cols)
-        return bool(grown_window(grids.wide.half_space, self.gap(wide), approach, pressed, window) != window)
+        pressure, window = self._on_wide(grids.usual.pressure), self._middle(grids.usual.pressure)
+        gap = self.gap(grids.wide.settings)
+        return bool(grown_window(grids.wide.half_space, gap, approach, pressure, window) != window)
 
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:
         """See `ContactField`."""
