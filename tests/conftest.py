@@ -30,6 +30,7 @@ os.environ["ROS_DOMAIN_ID"] = str(
     ros_domain(os.environ.get("PYTEST_XDIST_TESTRUNUID", str(os.getpid())), os.environ.get("PYTEST_XDIST_WORKER", ""))
 )
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+os.environ["CONTACT_BENCH_PLUGINS"] = "off"  # what else is installed here is no part of the tests
 os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # Every test with `@given` draws the same in every run; `pytest --random` draws anew.

@@ -1,7 +1,6 @@
-"""The order of imports between the rooms of the package, and the size of its folders."""
+"""The order of imports between the rooms of the package."""
 
 import ast
-from collections import Counter
 
 import pytest
 from tests.house.source import PACKAGE, circles, imports, modules
@@ -16,7 +15,6 @@ ORDER = (
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
 BESIDE = {("occupant", "vehicle"), ("occupant", "backrest")}
 """Rigs that import another rig: the occupant sits on a seat and against a seat back."""
-MOST_MODULES = 16
 
 
 @pytest.fixture(scope="module")
@@ -77,8 +75,3 @@ def test_an_import_against_the_order_is_seen():
 
 def test_no_modules_import_each_other(edges):
     assert circles(edges) == []
-
-
-def test_a_folder_holds_at_most_sixteen_modules(found):
-    folders = Counter(module.path.parent for module in found.values() if module.path.name != "__init__.py")
-    assert {str(path.relative_to(PACKAGE)): count for path, count in folders.items() if count > MOST_MODULES} == {}

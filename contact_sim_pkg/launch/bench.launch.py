@@ -18,6 +18,7 @@ from launch_ros.actions import Node
 from contact_sim_pkg.bag.mcap.unfinished import leave_metadata
 from contact_sim_pkg.bag.names import new_directory
 from contact_sim_pkg.nodes.processes.children import how_ended
+from contact_sim_pkg.nodes.processes.environment import plugin_environment
 from contact_sim_pkg.nodes.processes.run_folder import RunFolder
 from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
 from contact_sim_pkg.nodes.processes.scene_file import read_reason, write_reason, write_scene
@@ -59,6 +60,7 @@ def start_nodes(context: LaunchContext) -> list[Node]:
             namespace=given["namespace"],
             parameters=[{**node.parameters, "use_sim_time": sim_time}],
             output="screen",
+            additional_env=plugin_environment(scene),
             on_exit=end_of(node.name, path, directory),
         )
         for node in planned_nodes(scene, path, directory, clock=clock)

@@ -72,6 +72,7 @@ class Start:
             "jit.py",
             "kernel_cache.py",
             "linking.py",
+            "outside.py",
             "sources.py",
             "transforms.py",
         ):
@@ -363,11 +364,12 @@ def test_h2_a_function_that_numba_declines_to_cache_is_no_damage() -> None:
     directory = kernel_cache.cache_directory()
     assert directory is not None
     count_bad_cells(numpy.zeros(3))
-    kept = set(directory.iterdir())
+    root = directory.parent  # the kernels of tests lie in a directory of their own
+    kept = set(root.glob("*/*"))
     with pytest.warns(numba.NumbaWarning, match="Cannot cache"):
         assert first_of_many() == 7.0
     assert kept
-    assert kept <= set(directory.iterdir())
+    assert kept <= set(root.glob("*/*"))
 
 
 @pytest.mark.fault("D6")

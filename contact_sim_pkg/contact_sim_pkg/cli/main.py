@@ -43,12 +43,13 @@ class LazyGroup(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names, in the order of use."""
-        return list(COMMANDS)
+        return [*COMMANDS, *_foreign()]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """The command of this name, imported now; None where there is none."""
         if name not in COMMANDS:
-            return None
+            foreign = _foreign().get(name)
+            return None if foreign is None else _foreign_command(foreign)
         module, _, command = COMMANDS[name].partition(":")
         found: click.Command = getattr(import_module(f"contact_sim_pkg.cli.{module}"), command or "command")
         return found
@@ -57,11 +58,32 @@ class LazyGroup(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """The command that the arguments begin with; a name that is none is refused with the nearest one."""
-        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
-            near = get_close_matches(args[0].lower(), COMMANDS, n=1, cutoff=0.5)
+        if args and not args[0].startswith("-") and args[0] not in COMMANDS and args[0] not in _foreign():
+            near = get_close_matches(args[0].lower(), self.list_commands(ctx), n=1, cutoff=0.5)
             hint = f" Did you mean {near[0]!r}?" if near else ""
             raise click.UsageError(f"No such command {args[0]!r}.{hint}", ctx)
         return super().resolve_command(ctx, args)
+
+
+def _foreign() -> dict[str, str]:
+    """Commands that plug-ins bring, ``module:name`` by name; ours are never replaced."""
+    from contact_sim_pkg.records.plugins import PluginError, plugins
+
+    found: dict[str, str] = {}
+    for plugin in plugins():
+        for name, place in plugin.commands.items():
+            if name in COMMANDS or name in found:
+                other = "the bench's own" if name in COMMANDS else f"{found[name]}"
+                raise PluginError(f"two commands are named {name}: {other} and {place} of plug-in {plugin}")
+            found[name] = place
+    return found
+
+
+def _foreign_command(place: str) -> click.Command:
+    from contact_sim_pkg.records.rig import load
+
+    command: click.Command = load(place)
+    return command
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
@@ -110,9 +132,13 @@ def refusal(error: Exception) -> tuple[str, int] | None:
     """
     from contact_sim_pkg.requirements import package_sentence
 
-    # first: without its packages even the errors below cannot be imported
+    # first: without its packages even the errors below cannot be imported, nor beside two plug-ins of one name
     if sentence := package_sentence(error):
         return sentence, 2
+    from contact_sim_pkg.records.plugins import PluginError
+
+    if isinstance(error, PluginError):
+        return str(error), 2
     from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.excitation.errors import ExcitationError
     from contact_sim_pkg.files import FileRefusedError, printable

@@ -5,9 +5,10 @@ The directory is `<root>/<fingerprint>`, root = $CONTACT_BENCH_CACHE or
 $XDG_CACHE_HOME/contact_bench or ~/.cache/contact_bench. The fingerprint hashes every module with
 kernels and what it imports, the versions of everything that takes part in compiling and the
 processor: an edited helper in another file, which numba itself does not notice, gives a new
-directory. Cache files are pickles, and loading a pickle can run code, so a directory or a file that
-anyone else owns or can write to is not used. Each file starts with the hash of its content, which
-is checked before it is unpickled.
+directory. What depends on packages of others too (`outside.py`) lies in a directory of that set:
+`<root>/<fingerprint>.<set>.<checksum of their sources>`. Cache files are pickles, and loading a
+pickle can run code, so a directory or a file that anyone else owns or can write to is not used.
+Each file starts with the hash of its content, which is checked before it is unpickled.
 """
 
 # numba.core.caching has no types.
@@ -35,6 +36,7 @@ from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLoca
 from numba.core.serialize import dumps
 
 from contact_sim_pkg.compiled import linking
+from contact_sim_pkg.compiled.outside import digest_of_packages, package_of, packages_in
 from contact_sim_pkg.compiled.sources import digest_of_sources
 
 __all__ = ["attach_cache", "cache_directory", "fingerprint"]
@@ -42,9 +44,10 @@ __all__ = ["attach_cache", "cache_directory", "fingerprint"]
 _log = logging.getLogger(__name__)
 
 KEPT_FINGERPRINTS = 2
-"""Directories of older fingerprints that stay beside the current one."""
+"""Directories of older fingerprints that stay beside the current one, of each set of packages."""
 
 _PACKAGE = Path(__file__).parents[1]
+_DIGITS = 12  # of the name of a set, and of the checksum of its sources
 _DIGEST_BYTES = hashlib.sha256().digest_size
 
 
@@ -114,9 +117,26 @@ def _require_trusted(path: Path, owners: tuple[int, ...], forbidden: int) -> Non
         )
 
 
+def _set_of(name: str) -> str:
+    """Set of packages that the name of a directory stands for; empty: ours alone."""
+    return name.partition(".")[2].partition(".")[0]
+
+
+def _name_of_set(packages: frozenset[str]) -> str:
+    """What follows the fingerprint in the name of the directory of a set of packages of others."""
+    if not packages:
+        return ""
+    named = hashlib.sha256(" ".join(sorted(packages)).encode()).hexdigest()
+    return f".{named[:_DIGITS]}.{digest_of_packages(packages)[:_DIGITS]}"
+
+
 def _prune(root: Path, keep: Path) -> None:
-    """Remove all but the most recently used directories of other fingerprints."""
-    others = [path for path in root.iterdir() if path != keep and path.is_dir() and not path.is_symlink()]
+    """Remove all but the most recently used directories of the same set of packages."""
+    others = [
+        path
+        for path in root.iterdir()
+        if path != keep and path.is_dir() and not path.is_symlink() and _set_of(path.name) == _set_of(keep.name)
+    ]
     others.sort(key=lambda path: path.stat().st_mtime, reverse=True)
     for path in others[KEPT_FINGERPRINTS:]:
         shutil.rmtree(path, ignore_errors=True)
@@ -132,6 +152,7 @@ class _Session:
         self.directory: Path | None = None
         self._opened = False
         self._warned = False
+        self._sets: dict[frozenset[str], Path] = {}
 
     def open(self) -> Path | None:
         if not self._opened:
@@ -142,6 +163,17 @@ class _Session:
             except (OSError, RuntimeError) as error:  # RuntimeError: no home directory is known
                 self.close(error)
         return self.directory
+
+    def directory_of(self, packages: frozenset[str]) -> Path | None:
+        """Directory of what depends on ``packages`` of others beside ours; None without a cache.
+
+        Raises `OSError` as `open_cache_directory`.
+        """
+        if self.directory is None or not packages:
+            return self.directory
+        if packages not in self._sets:
+            self._sets[packages] = open_cache_directory(self.name + _name_of_set(packages))
+        return self._sets[packages]
 
     def close(self, error: Exception) -> None:
         """Go on without a cache and report it once."""
@@ -158,14 +190,16 @@ class _Session:
 
     def rebuild(self, error: Exception) -> None:
         """Remove a damaged cache; kernels are compiled again and kept anew."""
-        if self.directory is not None:
-            _log.warning(
-                "the cache of compiled kernels in %s is damaged (%s); it is removed and compiled again",
-                self.directory,
-                error,
-            )
-            shutil.rmtree(self.directory, ignore_errors=True)
-            self.directory.mkdir(mode=0o700, exist_ok=True)
+        if self.directory is None:
+            return
+        _log.warning(
+            "the cache of compiled kernels in %s is damaged (%s); it is removed and compiled again",
+            self.directory,
+            error,
+        )
+        for directory in (self.directory, *self._sets.values()):
+            shutil.rmtree(directory, ignore_errors=True)
+            directory.mkdir(mode=0o700, exist_ok=True)
 
 
 _session = _Session()
@@ -179,9 +213,11 @@ def cache_directory() -> Path | None:
 def attach_cache(dispatcher: Any, form: str = "") -> None:
     """Let a freshly decorated function load its machine code from the cache and save it there.
 
-    ``form`` distinguishes the files of one function that is compiled in several ways.
+    ``form`` distinguishes the files of one function that is compiled in several ways. A function
+    typed at a prompt has no source whose edit could be seen, and is not kept.
     """
-    if hasattr(dispatcher, "overloads") and _session.open() is not None:
+    written = hasattr(dispatcher, "overloads") and Path(dispatcher.py_func.__code__.co_filename).is_file()
+    if written and _session.open() is not None:
         try:
             dispatcher._cache = _CheckedCache(dispatcher.py_func, form)
         except (OSError, RuntimeError) as error:
@@ -190,10 +226,10 @@ def attach_cache(dispatcher: Any, form: str = "") -> None:
 
 def _place(py_file: str) -> str:
     """Path of a module inside the package, the same in every copy of it and behind every link to
-    it; else the whole path.
+    it; else its name: where that stands is part of the name of the function.
     """
     path = Path(py_file)
-    return str(path.relative_to(_PACKAGE)) if path.is_relative_to(_PACKAGE) else py_file
+    return str(path.relative_to(_PACKAGE)) if path.is_relative_to(_PACKAGE) else path.name
 
 
 class _Locator(_CacheLocator):
@@ -249,8 +285,9 @@ class _CheckedFiles:
     other's number. Here the name of a file follows from the key, which it also holds.
     """
 
-    def __init__(self, directory: str, name: str) -> None:
-        self._directory, self._name = Path(directory), name
+    def __init__(self, package: str, name: str) -> None:
+        """``package``: that of the function; empty where it is ours."""
+        self._own, self._name = frozenset({package} - {""}), name
 
     def load(self, key: Any) -> Any:
         """What was saved under ``key``; None where nothing was."""
@@ -283,7 +320,9 @@ class _CheckedFiles:
             raise
 
     def _path(self, key: Any) -> Path:
-        return self._directory / f"{self._name}.{hashlib.sha256(repr(key).encode()).hexdigest()[:16]}"
+        directory = _session.directory_of(self._own | packages_in(key[0]))
+        assert directory is not None  # callers have looked
+        return directory / f"{self._name}.{hashlib.sha256(repr(key).encode()).hexdigest()[:16]}"
 
 
 class _CheckedCache(FunctionCache):
@@ -295,7 +334,7 @@ class _CheckedCache(FunctionCache):
 
     def __init__(self, py_func: Any, form: str) -> None:
         super().__init__(py_func)
-        self._cache_file: Any = _CheckedFiles(self._cache_path, self._impl.filename_base + form)
+        self._cache_file: Any = _CheckedFiles(package_of(py_func.__module__), self._impl.filename_base + form)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         if _session.directory is None:

@@ -11,6 +11,8 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.records.topic import ContactTopic
+
 __all__ = ["Effect", "Observed", "Rule", "Verdict", "choice_of_model", "needed_where_it_opens"]
 
 
@@ -45,6 +47,10 @@ class Effect:
         carries: whether it carries the load of the contact: every scene with the contact names it, or
             another that does.
         publishes: topic of the contact that is there because of it; empty: none.
+        topic: that topic, where the effect is another package's and the contact does not list it.
+        observer: ``module:name`` of what looks at the outputs of each block, for an effect that acts on
+            nothing: a function of a resolved scene that returns a `run.observers.Observer`; empty: the
+            rig's own simulation has the effect.
         feeds: topics of the contact whose values it changes.
         inputs: sections of the scene that act through it alone.
         called_for: rule that says from a scene and its result whether the scene calls for it.
@@ -60,6 +66,8 @@ class Effect:
     excludes: tuple[str, ...] = ()
     carries: bool = False
     publishes: str = ""
+    topic: ContactTopic | None = None
+    observer: str = ""
     feeds: tuple[str, ...]
     inputs: tuple[str, ...] = ()
     called_for: Rule

@@ -377,6 +377,14 @@ class SeatResponse(_Record):
     seat_to_head_coherence: NDArray[numpy.float64] = ...
 
 @dataclass(frozen=True, kw_only=True)
+class Series(_Record):
+    block: int
+    sample_period: float
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    values: NDArray[numpy.float64]
+
+@dataclass(frozen=True, kw_only=True)
 class SolverCost(_Record):
     block: int
     wall_time: float

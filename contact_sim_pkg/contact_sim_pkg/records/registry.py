@@ -1,41 +1,96 @@
-"""The rigs that a scene can name, found through the packages that export them.
+"""The rigs that a scene can name, found through the packages that export them, plug-ins included.
 
 Every part of the bench goes over this registry; none depends on which rig it is.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import cache
 from operator import itemgetter
 from pathlib import Path
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
+from contact_sim_pkg.records.plugins import OFF, VARIABLE, Plugin, PluginError, plugins
 from contact_sim_pkg.records.report import ContactReport
 from contact_sim_pkg.records.rig import Rig, load
 from contact_sim_pkg.records.topic import COMMON, Topic, recorded_topic
 
 __all__ = [
-    "contact_reports", "contact_topics", "contacts", "effects", "refused_sections", "rig_names", "rigs", "shipped_scenes",
+    "contact_reports", "contact_topics", "contacts", "effects", "plugins_of", "refused_sections", "rig_names", "rigs",
+    "shipped_scenes",
 ]  # fmt: skip
 
 _PACKAGES = "contact_sim_pkg.rigs:PACKAGES"
+CURE = f"rename one, or set {VARIABLE} to the plug-ins that are wanted, or to {OFF}"
 
 
 @cache
 def rigs() -> dict[str, Rig]:
-    """Every rig by its name, in the order of the packages.
+    """Every rig by its name, in the order of the packages: ours, then those of plug-ins.
 
     Raises:
-        ValueError: two packages export a rig of the same name.
+        PluginError: two packages export a rig, a contact or an effect of the same name.
     """
     found: dict[str, Rig] = {}
-    for package in load(_PACKAGES):
-        for rig in load(f"{package}:RIGS"):
-            if rig.name in found:
-                raise ValueError(f"two rigs are named {rig.name}: one of {package}; rename one of them")
-            found[rig.name] = rig
+    origin: dict[str, str] = {}
+    extended: dict[Contact, Contact] = {}  # rigs may share one
+    for _package, rig, bringer in _exported():
+        if rig.name in found:
+            raise PluginError(f"two rigs are named {rig.name}: {origin[rig.name]} and {bringer}; {CURE}")
+        for contact in rig.contacts:
+            extended.setdefault(contact, _extended(contact))
+        found[rig.name] = replace(rig, contacts=tuple(extended[contact] for contact in rig.contacts))
+        origin[rig.name] = bringer
     return found
+
+
+@cache
+def _exported() -> tuple[tuple[str, Rig, str], ...]:
+    """Package, rig, and who brings it."""
+    ours = [(package, rig, f"that of {package}") for package in load(_PACKAGES) for rig in load(f"{package}:RIGS")]
+    theirs = [
+        (package, rig, f"that of plug-in {plugin}")
+        for plugin in plugins()
+        for package, brought in plugin.rigs.items()
+        for rig in brought
+    ]
+    return (*ours, *theirs)
+
+
+def _extended(contact: Contact) -> Contact:
+    """A contact with the effects that plug-ins bring to it, and their topics."""
+    origin = dict.fromkeys((effect.name for effect in contact.effects), "the bench's own")
+    more: list[Effect] = []
+    for plugin in plugins():
+        for effect in plugin.effects.get(contact.name, ()):
+            if effect.name in origin:
+                raise PluginError(
+                    f"two effects of {contact.name} are named {effect.name}: {origin[effect.name]} and that of plug-in "
+                    f"{plugin}; {CURE}"
+                )
+            origin[effect.name] = f"that of plug-in {plugin}"
+            more.append(effect)
+    if not more:
+        return contact
+    topics = tuple(effect.topic for effect in more if effect.topic is not None)
+    return replace(contact, effects=(*contact.effects, *more), topics=(*contact.topics, *topics))
+
+
+def plugins_of(rig: str, effects_by_contact: Mapping[str, Iterable[str]]) -> list[Plugin]:
+    """Plug-ins that bring a rig, or one of the effects named for its contacts."""
+    return [
+        plugin
+        for plugin in plugins()
+        if any(each.name == rig for brought in plugin.rigs.values() for each in brought)
+        or any(
+            effect.name in effects_by_contact.get(contact, ())
+            for contact, brought in plugin.effects.items()
+            for effect in brought
+        )
+    ]
 
 
 def rig_names() -> tuple[str, ...]:
@@ -48,15 +103,13 @@ def contacts() -> dict[str, Contact]:
     """Contacts of all rigs by name, in the order of the rigs.
 
     Raises:
-        ValueError: two rigs have different contacts of the same name.
+        PluginError: two rigs have different contacts of the same name.
     """
     found: dict[str, Contact] = {}
     for rig in rigs().values():
         for contact in rig.contacts:
             if found.setdefault(contact.name, contact) is not contact:
-                raise ValueError(
-                    f"two contacts are named {contact.name}: one of the rig {rig.name}; rename one of them"
-                )
+                raise PluginError(f"two contacts are named {contact.name}: one of the rig {rig.name}; {CURE}")
     return found
 
 
@@ -105,14 +158,14 @@ def shipped_scenes() -> dict[str, Path]:
     name.
 
     Raises:
-        ValueError: two scenes have the same name.
+        PluginError: two scenes have the same name.
     """
     places = {name: place for rig in rigs().values() for name, place in rig.scenes.items()}
     found: dict[str, Path] = {}
-    for package in load(_PACKAGES):
+    for package in dict.fromkeys(package for package, _rig, _bringer in _exported()):
         for path in sorted(Path(str(load(package).__file__)).parent.glob("scenes/*.yaml")):
             if path.stem in found:
-                raise ValueError(f"two scenes are named {path.stem}: {found[path.stem]} and {path}; rename one of them")
+                raise PluginError(f"two scenes are named {path.stem}: {found[path.stem]} and {path}; {CURE}")
             found[path.stem] = path
     return dict(sorted(found.items(), key=lambda item: (places.get(item[0], len(found)), item[0])))
 

@@ -7,15 +7,16 @@ from typing import Any, NamedTuple
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.run.block_simulation import BlockSimulation
+from contact_sim_pkg.run.observers import observed
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
 def make_simulation(scene: ResolvedScene) -> BlockSimulation:
-    """The simulation of a resolved scene's rig. Raises what its parts raise on a scene that cannot
-    run.
+    """The simulation of a resolved scene's rig, with the observers that it calls for. Raises what its
+    parts raise on a scene that cannot run.
     """
     simulation: BlockSimulation = load(rigs()[scene.rig].simulation)(scene)
-    return simulation
+    return observed(scene, simulation)
 
 
 def result_topics(scene: ResolvedScene) -> list[str]:

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.records.registry import rigs
+from contact_sim_pkg.records.registry import plugins_of, rigs
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.files import find_file, input_files
 from contact_sim_pkg.scene.load import load_scene
@@ -103,6 +103,10 @@ def explicit(scene: Scene) -> dict[str, Any]:
     whole = Scene.model_validate({**_dump(scene), **absent})  # the schema fills in the defaults
     data = _dump(whole)
     data["duration"] = whole_duration(scene)
+    used = plugins_of(scene.rig, {name: tuple(effects or ()) for name, effects in data["effects"].items()})
+    data.pop("plugins", None)
+    if used:
+        data["plugins"] = ", ".join(map(str, used))
     _fill(whole, whole, data)
     loosest = min(contact.loosest_integration(data["effects"][contact.name]) for contact in contacts)
     data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy, loosest))

@@ -11,7 +11,8 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.rigs.vehicle.coupling.rule import AIM, UNLUCKIER, UNLUCKY, MeasuredWay
+from contact_sim_pkg.laws.parameters import NormalElastic
+from contact_sim_pkg.rigs.vehicle.coupling.rule import AIM, UNLUCKIER, UNLUCKY, Allowance, MeasuredWay
 from contact_sim_pkg.rigs.vehicle.field_driver import CushionField
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
@@ -79,6 +80,16 @@ def test_a_single_step_changes_the_way_by_half_or_twice():
     assert way.longest == pytest.approx(0.2)
     way.learn(0.0, 7.0)  # a wheel that stands says nothing of ways
     assert way.longest == pytest.approx(0.2)
+
+
+def test_an_error_counts_under_the_load_that_it_acts_at():
+    """On a spring: its stiffness times a height; a rate's error is a part of the force there, whatever is at rest."""
+    law, tolerance, damping = NormalElastic(1e5, 1.0), 1e-2, 0.05
+    allowed = Allowance(force=tolerance * 3e3, load=3e3, speed=tolerance / damping)
+    assert allowed.missed_force(law, 0.03, 1e-4, 0.0) == pytest.approx(10.0)
+    assert allowed.missed_force(law, 0.03, 0.0, 0.1) == pytest.approx(3e3 * damping * 0.1)
+    assert allowed.missed_force(law, 0.12, 0.0, 0.1) == pytest.approx(12e3 * damping * 0.1)
+    assert allowed.missed_force(law, -0.01, 1e-4, 0.1) == 0.0
 
 
 ROADS = {

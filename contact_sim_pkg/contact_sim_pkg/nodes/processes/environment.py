@@ -6,6 +6,8 @@ import os
 from collections.abc import Mapping
 
 from contact_sim_pkg.python_process import drop_empty_entries
+from contact_sim_pkg.records.plugins import OFF, VARIABLE
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
@@ -39,3 +41,11 @@ def _yaml(value: str | float | bool) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     return "'" + value.replace("'", "''") + "'" if isinstance(value, str) else repr(value)
+
+
+def plugin_environment(scene: ResolvedScene) -> dict[str, str]:
+    """The plug-ins that a scene uses, for its nodes: one that uses none is started without a look at
+    what is installed.
+    """
+    named = str(scene.data.get("plugins") or "")
+    return {VARIABLE: ",".join(each.strip().partition(" ")[0] for each in named.split(",")) if named else OFF}

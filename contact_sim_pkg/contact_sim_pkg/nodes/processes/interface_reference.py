@@ -164,8 +164,9 @@ axes of the ground (in those of the world where frame_id is bench)."""
 
 
 def own_types() -> list[str]:
-    """Our message types in the order of the table of topics."""
-    return [*dict.fromkeys(topic.type for topic in TOPICS.values() if topic.type.startswith(f"{PACKAGE}/"))]
+    """Our message types in the order of the table of topics, then that of plug-ins."""
+    ours = dict.fromkeys(topic.type for topic in TOPICS.values() if topic.type.startswith(f"{PACKAGE}/"))
+    return [*ours, f"{PACKAGE}/msg/Series"]
 
 
 def _messages() -> Iterator[str]:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_sim_pkg.nodes.processes.children import Child, Children, ErrorLines
-from contact_sim_pkg.nodes.processes.environment import node_arguments, set_default_environment
+from contact_sim_pkg.nodes.processes.environment import node_arguments, plugin_environment, set_default_environment
 from contact_sim_pkg.nodes.processes.run_folder import RunFolder
 from contact_sim_pkg.nodes.processes.run_plan import in_processes, planned_nodes
 from contact_sim_pkg.nodes.processes.scene_file import count_blocks, descriptions_beside, write_reason, write_scene
@@ -65,7 +65,7 @@ class Supervisor:
             f"ROS_DOMAIN_ID is {os.environ.get('ROS_DOMAIN_ID', '0')}, discovery {os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE']}"
         )
         errors = ErrorLines(on_line)
-        children = Children(os.environ, errors.add)
+        children = Children({**os.environ, **plugin_environment(self._scene)}, errors.add)
         with RunFolder() as folder:
             try:
                 scene = write_scene(self._scene, folder.path)

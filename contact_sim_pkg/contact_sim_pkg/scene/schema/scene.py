@@ -57,6 +57,10 @@ class _Scene(Section):
         " pressure and contact area over their largest; a number from 1e-8 to 0.1, or realtime",
         default=0.01,
     )
+    plugins: str | None = text(
+        "packages of others that the scene uses, as NAME VERSION, separated by commas; written where a scene is resolved",
+        default=None,
+    )
     travel: TravelSection | None = choice("speed programme (rigs tire and car)", default=None, example={"speed": 10.0})
     road: Road | None = choice(
         "road under the tire (rigs tire and car), or added to the track of the roller (roller)",

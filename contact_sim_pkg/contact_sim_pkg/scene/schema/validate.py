@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from pydantic import ValidationError
 
+from contact_sim_pkg.records.plugins import plugins
 from contact_sim_pkg.scene.errors import Breach, Fault, SceneError
 from contact_sim_pkg.scene.renamed_keys import use_new_names
 from contact_sim_pkg.scene.schema.catalog import Entry, catalog, entry_of, key_of_word, place_of, without_kinds
@@ -40,6 +41,9 @@ def validate(root: MappingNode, file: str, known: Iterable[Fault] = (), rules: I
         SceneError: with all faults. A key with a fault of its own takes no part in the rules. A key
             that was renamed or removed is one of them; a renamed one's value is checked under the new name.
     """
+    missing_plugins = list(_missing_plugins(root))
+    if missing_plugins:  # without them its rig or its effects would be refused as unknown
+        raise SceneError([*known, *missing_plugins])
     validator = _Validator(root, [*known, *use_new_names(root)])
     scene = validator.types()
     # Rules between keys need all types to be right
@@ -50,6 +54,21 @@ def validate(root: MappingNode, file: str, known: Iterable[Fault] = (), rules: I
     if validator.faults or scene is None:
         raise SceneError(validator.faults)
     return scene
+
+
+def _missing_plugins(root: MappingNode) -> Iterator[Fault]:
+    """Plug-ins that a resolved scene names and that are not there; of another version they may give
+    other numbers, and the scene is resolved with that.
+    """
+    node = root.entries.get("plugins")
+    if not isinstance(node, ScalarNode):
+        return
+    there = {plugin.name for plugin in plugins()}
+    for each in str(node.value).split(","):
+        name = each.strip().partition(" ")[0]
+        if name and name not in there:
+            sentence = f"the scene uses the plug-in {each.strip()}, which is not installed; install it beside the bench"
+            yield Fault(node.mark.source, node.mark.line, node.mark.column, "plugins", sentence)
 
 
 class _Validator:

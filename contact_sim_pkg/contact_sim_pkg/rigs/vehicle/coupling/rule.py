@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
-from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
+from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, elastic_stiffness
+from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, NormalDissipative
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
@@ -66,6 +66,16 @@ class Allowance(NamedTuple):
     noise: float = 0.0  # [m] left in it by the solver of the field
     force: float = math.inf  # [N]
     load: float = 0.0  # [N] at rest
+
+    def missed_force(self, law: ElasticLaw, approach: float, height: float, rate: float) -> float:
+        """Error [N] of the force at an ``approach`` [m] by an error of the ``height`` [m], or of its
+        ``rate`` [m/s], which the loss sees.
+        """
+        damping = self.force / self.load / self.speed if self.load > 0.0 else 0.0
+        elastic, dissipated = float(elastic_stiffness(law, approach)) * height, 0.0
+        if damping > 0.0:
+            dissipated = float(elastic_force(law, approach)) * damping * rate
+        return max(elastic, dissipated)
 
 
 class MeasuredWay:

@@ -24,6 +24,7 @@ The coupling steps of a viscoelastic tread have one length; the error is only re
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy
@@ -246,16 +247,23 @@ class Coupling:
         self._close(step, outcome, record)
         return True
 
-    def _estimated(self, outcome: StepOutcome, step: CouplingStep, error: float) -> tuple[float, float]:
-        """Errors [N] of the normal forces of tire and seat by the curvature of their corrections; with
-        all of a rate's error where the step is as short as it may be.
+    def _estimated(self, outcome: StepOutcome, step: CouplingStep, error: float) -> tuple[float, ...]:
+        """Errors [N] of the normal forces of tire and seat by the curvature of their corrections, under
+        the loads at the end of a step; with all of a rate's error where the step is as short as it may
+        be.
         """
-        errors = self._errors(outcome.found, step, 1.0 if error > 1.0 else SLOPE)
-        tire, seat = (
-            part * allowed.force if allowed.load > 0.0 else 0.0
-            for part, allowed in zip(errors, self._allowances, strict=True)
-        )
-        return tire, seat
+        of_slope = 1.0 if error > 1.0 else SLOPE
+        return tuple(
+            allowed.missed_force(field.contact.elastic, approach, height, of_slope * rate)
+            if field.contact is not None else 0.0
+            for field, approach, allowed, (height, rate)
+            in zip(self.fields, self._approaches(step, outcome), self._allowances, self._misses(outcome.found, step), strict=True)
+        )  # fmt: skip
+
+    def _approaches(self, step: CouplingStep, outcome: StepOutcome) -> tuple[float, float]:
+        """Approaches [m] of tire and seat at the end of a step."""
+        height, cushion = float(step.drive.smooth[-1]) + outcome.ends[0], outcome.ends[1]
+        return self.bodies.tire_approach(height), self.bodies.seat_approach(cushion)
 
     def _look(self, check: CouplingCheck, step: CouplingStep, saved: Saved, outcome: StepOutcome) -> Middle:
         """What a step missed in its middle."""
@@ -358,14 +366,19 @@ class Coupling:
 
     def _errors(self, found: Corrections, step: CouplingStep, of_slope: float = SLOPE) -> tuple[float, ...]:
         """The same of tire and seat; ``of_slope`` is the part of a rate's error that counts."""
-        count = step.segments
         return tuple(
-            max(
-                field.interpolation_error(correction, count) / allowed.height,
-                of_slope * field.slope_error(correction, count) / step.segment_length / allowed.speed,
-            )
-            for field, correction, allowed in zip(self.fields, found, self._allowances, strict=True)
+            max(height / allowed.height, of_slope * rate / allowed.speed)
+            for (height, rate), allowed in zip(self._misses(found, step), self._allowances, strict=True)
         )
+
+    def _misses(self, found: Corrections, step: CouplingStep) -> Iterator[tuple[float, float]]:
+        """Errors of linear corrections of tire and seat: of the height [m], and of its rate [m/s]."""
+        count = step.segments
+        for field, correction in zip(self.fields, found, strict=True):
+            yield (
+                field.interpolation_error(correction, count),
+                field.slope_error(correction, count) / step.segment_length,
+            )
 
     def _close(self, step: CouplingStep, outcome: StepOutcome, record: BlockRecord) -> None:
         """Accept the fields and their corrections; the energy of the remaining jump counts as
@@ -374,9 +387,9 @@ class Coupling:
         self._roll(step, outcome.ends[0] - self.tire.correction)
         self.tire.store()
         self._lay_slopes(step)
-        height, cushion = float(step.drive.smooth[-1]) + outcome.ends[0], outcome.ends[1]
-        approaches = (self.bodies.tire_approach(height), self.bodies.seat_approach(cushion))
-        pairs = zip(self.fields, approaches, outcome.ends, outcome.found, self._allowances, strict=True)
+        pairs = zip(
+            self.fields, self._approaches(step, outcome), outcome.ends, outcome.found, self._allowances, strict=True
+        )
         for field, approach, end, correction, allowed in pairs:
             field.accept(correction, step.segments, step.last or not field.as_predicted, allowed.height)
             change = correction - end

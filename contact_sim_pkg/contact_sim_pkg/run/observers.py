@@ -1,0 +1,66 @@
+"""Effects that only look: after each block they see its outputs, and add outputs of their own.
+
+They change no state and no other output, so a run with them has the bits of one without. An effect
+names its observer (`records.effect.Effect.observer`); that is how a plug-in adds one to any rig.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import Any, Protocol
+
+from contact_sim_pkg.bag.block_encoder import Output
+from contact_sim_pkg.records.registry import contacts, rigs
+from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.run.block_simulation import BlockResult, BlockSimulation, InputBlock
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+__all__ = ["Observer", "observed"]
+
+
+class Observer(Protocol):
+    """What looks at the blocks of one run, in their order."""
+
+    def prepare(self) -> None:
+        """Compile or load its kernels, if it has any: a run compiles nothing."""
+
+    def observe(self, outputs: Sequence[Output]) -> Iterable[Output]:
+        """Outputs of its own, from all outputs of a block; stamps [ns] as theirs."""
+
+
+class _Observed:
+    """A simulation and those who look at it; all else is the simulation's."""
+
+    def __init__(self, simulation: BlockSimulation, observers: Sequence[Observer]) -> None:
+        self._simulation, self._observers = simulation, observers
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._simulation, name)
+
+    def prepare(self) -> None:
+        """Of all."""
+        self._simulation.prepare()
+        for observer in self._observers:
+            observer.prepare()
+
+    def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
+        """The block of the simulation, with what was seen in it."""
+        result = self._simulation.advance(block, inputs)
+        seen = [output for observer in self._observers for output in observer.observe(result.outputs)]
+        return replace(result, outputs=[*result.outputs, *seen])
+
+
+def observed(scene: ResolvedScene, simulation: BlockSimulation) -> BlockSimulation:
+    """The simulation of a resolved scene with the observers that the scene calls for; the simulation
+    itself where it calls for none.
+    """
+    called = [
+        load(effect.observer)(scene)
+        for contact in rigs()[scene.rig].contacts
+        for effect in contacts()[contact.name].effects
+        if effect.observer and (scene.data["effects"].get(contact.name) or {}).get(effect.name) is not None
+    ]
+    found: Any = _Observed(simulation, called) if called else simulation
+    simulated: BlockSimulation = found
+    return simulated

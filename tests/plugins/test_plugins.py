@@ -1,0 +1,173 @@
+"""A package of somebody else brings a rig, an effect and a command: known to all parts, without an edit of ours."""
+
+import math
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy
+import pytest
+import scipy.signal
+from tests.bench_process import ENVIRONMENT, LONGEST_COMMAND, messages, needs_ros
+
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.python_process import python_command
+from contact_sim_pkg.records.plugins import OFF, VARIABLE
+
+EXAMPLE = Path(__file__).parents[2] / "examples/plugin_rig"
+
+
+class Bench:
+    """`bench` with packages of others beside it."""
+
+    def __init__(self, folder: Path) -> None:
+        self.beside, self.work = folder / "beside", folder / "work"
+        self.beside.mkdir()
+        self.work.mkdir()
+
+    def __call__(self, *arguments: object, status: int = 0, plugins: str = "") -> str:
+        """Both of its streams."""
+        kept = {name: value for name, value in ENVIRONMENT.items() if name != VARIABLE}
+        environment = {**kept, "PYTHONPATH": f"{self.beside}:{ENVIRONMENT['PYTHONPATH']}"}
+        done = subprocess.run(
+            python_command("contact_sim_pkg.cli.main", *map(str, arguments)), capture_output=True, text=True, cwd=self.work,
+            env={**environment, **({VARIABLE: plugins} if plugins else {})}, timeout=LONGEST_COMMAND,
+        )  # fmt: skip
+        printed = done.stdout + done.stderr
+        assert done.returncode == status, printed
+        return printed
+
+    def add(self, name: str, module: str, **groups: str) -> None:
+        """A package of one module that announces something."""
+        (self.beside / f"{name}.py").write_text(module)
+        described = self.beside / f"{name}-1.2.dist-info"
+        described.mkdir()
+        (described / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.2\n")
+        announced = "".join(f"[contact_sim_pkg.{group}]\n{entry}\n" for group, entry in groups.items())
+        (described / "entry_points.txt").write_text(announced)
+
+
+@pytest.fixture
+def bench(tmp_path):
+    return Bench(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def example(tmp_path_factory):
+    """With the example, installed from a copy as its page says."""
+    folder = tmp_path_factory.mktemp("example")
+    bench = Bench(folder)
+    source = shutil.copytree(EXAMPLE, folder / "source")
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "--target"]
+    subprocess.run([*pip, bench.beside, source], check=True, capture_output=True)
+    bench("run", "bouncer_drop", "--offline", "--out", "bag")
+    return bench
+
+
+def test_its_scene_is_listed_and_its_command_counts_the_impacts(example):
+    assert "bouncer_drop" in example("list")
+    assert example("bounces", "bag") == "11 impacts\n"
+    example("report", "bag")
+    assert "foot" in (example.work / "bag/report.html").read_text()
+    assert "bounces" in example("--help")
+
+
+def test_its_first_bounce_is_that_of_a_damped_oscillator(example):
+    """m x'' + c x' + k x = -m g from x = 0: the largest force of the contact by scipy's own integration, to 1e-3."""
+    mass, stiffness, damping, gravity, height = 1.0, 1e5, 20.0, 9.80665, 0.1
+    fall, speed = math.sqrt(2.0 * height / gravity), math.sqrt(2.0 * gravity * height)
+
+    def rates(_time, state):
+        return state[1], -gravity - (stiffness * state[0] + damping * state[1]) / mass
+
+    forces = open_bag(example.work / "bag").columns("foot/force", ("normal",))["normal"].ravel()
+    times = numpy.arange(len(forces)) * 1e-3
+    first = (times > fall) & (times < fall + 0.0095)
+    found = scipy.integrate.solve_ivp(
+        rates, (0.0, 0.01), (0.0, -speed), t_eval=times[first] - fall, rtol=1e-10, atol=1e-13
+    )
+    expected = numpy.maximum(0.0, -stiffness * found.y[0] - damping * found.y[1])
+    assert abs(forces[first] - expected).max() < 1e-3 * expected.max()
+
+
+def test_its_effect_looks_at_our_tire_and_changes_no_bit(example):
+    """The rate of the smoothed force by scipy's filter of first order."""
+    common = ("run", "tire_bump", "--offline", "--set", "duration=0.2", "--set", "effects.tire.contact_field=null")
+    example(*common, "--out", "without")
+    example(*common, "--out", "with", "--set", "effects.tire.load_change={time: 0.02}")
+    seen, plain = messages(example.work / "with"), messages(example.work / "without")
+    own = [each for each in seen if each[0] == "/tire/load_change"]
+    excepted = ("/bench/scene", "/tire/load_change")
+    assert [each for each in seen if each[0] not in excepted] == [each for each in plain if each[0] not in excepted]
+    assert len(own) == 20
+    bag = open_bag(example.work / "with")
+    force = bag.columns("tire/force", ("normal",))["normal"].ravel()
+    share = -math.expm1(-1e-3 / 0.02)
+    smooth, _ = scipy.signal.lfilter([share], [1.0, share - 1.0], force, zi=[(1.0 - share) * force[0]])
+    rates = numpy.concatenate(list(bag.columns("tire/load_change", ("values",))["values"]))
+    assert rates == pytest.approx((force - smooth) / 0.02, rel=1e-9, abs=1e-6)
+
+
+def test_a_bag_of_it_is_refused_by_name_where_it_is_missing(example):
+    text = example("run", "--from-bag", "bag", "--offline", "--no-record", plugins=OFF, status=2)
+    assert "uses the plug-in bouncer_rig 0.1.0, which is not installed" in text
+    assert "there is no such scene" in example("run", "bouncer_drop", "--offline", plugins=OFF, status=2)
+
+
+def test_its_errors_are_our_sentences(example):
+    text = example("run", "bouncer_drop", "--offline", "--set", "foot.mass=-1", status=2)
+    assert "foot.mass" in text
+    assert "0.001 to 10000 kg" in text
+
+
+@needs_ros
+def test_over_nodes_it_gives_the_same_bits(example):
+    example("run", "bouncer_drop", "--out", "nodes")
+    assert messages(example.work / "nodes") == messages(example.work / "bag")
+
+
+def test_one_that_does_not_load_is_a_line_and_left_out(bench):
+    bench.add("broken", "import nothing_of_this_name\n", rigs="broken = broken:RIGS")
+    text = bench("list")
+    assert text.count("broken") == 1 + text.count("broken:RIGS")
+    assert "plug-in broken 1.2 is left out" in text
+    assert "tire_bump" in text
+
+
+RIG = """
+from contact_sim_pkg.records.rig import Rig
+RIGS = (Rig(name="{}", help="none", contacts=(), simulation="none:none"),)
+"""
+
+
+@pytest.mark.parametrize(("name", "other"), [("impact", "contact_sim_pkg.rigs.impact"), ("twice", "plug-in first 1.2")])
+def test_equal_names_are_refused_and_both_named(bench, name, other):
+    bench.add("first", RIG.format("twice"), rigs="a = first")
+    bench.add("second", RIG.format(name), rigs="a = second")
+    text = bench("list", status=2)
+    assert f"two rigs are named {name}" in text
+    assert other in text
+    assert "plug-in second 1.2" in text
+    assert "Traceback" not in text
+    assert "tire_bump" in bench("list", plugins=OFF)
+
+
+def test_only_the_named_ones_are_let_in(bench):
+    bench.add("first", RIG.format("twice"), rigs="a = first")
+    bench.add("second", RIG.format("twice"), rigs="a = second")
+    assert "tire_bump" in bench("list", plugins="second")
+
+
+def test_a_command_of_ours_is_never_replaced(bench):
+    bench.add("greedy", "", commands="run = greedy:command")
+    assert "two commands are named run" in bench("unheard_of", status=2)
+
+
+def test_no_plug_in_is_looked_for_where_a_scene_uses_none():
+    """The nodes of our own scenes start without reading what is installed."""
+    from contact_sim_pkg.nodes.processes.environment import plugin_environment
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+    assert plugin_environment(ResolvedScene({})) == {VARIABLE: OFF}
+    assert plugin_environment(ResolvedScene({"plugins": "a 1.0, b 2.1"})) == {VARIABLE: "a,b"}
