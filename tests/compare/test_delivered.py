@@ -7,7 +7,7 @@ from contact_sim_pkg.compare.companion import companion_of
 from contact_sim_pkg.compare.delivered import Check, check_bag
 from contact_sim_pkg.compare.judgement import Judgement, judged, largest_by_kind, scales_of, standing_of
 from contact_sim_pkg.compare.parting import Parting, Statistic
-from contact_sim_pkg.compare.sentences import facts_of, lines_of
+from contact_sim_pkg.compare.sentences import DRIFT, facts_of, lines_of
 from contact_sim_pkg.compare.span import Span, begins_later, run_span
 from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.run.offline import run_offline
@@ -60,8 +60,10 @@ def test_the_delivered_force_is_that_of_a_run_two_levels_finer(scene, check):
 
 
 def test_the_whole_run_is_one_window(bag):
-    [window] = check_bag(bag, silent, whole=True).windows
+    found = check_bag(bag, silent, whole=True)
+    [window] = found.windows
     assert (window.start, window.end) == (0.0, 1.2)
+    assert DRIFT not in lines_of(found)
 
 
 def test_on_a_foreign_road_the_grid_stays(scene, tmp_path):
@@ -79,6 +81,7 @@ def test_the_lines_say_request_delivery_and_what_is_not_judged(check):
     assert lines[0].startswith("tire force: requested 1e-2, delivered ")
     assert sum(line.startswith("not judged: ") for line in lines) == 1
     assert lines[-1].startswith("numerical error only")
+    assert DRIFT in lines  # windows begin at rest, and see no drift
     facts = facts_of(check)
     assert facts["delivered"][0]["kind"] == "force"
     assert facts["delivered"][0]["held"] == (facts["delivered"][0]["error"] <= 0.01)
@@ -112,7 +115,7 @@ def test_runs_that_part_are_no_failure():
     """A back that hardly loses energy in its slaps: the finer run leaves it at the instant of one of them."""
     judgement = Judgement("backrest", "force", 1.01e-3, "normal", 4.18)
     parting = Parting(4.181, (Statistic("occupant_x", "position", 1.3e-2, 1.2e-2, 2.3e-2),))
-    check = Check("seat_slap", 1e-3, (judgement,), (), (), "", parting, (), 1.0)
+    check = Check("seat_slap", 1e-3, (judgement,), (), (), "", parting, (), 1.0, is_whole=False)
     lines = [*lines_of(check)]
     assert lines[0] == "backrest force: requested 1e-3, delivered 1e-3 (until the runs part) (normal at 4.18 s)"
     assert lines[1] == (

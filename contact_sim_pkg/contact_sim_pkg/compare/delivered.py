@@ -57,6 +57,7 @@ class Check(NamedTuple):
     parting: Parting | None
     not_judged: tuple[str, ...]
     cpu: float  # [s] of the check
+    is_whole: bool  # whether the windows are the whole run
 
 
 class _Companions(NamedTuple):
@@ -99,6 +100,7 @@ def check_bag(path: Path, notify: Notify, *, scene: ResolvedScene | None = None,
         scene.name, requested(scene.accuracy), tuple(_largest(judgements)),
         tuple(_checked(scene, window) for window in windows), pair.companion.dials, pair.limited, parting,
         tuple(not_judged(result_topics(scene))), cpu,
+        [(each.span.first, each.span.end) for each in windows] == [(0, blocks)],
     )  # fmt: skip
 
 

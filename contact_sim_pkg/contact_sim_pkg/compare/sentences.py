@@ -13,6 +13,7 @@ from contact_sim_pkg.records.table import number_of
 __all__ = ["facts_of", "lines_of"]
 
 SAME_BITS = "the finer run has the same bits: what it has finer does not act here"
+DRIFT = "what builds up over a run, as a drift of positions, is seen by `bench accuracy BAG --whole` only"
 MODEL = "numerical error only; the error of the model is on the validation page"
 
 
@@ -28,6 +29,8 @@ def lines_of(check: Check) -> Iterator[str]:
         yield f"coupling and integration only: {check.limited}"
     windows = "; ".join(f"{each.start:g} to {each.end:g} s ({', '.join(each.reasons)})" for each in check.windows)
     yield f"checked: {windows}; finer: {', '.join(check.dials) or 'nothing'}"
+    if not check.is_whole:
+        yield DRIFT
     yield f"not judged: {'; '.join(check.not_judged)}"
     yield MODEL
 

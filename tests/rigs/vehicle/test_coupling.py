@@ -178,7 +178,15 @@ def test_a_belt_that_yields_beside_the_footprint_keeps_the_usual_grid():
 WALLS = {
     "higher than the axle": ("{kind: step, position: 1.0, height: 0.3}", r"road\.height: 0\.3 m .*; at most 0\.28 m"),
     "steep and higher": ("{kind: step, position: 1.5, height: 0.4, length: 0.1}", "no tire climbs it"),
-    "high": ("{kind: step, position: 1.0, height: 0.2}", r"contact_field\.length: .* 0\.35 m are enough"),
+    "high": ("{kind: step, position: 1.0, height: 0.2}", r"contact_field\.length: .* 0\.31 m are enough"),
+    "steep flanks": (
+        "{kind: cleat, position: 2.3, height: 0.4, length: 2, edge: 0.3}",
+        r"length: .* 0\.33 m are enough",
+    ),
+    "fast up a ramp": (
+        "{kind: cleat, position: 2.3, height: 0.4, length: 2, edge: 0.8}",
+        r"length: .* 0\.3 m are enough",
+    ),
 }
 
 
@@ -192,14 +200,25 @@ def test_a_wall_that_cannot_be_climbed_is_refused_before_the_start(wall):
 @pytest.mark.parametrize(
     "cured",
     [
-        ("road={kind: step, position: 1.0, height: 0.28}", "effects.tire.contact_field.length=0.37"),
-        ("road={kind: step, position: 1.0, height: 0.2}", "effects.tire.contact_field.length=0.35"),
-        ("road={kind: step, position: 1.0, height: 0.12}",),
+        ("travel.speed=8", "road={kind: step, position: 1.0, height: 0.28}", "effects.tire.contact_field.length=0.33"),
+        ("travel.speed=8", "road={kind: step, position: 1.0, height: 0.2}", "effects.tire.contact_field.length=0.31"),
+        ("travel.speed=8", "road={kind: step, position: 1.0, height: 0.12}"),
+        ("travel.speed=10", WALLS["steep flanks"][0], "effects.tire.contact_field.length=0.33"),
+        ("travel.speed=10", WALLS["fast up a ramp"][0], "effects.tire.contact_field.length=0.3"),
+        ("travel.speed=3", WALLS["fast up a ramp"][0]),
     ],
 )
 def test_what_the_refusals_of_walls_allow_runs_to_its_end(cured):
-    force, _costs = run(*cured, "travel.speed=8", "duration=0.3")
+    force, _costs = run(*(each if "=" in each else f"road={each}" for each in cured), "duration=0.6")
     assert force.max() > 2.0 * STANDING
+
+
+def test_a_parabola_on_a_half_space_touches_a_wall_beyond_its_radius():
+    """0.2 m of a parabola of 0.3 m lie at sqrt(2 R h) = 0.346 m."""
+    wall = ("travel.speed=8", "road={kind: step, position: 1.0, height: 0.2}")
+    with pytest.raises(SceneError, match=r"as far as 0\.35 m before its axle, .*; 0\.37 m are enough"):
+        run(*wall, scene="tire_half_space")
+    run(*wall, "effects.tire.contact_field.length=0.37", "duration=0.3", scene="tire_half_space")
 
 
 def test_a_wall_behind_the_end_of_the_run_is_no_wall():

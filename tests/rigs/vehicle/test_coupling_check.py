@@ -157,5 +157,55 @@ def test_an_edge_that_no_grid_resolves_has_no_estimate_of_its_peak():
         resolved("tire_bump", "road={kind: cleat, position: 3, height: 0.005, length: 0.05}")
     ).cautions
     assert any("not determined" in caution for caution in cautions)
-    flanks = resolved("tire_bump", "road={kind: cleat, position: 3, height: 0.005, length: 0.05, edge: 0.02}")
-    assert not Simulation(flanks).cautions
+
+
+CORNERS = {
+    "long flanks": (
+        "{kind: cleat, position: 3, height: 0.025, length: 0.1, edge: 0.02}",
+        "changes there by 1.2 at once",
+    ),
+    "a slot": ("{kind: cleat, position: 3, height: -0.005, length: 0.05, edge: 0.02}", "changes there by 0.25 at once"),
+    "a ramp of 2 %": ("{kind: step, position: 3, height: 0.02, length: 1.0}", "changes there by 0.02 at once"),
+    "flanks of a hole": (
+        "{kind: pothole, position: 3, depth: 0.02, length: 0.4, edge: 0.05}",
+        "changes there by 0.4 at once",
+    ),
+    "a sharp edge": ("{kind: cleat, position: 3, height: 0.01, length: 0.1}", "the edge is 0 mm long"),
+    "a ramp of 1 %": ("{kind: step, position: 3, height: 0.02, length: 2.0}", ""),
+    "a bump": ("{kind: bump, position: 3, height: 0.05, length: 0.5}", ""),
+    "class C": ("{kind: iso8608, roughness_class: C}", ""),
+}
+
+
+@pytest.mark.parametrize("road", CORNERS)
+def test_corners_at_which_no_grid_determines_the_peak_are_named_before_the_run(road):
+    section, words = CORNERS[road]
+    cautions = Simulation(resolved("tire_bump", f"road={section}")).cautions
+    assert [words in caution and "not determined" in caution for caution in cautions] == [True] * bool(words)
+
+
+def test_the_peak_at_a_corner_grows_with_every_finer_grid_and_the_force_does_not():
+    """Line contact: by E* times the change of the slope times ln 2/(2 pi) at half the cell (Johnson, section 5.2)."""
+    slope, modulus = 0.1, 4.0e6  # E* of the tread below
+    found = [
+        run(
+            "tire_bump", 0.08, "travel={speed: 5}", f"road={{kind: step, position: 0.2, height: 0.02, length: {0.02 / slope}}}",
+            f"effects.tire.contact_field={{rows: {rows}, cols: {cols}}}", "outputs.field_rate=1000",
+            "effects.tire.inflation.tread_modulus=3e6", "effects.tire.inflation.tread_poisson=0.5",
+        )
+        for rows, cols in ((72, 48), (144, 96))
+    ]  # fmt: skip
+    peaks = [largest_of(each, "tire/patch.peak") for each in found]
+    grown = modulus * slope * math.log(2.0) / (2.0 * math.pi)
+    assert 0.7 * grown < peaks[1] - peaks[0] < 2.0 * grown
+    forces = [column(each, "tire/force", "normal") for each in found]
+    assert forces[0] == pytest.approx(forces[1], rel=4e-3)
+
+
+def test_a_request_that_no_step_and_no_cell_delivers_is_named_before_the_run():
+    """At 10 m/s, 144 x 96 cells and steps of a quarter of a millimetre take minutes of computing a simulated second."""
+    [caution] = Simulation(resolved("tire_rough_road", "accuracy=1e-8")).cautions
+    assert caution.startswith("tire: an error of 1e-8 is requested, that of its force is not below some 5e-5")
+    assert 90.0 < float(caution.partition(" s of computing")[0].rpartition(" ")[2]) < 270.0
+    for values in (("tire_rough_road", "accuracy=1e-4"), ("tire_bump", "accuracy=1e-8", "road={kind: flat}")):
+        assert not Simulation(resolved(*values)).cautions

@@ -16,7 +16,7 @@ from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, Friction
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
-from contact_sim_pkg.rigs.vehicle.coupling.edges import refuse_high_walls, sharp_edge
+from contact_sim_pkg.rigs.vehicle.coupling.edges import SharpEdge, landing_of, refuse_high_walls, sharp_edge
 from contact_sim_pkg.rigs.vehicle.coupling.rule import (
     CouplingRule,
     allowance_of,
@@ -75,12 +75,17 @@ class Model:
     corrector_passes: int
     coupling: CouplingRule | None  # None without a pressure field
     shaken: bool  # whether the scene has a vibration
-    has_edge: bool  # whether the road has an edge that no grid resolves
+    edge: SharpEdge | None  # of the road, where no grid determines the peak pressure
 
     @property
     def states(self) -> int:
         """Number of state variables."""
         return int(self.scale.shape[0])
+
+    @property
+    def has_edge(self) -> bool:
+        """Whether the road has an edge that the cells of the tire's field do not place."""
+        return self.edge is not None and self.edge.is_short
 
 
 def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
@@ -105,7 +110,11 @@ def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
         rig = rig._replace(back=build_back(lean, occupant, seat_contact, GRAVITY, last))
     if tire is not None:
         rig = rig._replace(tire=tire.tire, rigid_ring=tire.rigid_ring, tire_contact=tire.contact)
-        refuse_high_walls(scene, tire.geometry.form, None if tire_field is None else tire_field.usual.settings)
+        load = standing_load(
+            scene.section(tire_schema.TireSection), None if given_seat is None else given_seat.occupant
+        )
+        landing = landing_of(tire.contact.elastic, load, tire.tire.wheel_mass, tire.footprint_length)
+        refuse_high_walls(scene, tire.geometry.form, None if tire_field is None else tire_field.usual.settings, landing)
     # A footprint on a road bounds the length of the coupling steps, and so the segments.
     footprint = None if tire is None or tire_field is None else tire.footprint_length
     timing = coupled_timing(scene, tire_field is not None or seat_field is not None, footprint)
@@ -130,7 +139,7 @@ def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
         ),
         coupling=_coupling(scene, rig, footprint, timing, (tire_field, seat_field), tire),
         shaken=scene.vibration is not None,
-        has_edge=sharp_edge(scene, None if tire_field is None else tire_field.usual.settings) is not None,
+        edge=sharp_edge(scene, None if tire_field is None else tire_field.usual.settings),
     )
 
 

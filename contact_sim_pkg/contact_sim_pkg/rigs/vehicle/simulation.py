@@ -14,6 +14,7 @@ from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.rigs.vehicle import entries as columns
 from contact_sim_pkg.rigs.vehicle.coupling.check import KINDS
 from contact_sim_pkg.rigs.vehicle.coupling.edges import edge_cautions
+from contact_sim_pkg.rigs.vehicle.coupling.rule import request_cautions
 from contact_sim_pkg.rigs.vehicle.coupling.steps import Coupling
 from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive
 from contact_sim_pkg.rigs.vehicle.model import Model, build
@@ -52,8 +53,11 @@ class Simulation:
         rig, grids = self.model.rig, self.model.tire_field
         if rig.tire_contact is None:
             return ()
-        edges = edge_cautions(self.scene, None if grids is None else grids.usual.settings)
-        return *stiffness_cautions(rig.tire_contact.elastic, rig.rigid_ring, self._coupling.bodies.weight()), *edges
+        return (
+            *stiffness_cautions(rig.tire_contact.elastic, rig.rigid_ring, self._coupling.bodies.weight()),
+            *edge_cautions(self.scene, None if grids is None else grids.usual.settings),
+            *request_cautions(self.scene, self.model.coupling, grids),
+        )
 
     def _reset(self) -> None:
         self._start_energy: Vector | None = None  # of the run
@@ -131,7 +135,7 @@ class Simulation:
             record.field_iterations += iterations
             record.field_residual = max(record.field_residual, residual)
         record.missed = coupling.missed.pop()
-        if self.model.has_edge:
+        if self.model.edge is not None:
             record.missed[0, KINDS.index("peak")] = numpy.nan
         self._map_seat(record)
         outputs = self._outputs(record, began)

@@ -33,8 +33,8 @@ class Integrator(Section):
         1e-4,
         10.0,
         "m",
-        "longest way that a tire rolls from one solution of its pressure field to the next; taken from accuracy and the road"
-        " when absent",
+        "longest way that a tire rolls from one solution of its pressure field to the next; when absent the run measures what"
+        " its steps miss, and how long they may be for accuracy",
         default=None,
     )
 
