@@ -90,7 +90,8 @@ class _Codec:
         try:
             values = list(self._values_of(record))
             for place, kind in self._kinds:
-                values[place] = numpy.asarray(values[place]).astype(kind, "C", "same_kind", copy=False)
+                if getattr(values[place], "dtype", None) != kind:
+                    values[place] = numpy.asarray(values[place]).astype(kind, "C", "same_kind")
             sizes = self._sizes(values) if self._shaped else {}
             if self._columns:
                 self._refuse_uneven_columns(values)

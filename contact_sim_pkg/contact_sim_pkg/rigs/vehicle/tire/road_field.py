@@ -12,6 +12,7 @@ from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field_driver import AT_REST, ContactField, Gap
+from contact_sim_pkg.rigs.vehicle.outputs import FieldRecord
 from contact_sim_pkg.rigs.vehicle.tire.footprint import slope_along, tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
@@ -33,6 +34,7 @@ class RoadField(ContactField):
         super().__init__(grids, contact)
         self._geometry, self._tread = geometry, tread
         self._road: Any = None
+        self._slope_of: tuple[FieldRecord | None, float] = None, 0.0  # the last that was computed
         self._gaps = {} if grids is None else {
             field.settings.rows: numpy.empty((field.settings.rows, field.settings.cols)) for field in grids.both()
         }  # fmt: skip
@@ -232,11 +234,14 @@ class RoadField(ContactField):
         level road it is 0 for an elastic tread.
         """
         found, geometry = self.published, self._geometry
-        if found is None or found.is_level or geometry is None or not found.pressure.any():
+        if found is None or found.is_level or geometry is None:
             return 0.0
-        x = found.origin_x + numpy.arange(len(found.pressure)) * geometry.lattice.cell_x
-        lines = found.pressure.sum(axis=1)
-        return float(lines @ slope_along(geometry.form, x) / lines.sum())
+        if self._slope_of[0] is not found:
+            x = found.origin_x + numpy.arange(len(found.pressure)) * geometry.lattice.cell_x
+            lines = found.pressure.sum(axis=1)
+            total = float(lines.sum())
+            self._slope_of = found, float(lines @ slope_along(geometry.form, x) / total) if total > 0.0 else 0.0
+        return self._slope_of[1]
 
     def rolling_force(self) -> float:
         """Moment of rolling resistance over the radius in [N], of the last solution: what a tread
