@@ -16,6 +16,7 @@ one penetrates the window grows and the solve goes on.
 from __future__ import annotations
 
 from functools import cache
+from math import isfinite
 
 import numpy
 from numpy.typing import NDArray
@@ -119,7 +120,7 @@ class RollingField:
 
         gap: [rows, cols] [m]; load: [N]; tolerance: [1].
         """
-        return self._solve(gap, FieldRequest(float(load), True, float(tolerance), int(max_iterations)))
+        return self._checked(gap, FieldRequest(float(load), True, float(tolerance), int(max_iterations)))
 
     def solve_at_approach(self, gap: Field, approach: float, tolerance: float, max_iterations: int) -> FieldResult:
         """As `pressure/field/solver.py:solve_at_approach`, into `pressure`. BAD_INPUT leaves the
@@ -127,14 +128,18 @@ class RollingField:
 
         gap: [rows, cols] [m]; approach: [m]; tolerance: [1].
         """
-        return self._solve(gap, FieldRequest(float(approach), False, float(tolerance), int(max_iterations)))
+        return self._checked(gap, FieldRequest(float(approach), False, float(tolerance), int(max_iterations)))
 
-    def _solve(self, gap: Field, request: FieldRequest) -> FieldResult:
+    def _checked(self, gap: Field, request: FieldRequest) -> FieldResult:
         whole, prescribed = self.half_space, request.prescribed
         if gap.shape != (whole.rows, whole.cols):
             raise ValueError(f"pressure field: gap is {gap.shape}, it must be {(whole.rows, whole.cols)}")
-        if not (numpy.isfinite(prescribed) and (prescribed >= 0.0 or not request.holds_load) and all_finite(gap)):
+        if not (isfinite(prescribed) and (prescribed >= 0.0 or not request.holds_load) and all_finite(gap)):
             return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
+        return self._solve(gap, request)
+
+    def _solve(self, gap: Field, request: FieldRequest) -> FieldResult:
+        """Solve where the gap and what is requested are known to be finite."""
         # Predict from the fields before, or start from a coarser grid.
         repeats, has_left = self._begin()
         window, spent = self._expected(has_left), 0
@@ -201,8 +206,7 @@ class RollingField:
         half.roll(self._cells_of_half // 2)
         self._cells_of_half = 0
         halve(gap, self._gap_of_half)
-        solve = half.solve_at_load if request.holds_load else half.solve_at_approach
-        solve(self._gap_of_half, request.prescribed, TOLERANCE_OF_HALF, request.max_iterations)
+        half._solve(self._gap_of_half, request._replace(tolerance=TOLERANCE_OF_HALF))
         window = GridWindow(*double(half.pressure, self.pressure))
         return window if window.rows else whole
 
