@@ -152,12 +152,14 @@ def tire_gap(
         return False
     # The middle columns of road and grid are the same.
     margin = (height.shape[1] - cols) // 2
-    middle = 0.5 * (cols - 1)
+    middle, across = 0.5 * (cols - 1), numpy.empty(cols)
+    for j in range(cols):
+        across[j] = height_across(form, (j - middle) * cell_y)
     for i in range(rows):
         along = height_along(form, (first + i) * cell_x - travel)
+        row, road = out[i], height[first + i - first_row, margin : margin + cols]
         for j in range(cols):
-            across = height_across(form, (j - middle) * cell_y)
-            out[i, j] = along + across - height[first + i - first_row, margin + j]
+            row[j] = along + across[j] - road[j]
     return True
 
 
