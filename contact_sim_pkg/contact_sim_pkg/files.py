@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import IO, BinaryIO
 
 __all__ = [
-    "FileRefusedError", "check_output", "new_file", "open_regular_file", "printable", "read_regular_file", "wrong_name",
+    "FileRefusedError", "RefusedError", "check_output", "new_file", "open_regular_file", "printable", "read_regular_file",
+    "wrong_name",
 ]  # fmt: skip
 
 LONGEST_COMPONENT = 255  # bytes between two slashes, on every usual file system
@@ -28,6 +29,12 @@ _KINDS = (
     (stat.S_ISBLK, "is a device"),
     (stat.S_ISSOCK, "is a socket"),
 )
+
+
+class RefusedError(Exception):
+    """Bad input: the text is a sentence, or several, that says what is wrong, where, the value, what is allowed and the cure.
+    Nothing has been started.
+    """
 
 
 class FileRefusedError(OSError):

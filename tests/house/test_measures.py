@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from tests.house.closures import closure, folder_circles
 from tests.house.measures import SHAPE, UNIT, commented, doubled_classes, wide_calls
 from tests.house.source import circles, imports, modules
 
@@ -55,3 +56,26 @@ def test_units_are_told_from_shapes(text):
 def test_shapes_are_told_from_units(text):
     assert SHAPE.search(text)
     assert not UNIT.search(text)
+
+
+NAMING = '''"""A record."""
+RIG = (f"{__name__}.simulation:Simulation", "small.other:report", f"{__name__}.studies.{1}", "another.small.x")
+'''
+
+
+def test_a_closure_follows_imports_and_names_in_texts(tmp_path):
+    files = {
+        "__init__": "", "rig/__init__": NAMING, "rig/simulation": "from small.kernel import step", "kernel": "", "other": "",
+        "unused": "", "rig/studies": "",
+    }  # fmt: skip
+    for name, text in files.items():
+        path = tmp_path / "small" / f"{name}.py"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    found = modules(tmp_path / "small")
+    assert closure(found, ["rig"], "small") == {"rig", "rig.simulation", "kernel", "other"}
+
+
+def test_neighbours_that_import_each_other_are_found_where_one_is_a_folder():
+    edges = {"a.b.c": {"a.d"}, "a.d": {"a.b.e"}, "a.b.e": {"a.f"}, "a.f": {"a.g"}, "a.g": {"a.f"}}
+    assert folder_circles(edges) == [["a.b", "a.d"]]

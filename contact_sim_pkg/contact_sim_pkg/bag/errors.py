@@ -1,7 +1,9 @@
 """Errors of messages and bags; the text of each error is one sentence for a person."""
 
+from contact_sim_pkg.files import RefusedError
 
-class BagError(Exception):
+
+class BagError(RefusedError):
     """A bag, or something in it, is refused."""
 
 

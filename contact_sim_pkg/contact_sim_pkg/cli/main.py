@@ -132,25 +132,14 @@ def refusal(error: Exception) -> tuple[str, int] | None:
     """
     from contact_sim_pkg.requirements import package_sentence
 
-    # first: without its packages even the errors below cannot be imported, nor beside two plug-ins of one name
+    # first: without its packages even the errors below cannot be imported
     if sentence := package_sentence(error):
         return sentence, 2
-    from contact_sim_pkg.records.plugins import PluginError
-
-    if isinstance(error, PluginError):
-        return str(error), 2
-    from contact_sim_pkg.bag.errors import BagError
-    from contact_sim_pkg.excitation.errors import ExcitationError
-    from contact_sim_pkg.files import FileRefusedError, printable
-    from contact_sim_pkg.identify.errors import IdentificationError
-    from contact_sim_pkg.rigs.impact.material.errors import MaterialError
-    from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileError
+    from contact_sim_pkg.files import FileRefusedError, RefusedError, printable
     from contact_sim_pkg.run.errors import RunError
-    from contact_sim_pkg.scene.errors import SceneError
 
     # status 2: refused before the start; 1: failed while running
-    bad_input = (SceneError, BagError, ExcitationError, IdentificationError, MaterialError, PropertyFileError)
-    if isinstance(error, bad_input):
+    if isinstance(error, RefusedError):
         return str(error), 2
     if isinstance(error, RunError):
         return str(error), 1

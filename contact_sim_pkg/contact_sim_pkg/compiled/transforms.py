@@ -12,7 +12,7 @@ import importlib
 import sys
 from types import ModuleType
 
-__all__ = ["rocket_fft"]
+__all__ = ["good_size", "rocket_fft"]
 
 _SERVED = "scipy.fft"
 
@@ -28,3 +28,18 @@ def _import_alone() -> ModuleType:
 
 
 rocket_fft = _import_alone()
+
+
+def good_size(count: int) -> int:
+    """The least length of a fast real transform from ``count`` on: a product of 2, 3 and 5."""
+    size = max(count, 1)
+    while _without(size, 2, 3, 5) != 1:
+        size += 1
+    return size
+
+
+def _without(number: int, *factors: int) -> int:
+    for factor in factors:
+        while number % factor == 0:
+            number //= factor
+    return number

@@ -18,6 +18,7 @@ from functools import cache
 from importlib.metadata import Distribution, EntryPoint, distributions
 from typing import NamedTuple
 
+from contact_sim_pkg.files import RefusedError
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.rig import Rig, load
 
@@ -29,7 +30,7 @@ GROUP = "contact_sim_pkg."
 _log = logging.getLogger(__name__)
 
 
-class PluginError(ValueError):
+class PluginError(RefusedError, ValueError):
     """Packages that cannot stand beside each other: a sentence."""
 
 

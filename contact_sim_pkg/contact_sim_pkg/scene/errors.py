@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from contact_sim_pkg.files import RefusedError
+
 
 @dataclass(frozen=True, slots=True)
 class Fault:
@@ -29,7 +31,7 @@ class Fault:
         return ": ".join(part for part in (place, self.where, self.sentence) if part)
 
 
-class SceneError(ValueError):
+class SceneError(RefusedError, ValueError):
     """A scene that cannot run; carries every fault that was found, ordered by line.
 
     Faults of command-line options come after those of the file, in the order of the options.

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.guards import require_count, require_positive, require_values
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
-from contact_sim_pkg.compiled.transforms import rocket_fft
+from contact_sim_pkg.compiled.transforms import good_size, rocket_fft
 from contact_sim_pkg.pressure.field.belt import stiffness_of_belt
 
 __all__ = ["Buffers", "HalfSpace", "coarsened", "displacement", "make_buffers", "make_half_space", "part_of"]
@@ -309,7 +309,7 @@ def multiply(spectrum: Spectrum, factor: Field) -> None:
 
 def _good(count: int) -> int:
     """The next length that the transform is fast for."""
-    return int(rocket_fft.good_size(count, True)) if count > 1 else 2
+    return good_size(count) if count > 1 else 2
 
 
 def _padded(count: int) -> int:

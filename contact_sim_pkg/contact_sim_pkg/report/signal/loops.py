@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numpy as np
+from scipy.integrate import trapezoid
 
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray
@@ -106,7 +106,7 @@ def tangential_loop(contact: ContactSeries, points: PointSeries) -> Loop:
 
 def loop_work(loop: Loop) -> float:
     """Work [J] done along the loop, integral of F d(displacement) by trapezia."""
-    return float(np.trapezoid(loop.force, loop.displacement))
+    return float(trapezoid(loop.force, loop.displacement))
 
 
 def area_ratio(field: FieldSeries) -> AreaRatio | None:

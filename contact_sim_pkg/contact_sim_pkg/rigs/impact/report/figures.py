@@ -5,6 +5,7 @@ of the contact surface.
 from __future__ import annotations
 
 import numpy as np
+from scipy.integrate import trapezoid
 
 from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
 from contact_sim_pkg.report.series import FloatArray, MotionSeries
@@ -99,7 +100,7 @@ def force_over_depth(impacts: ImpactSeries) -> Picture | None:
     first, history = impacts.courses[0], impacts.history
     axes.plot(first.depth * 1e3, first.elastic_force, color=MUTED, linestyle="--", label="elastic part of the first")
     # The loop of the first impact is the work on the sample.
-    lost = float(np.trapezoid(first.elastic_force + first.viscous_force, first.depth))
+    lost = float(trapezoid(first.elastic_force + first.viscous_force, first.depth))
     caption = (
         f"Force over indentation of the first {len(impacts.courses)} impacts. The area of the first loop, {lost:.4g} J, is the "
         "work on the sample up to the loss of force; part of it is still stored then, and becomes heat without pushing. "
