@@ -34,7 +34,9 @@ from contact_sim_pkg.bag.metadata import (
 from contact_sim_pkg.bag.names import file_name, refuse_wrong_name
 
 CHUNK_SECONDS = 0.1  # age at which a chunk is closed
-CHUNK_BYTES = 4 << 20  # ten blocks of a road, most of it that of the block before: packed together they take a third less
+CHUNK_BYTES = (
+    4 << 20
+)  # ten blocks of a road, most of it that of the block before: packed together they take a third less
 SYNC_SECONDS = 1.0  # between two syncs, and two looks at the free space
 RESERVE_BYTES = 500_000_000
 LIBRARY = "contact_bench"
