@@ -70,6 +70,11 @@ ASPHER_ROLLING = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 TAMAAS_COLD = (1e-3, 1e-4, 1e-5, 1e-6)
 TAMAAS_ROLLING = (1e-2, 1e-3, 1e-4, 1e-5)
 
+SHIPPED = 31
+"""Cells that the road moves from one field of the shipped scenes to the next: 25 to 37, a quarter of the
+patch. Of the field before little is left under the tire.
+"""
+
 FULL = (
     _hertz(128, 9, 9),
     _hertz(512, 9, 3),
@@ -88,6 +93,16 @@ FULL = (
         },
     ),
     _sequence("128x96", 2, (1e-2, 1.5e-3, 1e-4), {OURS: Share(OURS_ROLLING, 2, 200)}),
+    _sequence(
+        "128x96",
+        SHIPPED,
+        (1e-2, 1.5e-3, 1e-4),
+        {
+            OURS: Share(OURS_ROLLING, 3, 200),
+            "ASPHER": Share(ASPHER_ROLLING, 2, 60),
+            "tamaas": Share(TAMAAS_ROLLING, 1, 20),
+        },
+    ),
     _sequence("256x192", 1, (1e-2, 1.5e-3, 3e-4), {OURS: Share(OURS_ROLLING, 2, 200)}),
 )
 
@@ -103,6 +118,16 @@ QUICK = (
             OURS: Share(OURS_ROLLING, 1, 20),
             "ASPHER": Share(ASPHER_ROLLING, 1, 20),
             "tamaas": Share(TAMAAS_ROLLING, 1, 6),
+        },
+    ),
+    _sequence(
+        "128x96",
+        SHIPPED,
+        (1e-2, 1.5e-3, 1e-4),
+        {
+            OURS: Share(OURS_ROLLING, 1, 20),
+            "ASPHER": Share(ASPHER_ROLLING, 1, 10),
+            "tamaas": Share(TAMAAS_ROLLING, 1, 4),
         },
     ),
 )

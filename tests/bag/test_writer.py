@@ -125,7 +125,7 @@ def test_a_chunk_is_closed_a_tenth_of_a_second_after_its_first_message(record: R
 
 def test_a_chunk_is_closed_by_size_however_fast_messages_come(tmp_path: Path) -> None:
     writer = BagWriter(tmp_path / "big", clock=lambda: 0.0, free_bytes=lambda: 10**12, background=False)
-    for stamp in range(30):
+    for stamp in range(100):
         writer.write("tire/patch", stamp, bytes(300_000))
     assert writer.close().complete
     sizes = [chunk.uncompressed_size for chunk in chunks_of(tmp_path / "big")]

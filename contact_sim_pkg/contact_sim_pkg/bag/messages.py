@@ -88,9 +88,10 @@ class _Codec:
     def encode(self, record: Any, stamp_ns: int, frame_id: str) -> bytes:
         """CDR bytes of a record; the numbers of rows, columns and samples are those of its arrays."""
         try:
-            values = list(self._values_of(record))
+            values = list(record)
             for place, kind in self._kinds:
-                values[place] = numpy.asarray(values[place]).astype(kind, "C", "same_kind", copy=False)
+                if getattr(values[place], "dtype", None) != kind:
+                    values[place] = numpy.asarray(values[place]).astype(kind, "C", "same_kind")
             sizes = self._sizes(values) if self._shaped else {}
             if self._columns:
                 self._refuse_uneven_columns(values)

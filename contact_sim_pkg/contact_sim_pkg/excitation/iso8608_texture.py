@@ -78,6 +78,8 @@ class Texture:
         [cycles/m], 0 to 1."""
         upper = numpy.clip(1.0 - (n * self.shortest) ** 2, 0.0, 1.0)
         lower = numpy.clip(1.0 - (n * self.longest) ** 2, 0.0, 1.0)
+        if self.exponent == 2.0:  # ISO 8608: the function is a root
+            return numpy.asarray(numpy.sqrt(upper) - numpy.sqrt(lower))
         share, power = scipy.special.betainc, 0.5 * self.exponent
         return numpy.asarray(share(0.5, power, upper) - share(0.5, power, lower))
 
@@ -100,10 +102,15 @@ class Texture:
                 f"a texture down to {self.shortest:g} m on {len(y)} lines needs {2 * points * len(y)} numbers, limit "
                 f"{LARGEST_TABLE}; use a longer texture wavelength or fewer lines"
             )
-        across = numpy.exp(2j * pi / STRIP_WIDTH * self._across[:, None] * y[None, :])
-        # einsum, not the matrix product: the sums must not depend on how many threads the linear
-        # algebra library has
-        return synthesise(numpy.einsum("pq,qj->pj", self._waves, across), points, STRIP_LENGTH)
+        # Waves of both signs across together: (A+ + A-) cos + i (A+ - A-) sin
+        half = len(self._across) // 2
+        right, left = self._waves[:, half + 1 :], self._waves[:, half - 1 :: -1]
+        phase = 2.0 * pi / STRIP_WIDTH * self._across[half + 1 :, None] * y
+        even, odd = right + left, 1j * (right - left)
+        lines = numpy.empty((len(even), len(y)), dtype=numpy.complex128)
+        lines.real = _sums(even.real, numpy.cos(phase)) + _sums(odd.real, numpy.sin(phase))
+        lines.imag = _sums(even.imag, numpy.cos(phase)) + _sums(odd.imag, numpy.sin(phase))
+        return synthesise(lines + self._waves[:, half, None], points, STRIP_LENGTH)
 
     def note(self) -> str:
         """What the texture is, for a person."""
@@ -112,3 +119,10 @@ class Texture:
             f"repeats after {STRIP_LENGTH:g} m along the road, and its spectrum along a line falls to 0 at the "
             "shortest wavelength."
         )
+
+
+def _sums(waves: NDArray[numpy.float64], across: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+    """Product of [along, across] and [across, lines]: einsum, not the matrix product, for the sums must
+    not depend on how many threads the linear algebra library has.
+    """
+    return numpy.asarray(numpy.einsum("pq,qj->pj", numpy.ascontiguousarray(waves), across))

@@ -49,12 +49,13 @@ class PeriodicTable:
         rest = 1.0 - t
         result = self.value.take(left, axis=0)
         result *= (1.0 + 2.0 * t) * rest * rest
+        part = numpy.empty_like(result)
         for table, node, weight in (
             (self.value, right, t * t * (3.0 - 2.0 * t)),
             (self.slope, left, self.step * t * rest * rest),
             (self.slope, right, -self.step * t * t * rest),
         ):
-            part = table.take(node, axis=0)
+            table.take(node, axis=0, out=part, mode="clip")  # all are inside; "raise" would copy first
             part *= weight
             result += part
         return result

@@ -29,3 +29,9 @@ def test_the_tire_is_the_rolling_problem():
     crown = (x**2 / 0.6)[:, None]  # beyond the crown both steps see the same road
     first, second = problem.gap(0) - crown, problem.gap(1) - crown
     numpy.testing.assert_allclose(second[:-2], first[2:], atol=1e-15)
+
+
+def test_a_tire_that_has_gone_round_sees_its_road_again():
+    problem = tire("128x96", 1, cells=32)
+    numpy.testing.assert_array_equal(problem.gap(0), problem.gap(32))  # 1.6 m in steps of 50 mm
+    assert abs(problem.gap(0) - problem.gap(31)).max() > 1e-3

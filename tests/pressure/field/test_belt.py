@@ -86,3 +86,10 @@ def test_a_belt_takes_few_corrections_and_a_fine_one_stays_definite() -> None:
         assert found.status == CONVERGED
         assert place == 0 or field.convolutions - done <= 8
         done = field.convolutions
+
+
+@pytest.mark.parametrize("rows", [2, 3, 12, 13, 14, 15])
+def test_the_belt_is_factored_whatever_number_of_rows(rows: int) -> None:
+    _half_space, scratch, both = _prepared(rows, 12)
+    expected = numpy.linalg.cholesky(both).T
+    assert numpy.triu(scratch.factor) == pytest.approx(expected, rel=1e-9, abs=1e-9 * abs(expected).max())

@@ -8,7 +8,7 @@ from mcap.records import Chunk
 
 from contact_sim_pkg.bag.errors import CorruptChunkError
 
-LARGEST_RECORD = 256 << 20  # [bytes] of one record, packed or unpacked; our chunks are closed at 1 MiB
+LARGEST_RECORD = 256 << 20  # [bytes] of one record, packed or unpacked; our chunks are closed at 4 MiB
 
 
 def decompressed(chunk: Chunk) -> Chunk:

@@ -84,15 +84,35 @@ def factor_belt(belt: Field, strip: Field, pressure: Field, scratch: BeltWorkspa
     for i in range(count):
         for j in range(i, count):
             factor[i, j] = belt[i, j] + root[i] * strip[i, j] * root[j]
-    # Cholesky by rows: the inner loop runs along memory.
-    for k in range(count):
-        scale = 1.0 / numpy.sqrt(factor[k, k])
-        for j in range(k, count):
-            factor[k, j] *= scale
-        for i in range(k + 1, count):
-            part = factor[k, i]
-            for j in range(i, count):
-                factor[i, j] -= part * factor[k, j]
+    # Cholesky by rows: the inner loop runs along memory, past which each row goes once for four.
+    for first in range(0, count, 4):
+        end = min(first + 4, count)
+        for k in range(first, end):
+            scale = 1.0 / numpy.sqrt(factor[k, k])
+            for j in range(k, count):
+                factor[k, j] *= scale
+            for i in range(k + 1, end):
+                take_row_off(factor, k, i)
+        for i in range(end, count):
+            take_rows_off(factor, first, i)
+
+
+@borrowing_kernel
+def take_row_off(factor: Field, k: int, i: int) -> None:
+    """Take row `k` off row `i` of a triangle [rows, rows] that is factored."""
+    above, row = factor[k, i:], factor[i, i:]
+    part = above[0]
+    for j in range(len(row)):
+        row[j] -= part * above[j]
+
+
+@borrowing_kernel
+def take_rows_off(factor: Field, k: int, i: int) -> None:
+    """The same of the four rows from `k` on, one after the other."""
+    first, second, third, fourth = factor[k, i:], factor[k + 1, i:], factor[k + 2, i:], factor[k + 3, i:]
+    a, b, c, d, row = first[0], second[0], third[0], fourth[0], factor[i, i:]
+    for j in range(len(row)):
+        row[j] = (((row[j] - a * first[j]) - b * second[j]) - c * third[j]) - d * fourth[j]
 
 
 @borrowing_kernel

@@ -62,7 +62,9 @@ class HalfSpace(NamedTuple):
     preconditioner: Field
     # [rows', cols'/2+1] the same of the half-space alone
     without_belt: Field
-    # [rows] [m/Pa] influence of a belt in series, 0 without
+    # [rows, cols] [m/Pa] the part of `influence` that is not of the half-space: of a belt in series
+    further: Field
+    # [rows] [m/Pa] the same on the last column where it is large enough to count, else 0
     along: Field
     # [rows, rows] [Pa/m] inverse of it, and of a strip as wide as the grid, see
     # `pressure/field/belt.py`; [0, 0] without
@@ -106,7 +108,9 @@ def make_half_space(
     if further is not None:
         largest = float(further[0, 0]) if numpy.shape(further) == (rows, cols) else numpy.inf
         influence += require_values("half-space: further", further, "m/Pa", shape=(rows, cols), most=largest)
-    return _half_space(influence, float(cell_x), float(cell_y), float(modulus))
+    return _half_space(
+        influence, _further(influence, cell_x, cell_y, modulus), float(cell_x), float(cell_y), float(modulus)
+    )
 
 
 def part_of(whole: HalfSpace, rows: int, cols: int) -> HalfSpace:
@@ -116,7 +120,8 @@ def part_of(whole: HalfSpace, rows: int, cols: int) -> HalfSpace:
     """
     rows = require_count("half-space: rows", rows, least=MINIMUM_CELLS, most=whole.rows)
     cols = require_count("half-space: cols", cols, least=MINIMUM_CELLS, most=whole.cols)
-    return _half_space(whole.influence[:rows, :cols], whole.cell_x, whole.cell_y, whole.modulus)
+    influence, further = whole.influence[:rows, :cols], whole.further[:rows, :cols]
+    return _half_space(influence, further, whole.cell_x, whole.cell_y, whole.modulus)
 
 
 def coarsened(fine: HalfSpace) -> HalfSpace:
@@ -133,13 +138,19 @@ def coarsened(fine: HalfSpace) -> HalfSpace:
     for i, along_x in ((-1, 1.0), (0, 2.0), (1, 1.0)):
         for j, along_y in ((-1, 1.0), (0, 2.0), (1, 1.0)):
             influence += 0.25 * along_x * along_y * fine.influence[abs(far_rows + i)][:, abs(far_cols + j)]
-    return _half_space(influence, 2.0 * fine.cell_x, 2.0 * fine.cell_y, fine.modulus)
+    cell_x, cell_y = 2.0 * fine.cell_x, 2.0 * fine.cell_y
+    return _half_space(influence, _further(influence, cell_x, cell_y, fine.modulus), cell_x, cell_y, fine.modulus)
 
 
-def _half_space(influence: Field, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
-    influence = numpy.ascontiguousarray(influence)
+def _further(influence: Field, cell_x: float, cell_y: float, modulus: float) -> Field:
+    """What an influence [rows, cols] [m/Pa] holds beside that of the half-space."""
     rows, cols = influence.shape
-    further = influence - love_coefficients(rows, cols, cell_x, cell_y) / (numpy.pi * modulus)
+    return influence - love_coefficients(rows, cols, cell_x, cell_y) / (numpy.pi * modulus)
+
+
+def _half_space(influence: Field, further: Field, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
+    influence, further = numpy.ascontiguousarray(influence), numpy.ascontiguousarray(further)
+    rows, cols = influence.shape
     belted = further[0, -1] > LEAST_FURTHER * influence[0, -1]
     without_belt = _preconditioner(rows, cols, cell_x, cell_y, modulus)
     return HalfSpace(
@@ -152,6 +163,7 @@ def _half_space(influence: Field, cell_x: float, cell_y: float, modulus: float) 
         transfer=_transfer(influence),
         preconditioner=_preconditioner(rows, cols, cell_x, cell_y, modulus, further) if belted else without_belt,
         without_belt=without_belt,
+        further=further,
         along=further[:, -1].copy() if belted else numpy.zeros(rows),
         belt=stiffness_of_belt(further[:, -1]) if belted else numpy.zeros((0, 0)),
         strip=_strip(without_belt, rows, cols) if belted else numpy.zeros((0, 0)),

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.compiled.held import Held
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.pressure.field.follow import correct
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
@@ -16,6 +17,7 @@ from contact_sim_pkg.pressure.field.iteration import SolverWorkspace
 from contact_sim_pkg.pressure.field.outside import enclose
 from contact_sim_pkg.pressure.field.prediction import PreviousField, predict, scale_to, start_from, store
 from contact_sim_pkg.pressure.field.solver import FieldRequest, total_of
+from contact_sim_pkg.pressure.field.window import Part
 
 __all__ = ["InstantResult", "Start", "all_finite", "grown_window", "solve_instant", "store_window"]
 
@@ -28,17 +30,12 @@ Values = NDArray[numpy.float64]
 
 
 class Start(NamedTuple):
-    """Where a solve starts: its window, the fields before, and the learned lengths of
-    corrections.
-    """
+    """Where a solve starts."""
 
-    first_row: int
+    first_row: int  # of its window
     first_col: int
-    last: PreviousField
-    before: PreviousField
-    repeats: bool  # another solve at the instant of `last`
+    repeats: bool  # another solve at the instant of the last field
     share: float  # of extrapolation; negative: start from the pressure on the whole grid
-    lengths: Values  # [corrections] [1]
 
 
 class InstantResult(NamedTuple):
@@ -70,42 +67,38 @@ def all_finite(gap: Field) -> bool:
 
 @entry
 def solve_instant(
-    whole: HalfSpace,
-    part: HalfSpace,
-    workspace: SolverWorkspace,
-    gap: Field,
-    request: FieldRequest,
-    start: Start,
-    pressure: Field,
-) -> InstantResult:
+    whole: Held[HalfSpace], part: Held[Part], last: Held[PreviousField], before: Held[PreviousField], gap: Field,
+    request: FieldRequest, start: Start, lengths: Values, pressure: Field,
+) -> InstantResult:  # fmt: skip
     """Solve on the window of the size of `part` at the place of `start`; `pressure` of the whole
     grid is overwritten.
 
     gap: [rows, cols] [m] of the whole grid; pressure: [rows, cols] [Pa]; request: its iterations
-    are corrections. The new field is stored in `start.last` if this repeats an instant, else in
-    `start.before`. What is not certified is put into `pressure` as a start.
+    are corrections; lengths: of corrections [1], learned. The new field is stored in `last` if this
+    repeats an instant, else in `before`. What is not certified is put into `pressure` as a start.
     """
-    rows, cols = part.rows, part.cols
+    half_space, workspace = part.value.half_space, part.value.workspace
+    rows, cols = half_space.rows, half_space.cols
     first_row, first_col, share = start.first_row, start.first_col, start.share
     prescribed, holds_load = request.prescribed, request.holds_load
-    window, cell = (first_row, first_col, rows, cols), whole.cell_x * whole.cell_y
+    window, cell = (first_row, first_col, rows, cols), half_space.cell_x * half_space.cell_y
     # Prediction from the fields before, or the pressure on the whole grid as a start.
     datum = load_heights(gap, first_row, first_col, workspace.height, workspace.clipped)
     if share >= 0.0:
-        predict(workspace, first_row, first_col, start.last, start.before, share)
+        predict(workspace, first_row, first_col, last.value, before.value, share)
     else:
-        start_from(part, workspace, first_row, first_col, pressure)
+        start_from(half_space, workspace, first_row, first_col, pressure)
     # Corrections until the field is certified.
     total, approach = (prescribed / cell, 0.0) if holds_load else (-1.0, prescribed - datum)
     if (holds_load or approach > 0.0) and scale_to(workspace, approach, total):
-        target = start.last if start.repeats else start.before
+        target = last.value if start.repeats else before.value
         least = 1 if share >= 0.0 else LEAST_FROM_START
-        found = correct(part, workspace, approach, total, request, least, start.lengths)
+        found = correct(half_space, workspace, approach, total, request, least, lengths)
         if found.certified:
             # Certified: stored, and the window that it needs.
             box = store(workspace, first_row, first_col, target, pressure)
             approach = found.approach + datum if holds_load else prescribed
-            window = enclose(whole, gap, approach, pressure, window)
+            window = enclose(whole.value, gap, approach, pressure, window)
             load = total_of(workspace.pressure) * cell
             return InstantResult(True, found.corrections, load, approach, found.residual, window, box)
     # Not certified: a start for the solver.
@@ -115,24 +108,24 @@ def solve_instant(
 
 @entry
 def store_window(
-    workspace: SolverWorkspace, first_row: int, first_col: int, target: PreviousField, pressure: Field
+    part: Held[Part], first_row: int, first_col: int, target: Held[PreviousField], pressure: Field
 ) -> tuple[int, int, int, int]:
     """Store what another solver left in the workspace; as `store`.
 
     pressure: [rows, cols] [Pa] of the whole grid.
     """
-    return store(workspace, first_row, first_col, target, pressure)
+    return store(part.value.workspace, first_row, first_col, target.value, pressure)
 
 
 @entry
 def grown_window(
-    whole: HalfSpace, gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int]
+    whole: Held[HalfSpace], gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int]
 ) -> tuple[int, int, int, int]:
     """See `enclose`.
 
     gap: [rows, cols] [m]; approach: [m]; pressure: [rows, cols] [Pa].
     """
-    return enclose(whole, gap, approach, pressure, window)
+    return enclose(whole.value, gap, approach, pressure, window)
 
 
 @borrowing_kernel

@@ -118,18 +118,23 @@ def enclose(
     first_row, first_col, window_rows, window_cols = window
     end_row, end_col = first_row + window_rows, first_col + window_cols
     top, bottom, left, right = rows, -1, cols, -1
-    blocks, added = make_block_sums(half_space), False
+    blocks, added, line = make_block_sums(half_space), False, numpy.empty(cols)
     for i in range(0, rows, BLOCK):
+        inside_rows = first_row <= i and min(i + BLOCK, rows) <= end_row
+        if inside_rows and window_cols == cols:
+            continue
+        lowest_of_columns(gap, i, approach, line)
         for j in range(0, cols, BLOCK):
             # Blocks outside the window whose lowest gap is below the approach.
-            inside_rows = first_row <= i and min(i + BLOCK, rows) <= end_row
             if inside_rows and first_col <= j and min(j + BLOCK, cols) <= end_col:
                 continue
-            depth = approach - lowest_of_block(gap, i, j, approach)
+            depth = 0.0
+            for col in range(j, min(j + BLOCK, cols)):
+                depth = max(depth, approach - line[col])
             if depth <= 0.0:
                 continue
             if not added:
-                add_up(half_space, pressure, blocks)
+                add_up(half_space, pressure, window, blocks)
                 added = True
             # Cells of a block that the bound does not clear.
             least = least_displacement(half_space, blocks, i, j, BLOCK, depth)
@@ -173,8 +178,7 @@ def penetrating(
             if depth <= least or (first_row <= row < end_row and first_col <= col < end_col):
                 continue
             # The bound of this cell alone is closer
-            further = depth - blocks.belt[row]
-            if bound(half_space, blocks.fine, row, col, 1, further) >= further:
+            if least_displacement(half_space, blocks, row, col, 1, depth) >= depth:
                 continue
             # Direct sum of the pressure over this one cell
             if displacement_at(half_space, pressure, blocks.fine.line, row, col, first_row, end_row) < depth:
@@ -200,14 +204,16 @@ def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int,
 
 
 @borrowing_kernel
-def add_up(half_space: HalfSpace, pressure: Field, blocks: BlockSums) -> None:
-    """Sums of the pressure over blocks of all sizes, and the displacement of the belt.
+def add_up(half_space: HalfSpace, pressure: Field, window: tuple[int, int, int, int], blocks: BlockSums) -> None:
+    """Sums of the pressure over blocks of all sizes, and the displacement of the belt; blocks of
+    zeros before.
 
-    pressure: [rows, cols] [Pa].
+    pressure: [rows, cols] [Pa], zero outside the window.
     """
     rows, cols = pressure.shape
+    first, end = window[0], window[0] + window[2]
     along, belt = half_space.along, blocks.belt
-    for k in range(rows if len(half_space.belt) > 0 else 0):
+    for k in range(first, end if len(half_space.belt) > 0 else first):
         total = 0.0
         for j in range(cols):
             total += pressure[k, j]
@@ -216,20 +222,20 @@ def add_up(half_space: HalfSpace, pressure: Field, blocks: BlockSums) -> None:
                 belt[i] += total * along[k - i]
             for i in range(k, rows):
                 belt[i] += total * along[i - k]
-    add_up_cells(pressure, blocks.fine)
+    add_up_cells(pressure, first, end, blocks.fine)
     add_up_blocks(blocks.fine, blocks.middle)
     add_up_blocks(blocks.middle, blocks.coarse)
 
 
 @borrowing_kernel
-def add_up_cells(pressure: Field, blocks: Blocks) -> None:
+def add_up_cells(pressure: Field, first: int, end: int, blocks: Blocks) -> None:
     """Sums of the pressure over blocks of cells.
 
-    pressure: [rows, cols] [Pa].
+    pressure: [rows, cols] [Pa], zero but in the rows from `first` to before `end`.
     """
     rows, cols = pressure.shape
     side, sums, line = blocks.side, blocks.sums, blocks.line
-    for a in range(sums.shape[0]):
+    for a in range(first // side, -(-end // side)):
         for j in range(cols):
             line[j] = pressure[a * side, j]
         for i in range(a * side + 1, min((a + 1) * side, rows)):
@@ -270,15 +276,17 @@ def list_loaded(blocks: Blocks) -> None:
 
 
 @borrowing_kernel
-def lowest_of_block(gap: Field, i: int, j: int, most: float) -> float:
-    """Lowest gap [m] of a block, or `most` where none is lower."""
-    end_row, end_col = min(i + BLOCK, gap.shape[0]), min(j + BLOCK, gap.shape[1])
-    least = most
-    for row in range(i, end_row):
-        for col in range(j, end_col):
-            if gap[row, col] < least:
-                least = gap[row, col]
-    return least
+def lowest_of_columns(gap: Field, first: int, most: float, line: Values) -> None:
+    """Lowest gap [m] of each column in the block of rows from ``first`` on, or `most` where none is
+    lower, into `line` [cols].
+    """
+    cols = gap.shape[1]
+    for j in range(cols):
+        line[j] = most
+    for i in range(first, min(first + BLOCK, gap.shape[0])):
+        row = gap[i]
+        for j in range(cols):
+            line[j] = row[j] if row[j] < line[j] else line[j]
 
 
 @borrowing_kernel

@@ -16,14 +16,15 @@ one penetrates the window grows and the solve goes on.
 from __future__ import annotations
 
 from functools import cache
+from math import isfinite
 
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.compiled.held import Held, hold
 from contact_sim_pkg.pressure.field.follow import FIRST_LENGTH, MOST_CORRECTIONS
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, coarsened, make_half_space
 from contact_sim_pkg.pressure.field.instant import (
-    InstantResult,
     Start,
     all_finite,
     grown_window,
@@ -83,12 +84,13 @@ class RollingField:
         """
         self.half_space = half_space
         self.pressure: Field = numpy.zeros((half_space.rows, half_space.cols))
-        self._last, self._before = make_previous_field(half_space), make_previous_field(half_space)
+        self.whole = hold(half_space)
+        self._last, self._before = hold(make_previous_field(half_space)), hold(make_previous_field(half_space))
         self._instants = 0  # stored, at most 2
         self._cells: int | None = None  # of travel since the last field, if a new instant began
         self._box: Box = NOWHERE  # of the last field's contact
         self._lengths: Values = numpy.full((3, MOST_CORRECTIONS), FIRST_LENGTH)
-        self._parts: dict[tuple[int, int], Part] = {}
+        self._parts: dict[tuple[int, int], Held[Part]] = {}
         self._half = _half_of(half_space)
         self._cells_of_half = 0  # of travel since its last field, in cells of this grid
         self._gap_of_half: Field = numpy.zeros((half_space.rows // 2, half_space.cols // 2))
@@ -97,7 +99,7 @@ class RollingField:
     @property
     def convolutions(self) -> int:
         """Done so far on this grid, coarser ones not counted."""
-        return sum(int(part.workspace.buffers.convolutions[0]) for part in self._parts.values())
+        return sum(int(part.value.workspace.buffers.convolutions[0]) for part in self._parts.values())
 
     def roll(self, cells: int) -> None:
         """A new instant: the road moved by `cells` rows towards row 0 since the last field;
@@ -118,7 +120,7 @@ class RollingField:
 
         gap: [rows, cols] [m]; load: [N]; tolerance: [1].
         """
-        return self._solve(gap, FieldRequest(float(load), True, float(tolerance), int(max_iterations)))
+        return self._checked(gap, FieldRequest(float(load), True, float(tolerance), int(max_iterations)))
 
     def solve_at_approach(self, gap: Field, approach: float, tolerance: float, max_iterations: int) -> FieldResult:
         """As `pressure/field/solver.py:solve_at_approach`, into `pressure`. BAD_INPUT leaves the
@@ -126,14 +128,18 @@ class RollingField:
 
         gap: [rows, cols] [m]; approach: [m]; tolerance: [1].
         """
-        return self._solve(gap, FieldRequest(float(approach), False, float(tolerance), int(max_iterations)))
+        return self._checked(gap, FieldRequest(float(approach), False, float(tolerance), int(max_iterations)))
 
-    def _solve(self, gap: Field, request: FieldRequest) -> FieldResult:
+    def _checked(self, gap: Field, request: FieldRequest) -> FieldResult:
         whole, prescribed = self.half_space, request.prescribed
         if gap.shape != (whole.rows, whole.cols):
             raise ValueError(f"pressure field: gap is {gap.shape}, it must be {(whole.rows, whole.cols)}")
-        if not (numpy.isfinite(prescribed) and (prescribed >= 0.0 or not request.holds_load) and all_finite(gap)):
+        if not (isfinite(prescribed) and (prescribed >= 0.0 or not request.holds_load) and all_finite(gap)):
             return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
+        return self._solve(gap, request)
+
+    def _solve(self, gap: Field, request: FieldRequest) -> FieldResult:
+        """Solve where the gap and what is requested are known to be finite."""
         # Predict from the fields before, or start from a coarser grid.
         repeats, has_left = self._begin()
         window, spent = self._expected(has_left), 0
@@ -143,17 +149,12 @@ class RollingField:
         # Correct on a window that grows until no cell outside penetrates; the solver goes on where
         # that fails.
         while True:
-            start = Start(
-                first_row=window.first_row,
-                first_col=window.first_col,
-                last=self._last,
-                before=self._before,
-                repeats=repeats,
-                share=share,
-                lengths=self._lengths[lengths],
-            )
-            most = request.max_iterations - spent
-            found = self._correct(window, gap, request._replace(max_iterations=most), start)
+            start = Start(window.first_row, window.first_col, repeats, share)
+            left = request._replace(max_iterations=request.max_iterations - spent) if spent else request
+            found = solve_instant(
+                self.whole, self._part(window.rows, window.cols), self._last, self._before, gap, left, start,
+                self._lengths[lengths], self.pressure,
+            )  # fmt: skip
             spent += found.corrections
             if not found.certified:
                 return self._settle(window, gap, request, spent, repeats)
@@ -168,11 +169,12 @@ class RollingField:
         """
         repeats = self._cells is None and self._instants > 0
         for field in (self._last, self._before):
-            field.place[4] += self._cells or 0
+            field.value.place[4] += self._cells or 0
         self._cells = None
-        has_left = bool(abs(self._last.place[4]) > MOST_TRAVEL * (self._last.place[2] - self._last.place[0]))
+        top, _left, bottom, _right, moved = self._last.value.place.tolist()
+        has_left = abs(moved) > MOST_TRAVEL * (bottom - top)
         if has_left:
-            self._last.place[4], self._instants = 0, min(self._instants, 1)
+            self._last.value.place[4], self._instants = 0, min(self._instants, 1)
         return repeats, has_left
 
     def _end(self, repeats: bool, box: Box) -> None:
@@ -204,14 +206,9 @@ class RollingField:
         half.roll(self._cells_of_half // 2)
         self._cells_of_half = 0
         halve(gap, self._gap_of_half)
-        solve = half.solve_at_load if request.holds_load else half.solve_at_approach
-        solve(self._gap_of_half, request.prescribed, TOLERANCE_OF_HALF, request.max_iterations)
+        half._solve(self._gap_of_half, request._replace(tolerance=TOLERANCE_OF_HALF))
         window = GridWindow(*double(half.pressure, self.pressure))
         return window if window.rows else whole
-
-    def _correct(self, window: GridWindow, gap: Field, request: FieldRequest, start: Start) -> InstantResult:
-        part = self._part(window.rows, window.cols)
-        return solve_instant(self.half_space, part.half_space, part.workspace, gap, request, start, self.pressure)
 
     def _settle(self, window: GridWindow, gap: Field, request: FieldRequest, spent: int, repeats: bool) -> FieldResult:
         """Solve from the start in `pressure`, on windows that grow until no cell outside
@@ -225,14 +222,14 @@ class RollingField:
             window, spent = grown, spent + result.iterations
             result = self._solve_in(window, gap, request, spent)
         if result.load > 0.0:
-            workspace, target = self._part(window.rows, window.cols).workspace, self._last if repeats else self._before
-            self._end(repeats, store_window(workspace, window.first_row, window.first_col, target, self.pressure))
+            part, target = self._part(window.rows, window.cols), self._last if repeats else self._before
+            self._end(repeats, store_window(part, window.first_row, window.first_col, target, self.pressure))
         else:
             self._instants, self._box = 0, NOWHERE
         return self._judged(result._replace(iterations=result.iterations + spent))
 
     def _solve_in(self, window: GridWindow, gap: Field, request: FieldRequest, spent: int) -> FieldResult:
-        part = self._part(window.rows, window.cols)
+        part = self._part(window.rows, window.cols).value
         copy_window(gap, window.first_row, window.first_col, part.gap)
         copy_window(self.pressure, window.first_row, window.first_col, part.pressure)
         solve, iterations = solve_at_load if request.holds_load else solve_at_approach, request.max_iterations - spent
@@ -247,7 +244,7 @@ class RollingField:
         whole = self.half_space
         if (window.rows, window.cols) == (whole.rows, whole.cols):
             return window
-        return GridWindow(*grown_window(whole, gap, approach, self.pressure, window[:]))
+        return GridWindow(*grown_window(self.whole, gap, approach, self.pressure, window[:]))
 
     def _judged(self, result: FieldResult) -> FieldResult:
         """EDGE is about the whole grid's edge: the window's edge was checked."""
@@ -257,10 +254,10 @@ class RollingField:
         at_edge = top == 0 or left == 0 or bottom == self.half_space.rows - 1 or right == self.half_space.cols - 1
         return result._replace(status=EDGE if at_edge else CONVERGED)
 
-    def _part(self, rows: int, cols: int) -> Part:
+    def _part(self, rows: int, cols: int) -> Held[Part]:
         part = self._parts.get((rows, cols))
         if part is None:
-            part = self._parts[rows, cols] = make_part(self.half_space, rows, cols)
+            part = self._parts[rows, cols] = hold(make_part(self.half_space, rows, cols))
         return part
 
 
@@ -278,17 +275,15 @@ def compile_now() -> None:
     middle of a run.
     """
     half_space, field, wide = make_half_space(2, 2, 1.0, 1.0, 1.0), numpy.zeros((2, 2)), numpy.zeros((4, 4))
-    part, previous = make_part(half_space, 2, 2), make_previous_field(half_space)
+    part, whole, previous = make_part(half_space, 2, 2), hold(half_space), hold(make_previous_field(half_space))
+    held, lengths = hold(part), numpy.full(MOST_CORRECTIONS, FIRST_LENGTH)
     all_finite(field)
-    lengths = numpy.full(MOST_CORRECTIONS, FIRST_LENGTH)
-    start = Start(
-        first_row=0, first_col=0, last=previous, before=previous, repeats=False, share=FROM_PRESSURE, lengths=lengths
-    )
     # The arguments have the types of a run; their values do not matter
-    solve_instant(half_space, part.half_space, part.workspace, field, FieldRequest(1.0, True, 1.0, 1), start, field)
+    request, start = FieldRequest(1.0, True, 1.0, 1), Start(0, 0, False, FROM_PRESSURE)
+    solve_instant(whole, held, previous, previous, field, request, start, lengths, field)
     solve_at_load(half_space, part.workspace, field, 1.0, 1.0, 1, field)
-    store_window(part.workspace, 0, 0, previous, field)
-    grown_window(half_space, field, 1.0, field, (0, 0, 2, 2))
+    store_window(held, 0, 0, previous, field)
+    grown_window(whole, field, 1.0, field, (0, 0, 2, 2))
     copy_window(field, 0, 0, part.gap)
     write_window(part.gap, 0, 0, field)
     halve(wide, field)

@@ -9,13 +9,13 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
+from contact_sim_pkg.compiled.held import hold
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
 from contact_sim_pkg.rigs.vehicle.model import Model, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import event_count
-from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
 from contact_sim_pkg.run.errors import RunError
 
 Sampled = tuple[Vector, Vector, Vector]  # states, rates, forces; [samples, ...] each
@@ -32,7 +32,7 @@ class CouplingStep(NamedTuple):
     segment_length: float  # [s]
     drive: BlockDrive
     last: bool  # of its interval: its fields are published
-    sampled: Sampled  # rows from the next sample on
+    row: int  # of the next sample
     behind_sample: int  # segments since the last sample
 
     @property
@@ -64,17 +64,25 @@ class Bodies:
     def __init__(self, model: Model) -> None:
         """Make the buffers."""
         self.model = model
-        points = model.timing.segments + 1
-        self._height, self._height_rate = numpy.zeros(points), numpy.zeros(points)
-        self._cushion, self._cushion_rate = numpy.zeros(points), numpy.zeros(points)
-        self._level = numpy.zeros(points)
         self.reset()
 
     def reset(self) -> None:
-        """Reset all but the buffers."""
-        self.state: Vector = numpy.zeros(self.model.states)
+        """The state before a start."""
+        model, timing = self.model, self.model.timing
+        self.state: Vector = numpy.zeros(model.states)
         self.mode: Modes = numpy.zeros(1, dtype=numpy.int64)
-        self.work = make_workspace(self.model.states, event_count(self.model.rig))
+        self.work = make_workspace(model.states, event_count(model.rig))
+        points, samples = timing.segments + 1, timing.segments // timing.sample_every
+        self.sampled: Sampled = (
+            numpy.zeros((samples, model.states)), numpy.zeros((samples, model.states)), numpy.zeros((samples, entries.FORCES))
+        )  # fmt: skip
+        height, height_rate, cushion, cushion_rate, level = numpy.zeros((5, points))
+        self._moving = hold(
+            entries.Moving(
+                model.rig, self.mode, self.state, model.scale, self.work, height, height_rate, cushion, cushion_rate, level,
+                *self.sampled,
+            )
+        )  # fmt: skip
 
     def stand(self, smooth: float) -> None:
         """Set the rig in equilibrium on a road of height ``smooth`` [m], by its contact laws."""
@@ -104,7 +112,7 @@ class Bodies:
         entries.start(
             self.model.rig, self.mode, self.state, self.work, self.model.timing.segment_length, first.smooth + corrections[0],
             numpy.full(2, corrections[1]), first.acceleration_x, first.acceleration_z, first.push,
-            (first.rate, self._cushion_rate[:2]),
+            (first.rate, numpy.zeros(2)),
         )  # fmt: skip
 
     def save(self) -> Saved:
@@ -128,17 +136,13 @@ class Bodies:
 
         Raises RunError where the physics fails.
         """
-        timing, drive = self.model.timing, step.drive
-        points = step.segments + 1
-        height, rate = self._height[:points], self._height_rate[:points]
-        cushion, cushion_rate = self._cushion[:points], self._cushion_rate[:points]
-        level, moved = self._level[:points], (part or step.segments) + 1
-        effective_between(drive.smooth, drive.rate, (starts[0], ends[0], bends[0]), step.duration, height, rate)
-        effective_between(level, level, (starts[1], ends[1], bends[1]), step.duration, cushion, cushion_rate)
-        status = entries.advance(
-            self.model.rig, self.mode, self.state, self.model.scale, self.work, step.start, step.segment_length,
-            height[:moved], cushion[:moved], drive.acceleration_x, drive.acceleration_z, drive.push,
-            (rate, cushion_rate), timing.sample_every, step.behind_sample, *step.sampled,
+        drive = step.drive
+        course = entries.Course(
+            step.start, step.segment_length, part or step.segments, self.model.timing.sample_every, step.behind_sample, step.row
+        )  # fmt: skip
+        status = entries.move(
+            self._moving, course, drive.smooth, drive.rate, drive.acceleration_x, drive.acceleration_z, drive.push,
+            (starts[0], ends[0], bends[0]), (starts[1], ends[1], bends[1]),
         )  # fmt: skip
         if status != DONE:
             raise RunError(f"block {step.block}, {step.start:.6g} s: {SENTENCES[status]}")
@@ -147,13 +151,13 @@ class Bodies:
         """Heights [m] of road and cushion at the end of segment ``point`` of the last coupling step, as
         the bodies were moved on them.
         """
-        return float(self._height[point]), float(self._cushion[point])
+        return float(self._moving.value.height[point]), float(self._moving.value.cushion[point])
 
     def energies(self, height: float, cushion: float) -> Vector:
         """Energies in [J] of the state over given heights in [m] (order of
         ``rigs/vehicle/entries.energies``).
         """
-        return numpy.array(entries.energies(self.model.rig, self.mode, self.state, height, cushion))
+        return numpy.array(entries.energies_of(self._moving, height, cushion))
 
     def supply(self, energy: float) -> None:
         """Count ``energy`` [J] as brought in from outside."""

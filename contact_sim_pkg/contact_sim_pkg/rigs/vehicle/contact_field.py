@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.compiled.held import Held, hold
 from contact_sim_pkg.laws.elastic_law import approach_of_force
 from contact_sim_pkg.laws.parameters import ElasticLaw, NormalElastic
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, make_half_space
@@ -63,8 +64,8 @@ class PressureField:
         """
         self.settings = settings
         self.contact = contact
-        self.half_space: HalfSpace = half_space_of(settings)
-        self._field = SOLVER(self.half_space)
+        self.half_space: Held[HalfSpace] = hold(half_space_of(settings))
+        self._field = SOLVER(self.half_space.value)
         self._row: int | None = None  # of the road under row 0, at the last solve
         self.pressure: Field = self._field.pressure
         self.load = 0.0

@@ -4,10 +4,11 @@ energies of a state.
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
-from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
+from contact_sim_pkg.compiled.held import Held
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.compiled.vectors import copy_row
 from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, set_event_directions
@@ -20,6 +21,7 @@ from contact_sim_pkg.rigs.vehicle import quarter_car
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
 from contact_sim_pkg.rigs.vehicle.seat.leaning import back_approach, back_energy, back_force, pan_friction, slid
 from contact_sim_pkg.rigs.vehicle.seat.motion import seat_energies, seat_mass, slide_index
+from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
 
 TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
 SEAT_NORMAL, SEAT_TANGENTIAL, SEAT_APPROACH, SEAT_HEIGHT, SEAT_RATE = 4, 5, 6, 7, 8
@@ -31,6 +33,35 @@ FORCES = 21
 
 Rates: TypeAlias = "tuple[Vector | None, Vector | None]"
 """Of the heights of road and cushion [m/s]."""
+
+
+class Moving(NamedTuple):
+    """Bodies of a run, the heights that they move on, and their samples."""
+
+    rig: Vehicle
+    mode: Modes
+    state: Vector  # [states]
+    scale: Vector  # [states]
+    work: DormandPrinceWorkspace
+    height: Vector  # [points] [m] of the road, with what the field adds; and so on
+    height_rate: Vector  # [m/s]
+    cushion: Vector
+    cushion_rate: Vector
+    level: Vector  # [points] zeros: the cushion without what its field adds
+    states: Vector  # [samples, states]
+    rates: Vector  # [samples, states]
+    forces: Vector  # [samples, FORCES]
+
+
+class Course(NamedTuple):
+    """A way in time: of whole segments, to points where samples may lie."""
+
+    start: float  # [s]
+    segment_length: float  # [s]
+    segments: int  # to move over; the heights may reach further
+    sample_every: int  # segments
+    behind_sample: int  # segments since the last sample
+    row: int  # of the next sample
 
 
 @borrowing_kernel
@@ -107,6 +138,43 @@ def advance(
     FORCES] in the columns ``TIRE_NORMAL ...``. Returns a status of ``compiled/results.py``;
     ``mode``, ``state`` and ``work`` change in place.
     """
+    return _advance(
+        rig, mode, state, scale, work, start, segment_length, height, cushion, acceleration_x, acceleration_z, push,
+        rates, sample_every, behind_sample, sampled_states, sampled_rates, sampled_forces,
+    )  # fmt: skip
+
+
+@entry
+def move(
+    moving: Held[Moving], course: Course, smooth: Vector, smooth_rate: Vector, acceleration_x: Vector,
+    acceleration_z: Vector, push: Vector | None, tire: tuple[float, float, float], seat: tuple[float, float, float],
+) -> int:  # fmt: skip
+    """Advance bodies over a course, on the effective heights between two fields.
+
+    ``smooth`` [m], ``smooth_rate`` [m/s] and the rest: [segments + 1] from one field to the next.
+    ``tire``, ``seat``: corrections [m] at both ends, and four times their sagitta [m]. The rest as
+    ``effective_between`` and ``advance``.
+    """
+    bodies, points = moving.value, smooth.shape[0]
+    height, height_rate = bodies.height[:points], bodies.height_rate[:points]
+    cushion, cushion_rate = bodies.cushion[:points], bodies.cushion_rate[:points]
+    level, duration = bodies.level[:points], (points - 1) * course.segment_length
+    effective_between(smooth, smooth_rate, tire, duration, height, height_rate)
+    effective_between(level, level, seat, duration, cushion, cushion_rate)
+    moved, row = course.segments + 1, course.row
+    return _advance(
+        bodies.rig, bodies.mode, bodies.state, bodies.scale, bodies.work, course.start, course.segment_length,
+        height[:moved], cushion[:moved], acceleration_x, acceleration_z, push, (height_rate, cushion_rate),
+        course.sample_every, course.behind_sample, bodies.states[row:], bodies.rates[row:], bodies.forces[row:],
+    )  # fmt: skip
+
+
+@kernel
+def _advance(
+    rig, mode, state, scale, work, start, segment_length, height, cushion, acceleration_x, acceleration_z, push, rates,
+    sample_every, behind_sample, sampled_states, sampled_rates, sampled_forces,
+):  # fmt: skip
+    """See ``advance``."""
     row = 0
     for i in range(height.shape[0] - 1):
         drive = _segment(start, segment_length, i, height, cushion, acceleration_x, acceleration_z, push, rates)
@@ -164,6 +232,12 @@ def _slide_energies(friction, back, seat, mode, normal, state):
 
 
 @entry
+def energies_of(moving: Held[Moving], height: float, cushion: float) -> tuple[float, float, float, float, float]:
+    """See ``energies``."""
+    return _energies(moving.value.rig, moving.value.mode, moving.value.state, height, cushion)
+
+
+@entry
 def energies(
     rig: Vehicle, mode: Modes, state: Vector, height: float, cushion: float
 ) -> tuple[float, float, float, float, float]:
@@ -171,6 +245,12 @@ def energies(
 
     ``height`` [m] of the road, ``cushion`` [m] of the cushion.
     """
+    return _energies(rig, mode, state, height, cushion)
+
+
+@borrowing_kernel
+def _energies(rig, mode, state, height, cushion):
+    """See ``energies``."""
     kinetic, potential, stored = _tire_energies(rig.tire, rig.gravity, state)
     belt_kinetic, belt_potential, belt_stored = _rigid_ring_energies(rig.rigid_ring, rig.gravity, state)
     kinetic += belt_kinetic

@@ -159,7 +159,9 @@ class Simulation:
         rolled = None if shear is None or fields[0] is None else shear.publish(fields[0].pressure)
         self._coupling.advance(block, interval, whole, record)
         accelerations = drive.acceleration_x, drive.acceleration_z
-        first = record.store_samples(interval, self._coupling.sampled, energy, self._start_energy, *accelerations)
+        first = record.store_samples(
+            interval, self._coupling.bodies.sampled, energy, self._start_energy, *accelerations
+        )
         self._publish(first, fields, record)
         if rolled is not None:
             record.shears.append((first, record.tire_fields[-1][1], rolled))

@@ -31,11 +31,11 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
-from contact_sim_pkg.rigs.vehicle.bodies import Bodies, Corrections, CouplingStep, Sampled, Saved
+from contact_sim_pkg.rigs.vehicle.bodies import Bodies, Corrections, CouplingStep, Saved
 from contact_sim_pkg.rigs.vehicle.coupling.check import CouplingCheck, Middle, MissedSoFar, middle_of
 from contact_sim_pkg.rigs.vehicle.coupling.rule import STRAIGHT, Allowance, MeasuredWay, bend_of, even_part
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
-from contact_sim_pkg.rigs.vehicle.entries import FORCES, SEAT_NORMAL, TIRE_NORMAL, TIRE_SHEAR, TIRE_SLOPE
+from contact_sim_pkg.rigs.vehicle.entries import SEAT_NORMAL, TIRE_NORMAL, TIRE_SHEAR, TIRE_SLOPE
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord
@@ -59,24 +59,17 @@ class StepOutcome(NamedTuple):
 
 
 class Coupling:
-    """Bodies and their contact fields; ``start`` once, then ``advance`` interval by interval.
-
-    ``sampled`` holds the samples of one interval.
-    """
+    """Bodies and their contact fields; ``start`` once, then ``advance`` interval by interval."""
 
     def __init__(self, model: Model) -> None:
         """Make the buffers and contact fields of ``model``."""
-        rig, timing = model.rig, model.timing
+        rig = model.rig
         self.model, self.bodies = model, Bodies(model)
         self.tire = RoadField(model.tire_field, rig.tire_contact, model.tire_geometry, model.tread)
         self.seat = CushionField(model.seat_field, rig.seat_contact, model.seat_shape)
         self.fields: tuple[ContactField, ContactField] = (self.tire, self.seat)
         friction, grids = model.rolling_friction, model.tire_field
         self.shear = None if friction is None or grids is None else RollingShear(friction, grids.wide.settings)
-        samples, states = timing.segments // timing.sample_every, model.states
-        self.sampled: Sampled = (
-            numpy.zeros((samples, states)), numpy.zeros((samples, states)), numpy.zeros((samples, FORCES))
-        )  # fmt: skip
         rule = model.coupling
         self._allowances = (Allowance(), Allowance()) if rule is None else rule.allowances
         self._shortest = 1 if rule is None else rule.shortest  # segments
@@ -139,17 +132,15 @@ class Coupling:
         while done < timing.segments:
             first = interval * timing.segments + done
             count = self._count(whole, first, timing.segments - done)
-            row = -(-done // timing.sample_every)
-            states, rates, forces = self.sampled
             step = CouplingStep(
                 block, (block * timing.intervals * timing.segments + first) * timing.segment_length,
                 timing.segment_length, whole.part(first, count),
-                done + count == timing.segments, (states[row:], rates[row:], forces[row:]), done % timing.sample_every,
+                done + count == timing.segments, -(-done // timing.sample_every), done % timing.sample_every,
             )  # fmt: skip
             if self._advance_step(step, record):
                 done += count
         for place, column in enumerate((TIRE_NORMAL, SEAT_NORMAL)):
-            self._largest[place] = max(self._largest[place], float(self.sampled[2][:, column].max()))
+            self._largest[place] = max(self._largest[place], float(self.bodies.sampled[2][:, column].max()))
 
     def _lay_slopes(self, step: CouplingStep) -> None:
         """Write the effective slope of the road at the samples of a coupling step, linear between the
@@ -159,7 +150,7 @@ class Coupling:
             return
         every, drive = self.model.timing.sample_every, step.drive
         at = numpy.arange(-step.behind_sample % every, step.segments, every)
-        slopes = step.sampled[2][: len(at), TIRE_SLOPE]
+        slopes = self.bodies.sampled[2][step.row : step.row + len(at), TIRE_SLOPE]
         if self.tire.grids is None:
             way = numpy.gradient(drive.travel)[at]
             slopes[:] = 0.0
@@ -190,7 +181,7 @@ class Coupling:
         )  # fmt: skip
         samples = self.shear.roll(tire_step, pressure, (found.origin_x, found.origin_y))
         count = len(range(-step.behind_sample % every, step.segments, every))
-        step.sampled[2][:count, TIRE_SHEAR:] = samples[:count]
+        self.bodies.sampled[2][step.row : step.row + count, TIRE_SHEAR:] = samples[:count]
 
     def _count(self, whole: BlockDrive, first: int, left: int) -> int:
         """Segments of the next coupling step from segment ``first`` on, at most ``left``."""

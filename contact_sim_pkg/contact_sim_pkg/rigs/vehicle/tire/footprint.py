@@ -23,7 +23,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import entry, kernel
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 
 Heights = NDArray[numpy.float32]
@@ -65,6 +65,7 @@ def effective_heights(
     would show as a jerk. Returns False where the lattice does not hold the footprint.
     """
     reach = weights.shape[0] // 2
+    sides = _weighted_columns(weights)
     # At the node before the one behind the wheel, at that, and at the two ahead
     means, line = numpy.zeros(4), numpy.zeros(height.shape[1])
     place, known = 0, False
@@ -78,7 +79,7 @@ def effective_heights(
                 means[i] = means[i + 1]
             for i in range(kept, 4):
                 first = min(max(node - 1 + i - reach - first_row, 0), height.shape[0] - weights.shape[0])
-                means[i] = _mean(height, weights, first, line)
+                means[i] = _mean(height, weights, sides, first, line)
             place, known = node, True
         out[k], slope = _cubic(means, travel[k] / cell_x - node)
         slopes[k] = slope / cell_x
@@ -97,17 +98,32 @@ def _cubic(means: Vector, part: float) -> tuple[float, float]:
     return place, slope + part * (2.0 * square + part * 3.0 * cube)
 
 
-@kernel
-def _mean(height: Heights, weights: Pressures, first: int, line: Vector) -> float:
-    """Mean [m] of the rows from ``first`` on; ``line`` [cols] is scratch."""
-    for j in range(weights.shape[1]):
+@borrowing_kernel
+def _weighted_columns(weights: Pressures) -> tuple[int, int]:
+    """First and end column with a weight other than 0: a road is wider than the footprint."""
+    first, end = weights.shape[1], 0
+    for i in range(weights.shape[0]):
+        for j in range(weights.shape[1]):
+            if weights[i, j] != 0.0:
+                first, end = min(first, j), max(end, j + 1)
+    return first, end
+
+
+@borrowing_kernel
+def _mean(height: Heights, weights: Pressures, sides: tuple[int, int], first: int, line: Vector) -> float:
+    """Mean [m] of the rows from ``first`` on, over the columns between ``sides``; ``line`` [cols] is
+    scratch.
+    """
+    left, right = sides
+    for j in range(right - left):
         line[j] = 0.0
     # Sums of columns first: those run along memory
     for i in range(weights.shape[0]):
-        for j in range(weights.shape[1]):
-            line[j] += weights[i, j] * height[first + i, j]
+        row, under = weights[i, left:right], height[first + i, left:right]
+        for j in range(len(row)):
+            line[j] += row[j] * under[j]
     total = 0.0
-    for j in range(weights.shape[1]):
+    for j in range(right - left):
         total += line[j]
     return total
 
@@ -136,12 +152,14 @@ def tire_gap(
         return False
     # The middle columns of road and grid are the same.
     margin = (height.shape[1] - cols) // 2
-    middle = 0.5 * (cols - 1)
+    middle, across = 0.5 * (cols - 1), numpy.empty(cols)
+    for j in range(cols):
+        across[j] = height_across(form, (j - middle) * cell_y)
     for i in range(rows):
         along = height_along(form, (first + i) * cell_x - travel)
+        row, road = out[i], height[first + i - first_row, margin : margin + cols]
         for j in range(cols):
-            across = height_across(form, (j - middle) * cell_y)
-            out[i, j] = along + across - height[first + i - first_row, margin + j]
+            row[j] = along + across[j] - road[j]
     return True
 
 
@@ -195,17 +213,17 @@ def touches_beyond(
     for i in range(max(0, first_row - first), min(rows, first_row + height.shape[0] - first)):
         x = (first + i) * cell_x - travel
         free = approach - height_along(form, x)
-        inside = top <= i < top + own_rows
-        for j in range(max(0, -margin), min(cols, height.shape[1] - margin)):
-            # Few nodes of the road stand above the lowest line of the tire there.
-            if free + height[first + i - first_row, margin + j] <= 0.0:
-                continue
-            if inside and left <= j < left + own_cols:
-                continue
-            y = (j - middle) * cell_y
-            depth = free - height_across(form, y) + height[first + i - first_row, margin + j]
-            if depth > 0.0 and depth > _sunk(pressure, i - top, j - left, modulus, cell_x, cell_y):
-                return True
+        row, start, end = first + i - first_row, max(0, -margin), min(cols, height.shape[1] - margin)
+        # Beside the grid, or all across where it has ended.
+        left_end, right_start = (left, left + own_cols) if top <= i < top + own_rows else (end, end)
+        for first_col, end_col in ((start, min(left_end, end)), (max(right_start, start), end)):
+            for j in range(first_col, end_col):
+                # Few nodes of the road stand above the lowest line of the tire there.
+                if free + height[row, margin + j] <= 0.0:
+                    continue
+                depth = free - height_across(form, (j - middle) * cell_y) + height[row, margin + j]
+                if depth > 0.0 and depth > _sunk(pressure, i - top, j - left, modulus, cell_x, cell_y):
+                    return True
     return False
 
 

@@ -12,6 +12,7 @@ from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field_driver import AT_REST, ContactField, Gap
+from contact_sim_pkg.rigs.vehicle.outputs import FieldRecord
 from contact_sim_pkg.rigs.vehicle.tire.footprint import slope_along, tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
@@ -33,16 +34,18 @@ class RoadField(ContactField):
         super().__init__(grids, contact)
         self._geometry, self._tread = geometry, tread
         self._road: Any = None
+        self._slope_of: tuple[FieldRecord | None, float] = None, 0.0  # the last that was computed
         self._gaps = {} if grids is None else {
             field.settings.rows: numpy.empty((field.settings.rows, field.settings.cols)) for field in grids.both()
         }  # fmt: skip
         self._tread_state: TreadState | None = None
+        if grids is not None:
+            self._pressed = numpy.zeros((grids.wide.settings.rows, grids.wide.settings.cols))
         if tread is not None and grids is not None:
             wide = grids.wide.settings
             belt = tread.relaxed.belt
             bends = (belt, tread.belt) if isinstance(belt, InflatedBelt) and tread.belt is not None else None
             self._tread_state = TreadState(wide, tread.relaxed.modulus, tread.viscoelasticity, tread.step, bends)
-            self._pressed = numpy.zeros((wide.rows, wide.cols))
             self.is_viscoelastic = True
 
     def reset(self) -> None:
@@ -96,13 +99,17 @@ class RoadField(ContactField):
 
     def _on_wide(self, pressure: Gap) -> Gap:
         """A pressure field on the wide grid, which both grids share their middle with."""
-        rows, cols = (wide - own for wide, own in zip(self._pressed.shape, pressure.shape, strict=True))
-        if rows == cols == 0:
+        if pressure.shape == self._pressed.shape:
             return pressure
-        self._pressed.fill(0.0)
-        first_row, first_col = self._pressed.shape[0] // 2 - pressure.shape[0] // 2, cols // 2
-        self._pressed[first_row : first_row + pressure.shape[0], first_col : first_col + pressure.shape[1]] = pressure
+        # Always the same cells, zeros around
+        row, col, rows, cols = self._middle(pressure)
+        self._pressed[row : row + rows, col : col + cols] = pressure
         return self._pressed
+
+    def _middle(self, pressure: Gap) -> tuple[int, int, int, int]:
+        """Window of the usual grid in the wide one."""
+        (wide_rows, wide_cols), (rows, cols) = self._pressed.shape, pressure.shape
+        return wide_rows // 2 - rows // 2, (wide_cols - cols) // 2, rows, cols
 
     def road_row(self, settings: FieldSettings) -> int:
         """See `ContactField`."""
@@ -147,13 +154,9 @@ class RoadField(ContactField):
         """The same where a belt yields further than the half-space: by its displacements on the
         wide grid.
         """
-        wide, pressure = grids.wide.settings, grids.usual.pressure
-        rows, cols = pressure.shape
-        first_row, first_col = wide.rows // 2 - rows // 2, (wide.cols - cols) // 2
-        pressed = numpy.zeros((wide.rows, wide.cols))
-        pressed[first_row : first_row + rows, first_col : first_col + cols] = pressure
-        window = (first_row, first_col, rows, cols)
-        return bool(grown_window(grids.wide.half_space, self.gap(wide), approach, pressed, window) != window)
+        pressure, window = self._on_wide(grids.usual.pressure), self._middle(grids.usual.pressure)
+        gap = self.gap(grids.wide.settings)
+        return bool(grown_window(grids.wide.half_space, gap, approach, pressure, window) != window)
 
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:
         """See `ContactField`."""
@@ -231,11 +234,14 @@ class RoadField(ContactField):
         level road it is 0 for an elastic tread.
         """
         found, geometry = self.published, self._geometry
-        if found is None or found.is_level or geometry is None or not found.pressure.any():
+        if found is None or found.is_level or geometry is None:
             return 0.0
-        x = found.origin_x + numpy.arange(len(found.pressure)) * geometry.lattice.cell_x
-        lines = found.pressure.sum(axis=1)
-        return float(lines @ slope_along(geometry.form, x) / lines.sum())
+        if self._slope_of[0] is not found:
+            x = found.origin_x + numpy.arange(len(found.pressure)) * geometry.lattice.cell_x
+            lines = found.pressure.sum(axis=1)
+            total = float(lines.sum())
+            self._slope_of = found, float(lines @ slope_along(geometry.form, x) / total) if total > 0.0 else 0.0
+        return self._slope_of[1]
 
     def rolling_force(self) -> float:
         """Moment of rolling resistance over the radius in [N], of the last solution: what a tread

@@ -37,13 +37,13 @@ class RollingProblem(NamedTuple):
 
     half_space: HalfSpace
     crown: Field  # [m] [rows, cols]
-    road: Field  # [m] the patch's columns of the road, rows as far as it goes
+    road: Field  # [m] the patch's columns of the road, one period
     cells: int  # the road moves in one step
 
     def gap(self, step: int) -> Field:
         """Undeformed gap in [m] at a step."""
-        first = step * self.cells
-        return numpy.ascontiguousarray(self.crown - self.road[first : first + self.half_space.rows])
+        rows = numpy.arange(self.half_space.rows) + step * self.cells
+        return numpy.ascontiguousarray(self.crown - self.road.take(rows, axis=0, mode="wrap"))
 
 
 def rough_road(seed: int) -> Field:
@@ -65,5 +65,5 @@ def rolling_problem(grid: str, seed: int, cells: int = 1) -> RollingProblem:
     x = (numpy.arange(rows) - 0.5 * (rows - 1)) * cell
     y = (numpy.arange(cols) - 0.5 * (cols - 1)) * cell
     crown = x[:, None] ** 2 / (2.0 * RADII[0]) + y[None, :] ** 2 / (2.0 * RADII[1])
-    road = rough_road(seed)[FIRST[0] :: every, FIRST[1] :: every][:, :cols]
+    road = numpy.roll(rough_road(seed), -FIRST[0], axis=0)[::every, FIRST[1] :: every][:, :cols]
     return RollingProblem(make_half_space(rows, cols, cell, cell, MODULUS), crown, numpy.ascontiguousarray(road), cells)
