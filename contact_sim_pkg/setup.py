@@ -36,7 +36,7 @@ setup(
             "py.typed",
             "**/*.pyi",
         ],
-        f"{PACKAGE}.report": ["templates/*", "templates/**/*"],
+        f"{PACKAGE}.report": ["templates/*", "templates/**/*", "metrics/*.yaml"],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),

@@ -21,6 +21,8 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "show": "scenes:show_command",
     "run": "run",
     "replay": "replay",
+    "metrics": "bags.metrics",
+    "compare": "bags.compare",
     "report": "report",
     "identify": "identify",
     "accuracy": "accuracy",

@@ -7,12 +7,11 @@ from __future__ import annotations
 import numpy as np
 
 from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, SHADE, Picture, draw_series, new_figure, picture
-from contact_sim_pkg.report.figures.contact import force_unit, shade
+from contact_sim_pkg.report.figures.contact import force_numbers, force_unit, shade
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.series import ContactSeries, EpisodeSeries, FloatArray, Recording
 from contact_sim_pkg.report.signal.episodes import durations
 from contact_sim_pkg.report.signal.lift_off import lifted_intervals
-from contact_sim_pkg.report.summary import force_numbers
 from contact_sim_pkg.rigs.backrest.report.numbers import Shares, drive_period, state_shares
 
 STATE_COLOURS = {

@@ -16,7 +16,7 @@ from contact_sim_pkg.laws.parameters import FoamElastic
 from contact_sim_pkg.pressure.cushion.foam_layer import Compression, FoamGrid, FoamLayer
 from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, pan_gap
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.records.published import Published
+from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.report.signal.metrics import seat_factor, weighted_rms
 from contact_sim_pkg.report.signal.spectrum import CrossDensity, Welch
 from contact_sim_pkg.rigs.vehicle.model import build

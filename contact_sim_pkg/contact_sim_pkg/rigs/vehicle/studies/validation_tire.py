@@ -10,7 +10,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
-from contact_sim_pkg.records.published import Published
+from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.rigs.vehicle.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.studies.machines.flat_track import Track, flat_track
