@@ -23,6 +23,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "replay": "replay",
     "metrics": "bags.metrics",
     "compare": "bags.compare",
+    "export": "bags.export",
     "report": "report",
     "identify": "identify",
     "accuracy": "accuracy",
