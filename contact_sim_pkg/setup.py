@@ -60,7 +60,10 @@ setup(
         "scipy>=1.13,<2",
         "zstandard>=0.22,<1",
     ],
-    extras_require={"test": ["hypothesis", "mcap-ros2-support", "pytest", "pytest-xdist"]},
+    extras_require={
+        "parquet": ["pyarrow>=15"],
+        "test": ["hypothesis", "mcap-ros2-support", "pytest", "pytest-xdist"],
+    },
     entry_points={
         "console_scripts": [
             f"bench = {PACKAGE}.cli.main:main",

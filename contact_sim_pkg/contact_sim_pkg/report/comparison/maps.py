@@ -7,14 +7,15 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
 from contact_sim_pkg.report.comparison.figures import Run
-from contact_sim_pkg.report.drawing import MULTIPLES, PRESSURE_COLOURS, Margins, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import MULTIPLES, PRESSURE_COLOURS, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.maps import FROM_ABOVE, Window, draw_map, loaded_window, set_window
 from contact_sim_pkg.report.series import FloatArray, PressureMap
 
 DIFFERENCE_COLOURS = "RdBu_r"
 MOST_RUNS = 4
 """Maps in one row."""
-ROOM = MULTIPLES._replace(right=0.75, bottom=0.55, top=0.5)
+ROOM = MULTIPLES._replace(left=0.78, right=0.75, bottom=0.55, top=0.5)
+"""Margins beside two colour bars."""
 
 
 def map_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
@@ -30,7 +31,7 @@ def map_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
     pair = len(runs) == 2
     width = (7.4 - 1.5) / (len(maps) + pair)
     height = float(np.clip(window.aspect * width, 1.0, 4.5)) + 1.1
-    figure, axes = new_figure(height, 1, len(maps) + pair, _margins(), sharex=True, sharey=True)
+    figure, axes = new_figure(height, 1, len(maps) + pair, ROOM, sharex=True, sharey=True)
     limits = Normalize(0.0, top)
     for place, run, grid, values in zip(axes, runs, maps, shown, strict=False):
         draw_map(place, grid, np.where(values > 0.0, values, np.nan), PRESSURE_COLOURS, limits)
@@ -51,10 +52,6 @@ def map_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
     axes[0].set_ylabel("forward, x, mm →")
     caption = f"Mean pressure of the {name} over each run, one scale.{text} {FROM_ABOVE.seen}"
     return picture(f"{key}-maps", figure, f"Mean pressure maps of the {name} in every run", caption)
-
-
-def _margins() -> Margins:
-    return ROOM
 
 
 def on_grid(source: PressureMap, target: PressureMap) -> FloatArray:

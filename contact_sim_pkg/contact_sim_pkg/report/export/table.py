@@ -12,7 +12,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.records.definitions import HEADER, Field, parsed
 
-__all__ = ["Column", "Map", "Table", "table_of"]
+__all__ = ["Column", "Map", "Table", "stamp_of", "table_of"]
 
 PERIODS = ("sample_period", "period")
 """Fields that hold the time between the samples of a message."""
@@ -107,8 +107,7 @@ def _columns(bag: Bag, topic: str, fields: _Fields) -> list[Column]:
     messages = [message for _, message in bag.decoded(topic)] if not fields.maps else [*_without_maps(bag, topic, fields)]
     if not messages:
         return []
-    times = np.array([message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec if hasattr(message, "header") else 0.0
-                      for message in messages])  # fmt: skip
+    times = np.array([stamp_of(message) for message in messages])
     period = next((name for name in PERIODS if hasattr(messages[0], name)), "")
     long = [field for field in fields.arrays if any(len(getattr(each, field.name)) for each in messages)]
     counts = _counts(messages, long, fields.named)
@@ -131,6 +130,13 @@ def _columns(bag: Bag, topic: str, fields: _Fields) -> list[Column]:
         for place, name in enumerate(names):
             found.append(Column(f"{field.name}.{name}", field.unit, _filled([part[place] for part in parts], counts)))
     return found
+
+
+def stamp_of(message: Any) -> float:
+    """Stamp [s] of a message; 0 without a header."""
+    if not hasattr(message, "header"):
+        return 0.0
+    return float((message.header.stamp.sec * 10**9 + message.header.stamp.nanosec) / 1e9)
 
 
 def _own(name: str) -> str:

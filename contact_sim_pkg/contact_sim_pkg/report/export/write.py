@@ -15,7 +15,7 @@ import numpy as np
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.files import FileRefusedError, check_output, new_file
-from contact_sim_pkg.report.export.table import Map, Table, table_of
+from contact_sim_pkg.report.export.table import Map, Table, stamp_of, table_of
 
 __all__ = ["CSV", "PARQUET", "export"]
 
@@ -117,8 +117,7 @@ def _write_map(bag: Bag, topic: str, field: Map, stream: IO[bytes]) -> None:
         if number == 0:
             write(f"{field.name} [{field.unit}],rows,{rows},cols,{cols}")
             write(",".join(f"{name} [m],{getattr(message, name)!r}" for name in GRID if hasattr(message, name)))
-        stamp = message.header.stamp
-        write(f"frame,{number},time [s],{stamp.sec + 1e-9 * stamp.nanosec!r},rows,{rows},cols,{cols}")
+        write(f"frame,{number},time [s],{stamp_of(message)!r},rows,{rows},cols,{cols}")
         for row in np.reshape(getattr(message, field.name), (rows, cols)):
             write(",".join(map(str, row)))
 

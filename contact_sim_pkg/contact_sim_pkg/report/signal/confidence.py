@@ -82,10 +82,13 @@ def tilted(mean: float) -> tuple[str, ...]:
 
 
 def clipped_share(values: NDArray[np.float64]) -> float:
-    """Share of the samples [samples] that lie at an extreme value in successions of 3 or more."""
+    """Share of the samples [samples] that lie at an extreme value in successions of 3 or more; an extreme at which
+    the signal mostly is, is its rest.
+    """
     if values.size < PLATEAU or values.max() == values.min():
         return 0.0
-    return sum(_plateaus(values == extreme) for extreme in (values.max(), values.min())) / values.size
+    extremes = {float(values.max()), float(values.min())} - {float(np.median(values))}
+    return sum(_plateaus(values == extreme) for extreme in extremes) / values.size
 
 
 def _plateaus(at: NDArray[np.bool_]) -> int:

@@ -5,7 +5,7 @@ the sitter's day, and how the cushion carries him.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from contact_sim_pkg.report.signal import confidence
 from contact_sim_pkg.report.signal.metrics import ride_metrics, seat_factor
 from contact_sim_pkg.report.signal.spectrum import transmissibility
 from contact_sim_pkg.rigs.vehicle.seat.occupants import H_POINT
+from contact_sim_pkg.rigs.vehicle.seat.report.occupant import apparent_mass_of, occupant_signals, seat_to_head_of
 from contact_sim_pkg.rigs.vehicle.seat.report.response import peak_of, trusted_part
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals, ride_signals
 
@@ -39,7 +40,7 @@ def seat_metrics(recording: Recording) -> list[Metric]:
     found += cushion_metrics(recording, make)
     share = 100.0 * float((contact.normal <= 0.0).mean())
     lifts = make.make("lift_off", "time without load", share, "%", band=at_most(0.0, "contact is kept"), count=contact.normal.size)
-    return [*found, lifts]
+    return [*found, lifts, *occupant_metrics(recording, make.make)]
 
 
 def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = ()) -> list[Metric]:
@@ -63,7 +64,7 @@ def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = ()) -> lis
     return [*found, make("factor_dose", "SEAT by VDV", dose, "%", quantity="seat_factor", broken=doubts, count=length)]
 
 
-def _way_to_seat(make: Any, signals: RideSignals, doubts: tuple[str, ...]) -> list[Metric]:
+def _way_to_seat(make: Callable[..., Metric], signals: RideSignals, doubts: tuple[str, ...]) -> list[Metric]:
     """Height and frequency of the peak of T(f) where it can be read."""
     way = transmissibility(signals.floor, signals.seat, signals.sample_rate)
     trusted = trusted_part(way, signals.floor, signals.sample_rate)
@@ -91,10 +92,27 @@ def cushion_metrics(recording: Recording, maker: Maker) -> list[Metric]:
     deepest = 1e3 * float(contact.approach.max())
     band = None if not keys else at_most(1e3 * VALID_STRAIN * float(keys["thickness"]), "range of the foam's law")
     found = [maker.make("sink", "deepest sink", deepest, "mm", band=band, count=contact.approach.size)]
-    touching = contact.normal > 0.0
-    if (recording.scene.get(SEAT) or {}).get("occupant") is not None and touching.any():
-        height = 1e3 * (H_POINT - float(contact.approach[touching].mean()))
-        found.append(maker.make("h_point", "H-point over the unloaded cushion", height, "mm", count=int(touching.sum())))
+    return found
+
+
+def occupant_metrics(recording: Recording, make: Callable[..., Metric]) -> list[Metric]:
+    """Height of the H-point, peaks of the apparent mass and of the way to the head where they can be read."""
+    signals = occupant_signals(recording)
+    if signals is None:
+        return []
+    found, touching = [], signals.force > 0.0
+    if touching.any():
+        height = 1e3 * (H_POINT - float(signals.approach[touching].mean()))
+        found.append(make("h_point", "H-point over the unloaded cushion", height, "mm", count=int(touching.sum())))
+    ways = (("apparent_mass", "apparent mass", "kg", apparent_mass_of(signals)), ("to_head", "head over seat", "", seat_to_head_of(signals)))
+    for key, name, unit, way in ways:
+        trusted = None if way is None else trusted_part(way, signals.seat, signals.sample_rate)
+        peak = None if way is None or trusted is None else peak_of(way, trusted)
+        if way is not None and peak is not None:
+            found += [
+                make(key, f"{name} at its peak", peak[0], unit, count=way.segments, topic="bench/motion", remark=signals.name),
+                make(f"{key}_frequency", f"frequency of that peak, {name}", peak[1], "Hz", count=way.segments, topic="bench/motion"),
+            ]
     return found
 
 
