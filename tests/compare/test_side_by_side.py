@@ -64,7 +64,8 @@ def test_one_line_may_hold_for_many_and_a_third_run_counts_too(tolerances):
     ("text", "words"),
     [
         ("a: 5", "needs absolute or relative"), ("a: {absolut: 5}", "needs absolute or relative"),
-        ("a: {absolute: -1}", "it must be 0 or more"), ("a: {absolute: many}", "must be a number"), ("", "is empty"), ("[]", "holds no tolerances"),
+        ("a: {absolute: -1}", "it must be 0 or more"), ("a: {absolute: many}", "must be a number"), ("", "is empty"),
+        ("[]", "holds no tolerances"),
     ],
 )  # fmt: skip
 def test_a_file_of_something_else_is_refused(tolerances, text, words):

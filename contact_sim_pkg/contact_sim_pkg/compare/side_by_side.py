@@ -187,17 +187,20 @@ def _of_metric(first: Metric, other: Metric | None, run: str, tolerance: Toleran
     difference = abs(other.value - first.value)
     if math.isnan(difference) or difference <= allowed:
         return None
-    return Miss(
-        first.key, run,
-        f"{first.name} is {other.value:.5g} {first.unit}, {difference:.3g} from {first.value:.5g}; {allowed:.3g} allowed".replace("  ", " "),
-    )  # fmt: skip
+    value = f"{other.value:.5g} {first.unit}".rstrip()
+    sentence = f"{first.name} is {value}, {difference:.3g} from {first.value:.5g}; {allowed:.3g} allowed"
+    return Miss(first.key, run, sentence)
 
 
 def _of_curve(key: str, first: Curve, other: Curve | None, run: str, tolerance: Tolerance) -> Miss | None:
     """The largest miss of a curve, on the points of the reference inside its range."""
     if other is None:
         return Miss(key, run, f"{key} is not in both runs")
-    inside = (first.x >= max(tolerance.start, other.x[0])) & (first.x <= min(tolerance.end, other.x[-1])) & np.isfinite(first.y)
+    inside = (
+        (first.x >= max(tolerance.start, other.x[0]))
+        & (first.x <= min(tolerance.end, other.x[-1]))
+        & np.isfinite(first.y)
+    )
     if not inside.any():
         return Miss(key, run, f"{key} has no common points in its range")
     x, y = first.x[inside], first.y[inside]

@@ -59,7 +59,7 @@ class Metric(NamedTuple):
     """assumptions of the number that do not hold"""
     spread: float = math.nan
     """half the 95 % interval, in `unit`; nan where it is not known"""
-    count: int = 0
+    size: int = 0
     """segments, samples or events that it is taken from; 0: not counted"""
     topic: str = ""
     window: tuple[float, float] = (0.0, 0.0)

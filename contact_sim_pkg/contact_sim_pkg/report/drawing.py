@@ -105,6 +105,7 @@ class Margins(NamedTuple):
     """between rows that share their x axis"""
 
 
+PLAIN = Margins()
 WITH_BARS = Margins(right=0.75, across=1.45)
 """Margins where each axes has a colour bar at its right."""
 
@@ -113,7 +114,7 @@ MULTIPLES = Margins(left=0.62, bottom=0.5, across=0.14, shared=0.36)
 
 
 def new_figure(
-    height: float, rows: int = 1, cols: int = 1, margins: Margins = Margins(), **options: Any
+    height: float, rows: int = 1, cols: int = 1, margins: Margins = PLAIN, **options: Any
 ) -> tuple[Figure, list[Axes]]:
     """A figure of the page's width and `height` [in], and its axes, row by row, within `margins`. Call inside
     `style()`."""

@@ -120,7 +120,9 @@ def lead_of(recording: Recording, drawn: list[Section]) -> list[Picture]:
     found = []
     number = {name: f"contact-{place}" for place, name in enumerate(recording.contacts)}
     names = [
-        name.format(contact=number.get(each.contact, "")) for each in rig_reports.reports_of(recording) for name in each.lead
+        name.format(contact=number.get(each.contact, ""))
+        for each in rig_reports.reports_of(recording)
+        for name in each.lead
     ]
     for name in dict.fromkeys(names):
         for section in drawn:

@@ -4,8 +4,6 @@ pictures.
 
 from __future__ import annotations
 
-from typing import Any
-
 from contact_sim_pkg.records.registry import contact_reports, rigs
 from contact_sim_pkg.records.report import ContactReport, LedgerScope, SeriesReader
 from contact_sim_pkg.records.rig import load

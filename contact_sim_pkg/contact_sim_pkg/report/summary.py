@@ -14,9 +14,9 @@ import numpy as np
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.compare.estimated import accuracy_numbers
 from contact_sim_pkg.report.energy import relative_residual, throughput
-from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.metrics.listing import metrics_of
 from contact_sim_pkg.report.metrics.views import rows_of
+from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.rig_reports import ledger_scope, rig_warnings
 from contact_sim_pkg.report.series import CostSeries, LedgerSeries, Recording
 

@@ -71,10 +71,14 @@ def test_pandas_reads_the_same(car, folder):
 def test_events_are_rows_of_their_own(tmp_path):
     with BagWriter(tmp_path / "bag", recorded_topics(("bench/episodes",)), reserve_bytes=0, background=False) as writer:
         for block, count in enumerate((2, 1)):
-            values = {name: np.arange(count, dtype=float) + block for name in ContactEpisodes._fields if name != "block"}
+            values = {
+                name: np.arange(count, dtype=float) + block for name in ContactEpisodes._fields if name != "block"
+            }
             values |= {"point": np.full(count, -1, np.int32), "touched": np.ones(count, np.uint8)}
             writer.write("bench/episodes", block * 10**7, encode(ContactEpisodes(block=block, **values), block * 10**7))
-    columns = {column.name: list(column.values) for column in table_of(open_bag(tmp_path / "bag"), "bench/episodes").columns}
+    columns = {
+        column.name: list(column.values) for column in table_of(open_bag(tmp_path / "bag"), "bench/episodes").columns
+    }
     assert columns["time"] == [0.0, 0.0, 0.01]
     assert columns["index"] == [0, 1, 0]
     assert columns["restitution"] == [0.0, 1.0, 1.0]
@@ -93,7 +97,10 @@ def test_what_exists_is_kept_and_what_is_not_there_is_named(car, folder, tmp_pat
 def test_parquet_without_pyarrow_is_one_sentence(car, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("contact_sim_pkg.report.export.write.find_spec", lambda _: None)
     assert main(["export", str(car.path.parent), "--parquet", "--out", str(tmp_path / "out")]) == 2
-    assert capsys.readouterr().err == "bench: --parquet needs pyarrow, which is not installed; pip install pyarrow, or --csv\n"
+    assert (
+        capsys.readouterr().err
+        == "bench: --parquet needs pyarrow, which is not installed; pip install pyarrow, or --csv\n"
+    )
     assert not (tmp_path / "out").exists()
 
 

@@ -33,7 +33,10 @@ def test_the_centre_of_pressure_is_the_weighted_mean_of_the_cells():
 def test_six_zones_of_the_pan_take_the_whole_load():
     pressure = np.repeat(np.array([[1.0], [1.0], [2.0], [2.0], [3.0], [3.0]]), 4, axis=1) * 1e3
     found = zones(grid(pressure), PAN, 3)
-    assert found == pytest.approx({f"{name} {side}": 100.0 * part / 12.0 for name, part in zip(PAN, (1, 2, 3)) for side in ("left", "right")})  # noqa: B905, E501
+    parts = dict(zip(PAN, (1.0, 2.0, 3.0), strict=True))
+    assert found == pytest.approx(
+        {f"{name} {side}": 100.0 * parts[name] / 12.0 for name in PAN for side in ("left", "right")}
+    )
     uneven = zones(grid(np.pad(pressure, ((2, 5), (1, 0)))), PAN, 3)  # cells without load beside them change nothing
     assert uneven == pytest.approx(found)
 

@@ -21,7 +21,11 @@ RATE = 500.0
 
 def foreign_bag(folder, kind, values, rate=RATE, times=None):
     """A bag by rosbags with one topic of `kind`; values [samples, 3]."""
-    name = {"imu": "sensor_msgs/msg/Imu", "accel": "geometry_msgs/msg/AccelStamped", "wrench": "geometry_msgs/msg/WrenchStamped"}[kind]
+    name = {
+        "imu": "sensor_msgs/msg/Imu",
+        "accel": "geometry_msgs/msg/AccelStamped",
+        "wrench": "geometry_msgs/msg/WrenchStamped",
+    }[kind]
     times = np.arange(len(values)) / rate if times is None else times
     vector, header = T["geometry_msgs/msg/Vector3"], T["std_msgs/msg/Header"]
     zero = vector(0.0, 0.0, 0.0)
@@ -46,7 +50,7 @@ def foreign_bag(folder, kind, values, rate=RATE, times=None):
 def shaken():
     """40 s of noise on three axes, gravity on z."""
     noise = np.random.default_rng(5).normal(size=(round(40 * RATE), 3)) * [0.3, 0.2, 0.8]
-    return noise + [0.0, 0.0, 9.81]
+    return noise + np.array([0.0, 0.0, 9.81])
 
 
 def by_key(paths, **chosen):
@@ -116,7 +120,7 @@ def runs(*values):
 
 def test_three_runs_within_5_per_cent_are_a_test():
     (mean,) = repeated(list("ABC"), [{"seed": each} for each in range(3)], runs(58.0, 60.0, 62.0))
-    assert (mean.value, mean.spread, mean.count, mean.broken) == (60.0, 2.0, 3, ())
+    assert (mean.value, mean.spread, mean.size, mean.broken) == (60.0, 2.0, 3, ())
 
 
 def test_runs_that_differ_more_or_are_too_few_are_not_valid():

@@ -16,7 +16,9 @@ LIMIT = Band(-math.inf, 100.0, "limit", "a standard")
 
 
 def metric(key, value, band=LIMIT, broken=(), spread=math.nan):
-    return Metric(f"seat.{key}", key, value, "%", judged(value, band), band, "said", broken, spread, 7, "bench/motion", (0.0, 5.0))
+    return Metric(
+        f"seat.{key}", key, value, "%", judged(value, band), band, "said", broken, spread, 7, "bench/motion", (0.0, 5.0)
+    )
 
 
 METRICS = [
@@ -59,7 +61,7 @@ def test_junit_counts_failures_errors_and_what_is_skipped():
     assert "bad: 131 %" in failure.get("message")
 
 
-def test_tiles_say_the_same(METRICS=METRICS):
+def test_tiles_say_the_same():
     tiles = tiles_of(METRICS)
     assert [(tile.value, tile.verdict) for tile in tiles[:2]] == [("57.2", "good"), ("131", "OUTSIDE")]
     assert [tile.footnote for tile in tiles] == [1, 1, 0, 1, 1]

@@ -5,7 +5,20 @@ import pytest
 
 from contact_sim_pkg.report.signal.spine import Career, daily, dose, risk, spine_acceleration, spine_response, stress
 
-TABLE = {1: 1.012, 2: 1.056, 3: 1.164, 4: 1.417, 5: 1.543, 6: 1.143, 8: 0.873, 10: 0.822, 16: 0.756, 20: 0.705, 40: 0.328, 80: 0.0056}
+TABLE = {
+    1: 1.012,
+    2: 1.056,
+    3: 1.164,
+    4: 1.417,
+    5: 1.543,
+    6: 1.143,
+    8: 0.873,
+    10: 0.822,
+    16: 0.756,
+    20: 0.705,
+    40: 0.328,
+    80: 0.0056,
+}
 
 
 def test_the_response_is_that_of_the_table_and_peaks_at_4_7_hertz():

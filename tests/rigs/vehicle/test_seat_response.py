@@ -9,10 +9,10 @@ from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, SeatResponse
 from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.signal.metrics import ride_metrics
 from contact_sim_pkg.report.signal.spectrum import transmissibility
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import apparent_mass, seat_to_head, seat_transmissibility
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OCCUPANTS
-from contact_sim_pkg.report.signal.metrics import ride_metrics
 from contact_sim_pkg.rigs.vehicle.seat.report.occupant import apparent_mass_of, occupant_signals, seat_to_head_of
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals
 from contact_sim_pkg.rigs.vehicle.seat.response import RunningResponse

@@ -17,7 +17,9 @@ from contact_sim_pkg.cli.output.tables import overwrite_option
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder; by default export/ in the bag.")
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 @overwrite_option
-def command(bag: Path, form: str | None, topics: tuple[str, ...], out: Path | None, skip_bad: bool, overwrite: bool) -> None:
+def command(
+    bag: Path, form: str | None, topics: tuple[str, ...], out: Path | None, skip_bad: bool, overwrite: bool
+) -> None:
     """Write each topic of BAG as a table, one row a sample with its time and units.
 
     Pressure maps become the CSV of a pressure mat, frame by frame.

@@ -14,9 +14,15 @@ from contact_sim_pkg.cli.output.tables import print_json
 @click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path(path_type=Path))
 @click.option("--json", "form", flag_value="json", help="One JSON object on standard output.")
 @click.option("--csv", "form", flag_value="csv", help="A row a metric.")
-@click.option("--junit", "form", flag_value="junit", help="JUnit XML: outside its band is a failure, doubtful an error.")
-@click.option("--all", "whole", is_flag=True, help="Whole lists of all contacts, and the pressure mats with their zones.")
-@click.option("--axis", metavar="x|y|z|Wk|Wd|...", help="Of a bag without our topics: axis, or weighting, or both as y:Wd.")
+@click.option(
+    "--junit", "form", flag_value="junit", help="JUnit XML: outside its band is a failure, doubtful an error."
+)
+@click.option(
+    "--all", "whole", is_flag=True, help="Whole lists of all contacts, and the pressure mats with their zones."
+)
+@click.option(
+    "--axis", metavar="x|y|z|Wk|Wd|...", help="Of a bag without our topics: axis, or weighting, or both as y:Wd."
+)
 @click.option("--topic", metavar="NAME", help="Of a bag without our topics: the one to weight.")
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 def command(

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from contact_sim_pkg.report.drawing import Margins, MUTED, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import MUTED, Margins, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.contact import force_unit
 from contact_sim_pkg.report.rig_reports import drive_period
 from contact_sim_pkg.report.series import FloatArray, Recording

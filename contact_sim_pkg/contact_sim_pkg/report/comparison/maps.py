@@ -25,7 +25,9 @@ def map_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
     if len(maps) < len(fields) or not all((each.pressure > 0.0).any() for each in maps):
         return None
     windows = [loaded_window(each) for each in maps]
-    window = Window(*(choose(values) for choose, values in zip((min, max, min, max), zip(*windows, strict=True), strict=False)))
+    window = Window(
+        *(choose(values) for choose, values in zip((min, max, min, max), zip(*windows, strict=True), strict=False))
+    )
     shown = [each.pressure * 1e-3 for each in maps]
     top = max(float(each.max()) for each in shown)
     pair = len(runs) == 2

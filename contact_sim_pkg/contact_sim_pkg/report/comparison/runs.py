@@ -12,6 +12,7 @@ from contact_sim_pkg.files import check_output, new_file
 from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report import facts
+from contact_sim_pkg.report.comparison.curves import compared
 from contact_sim_pkg.report.comparison.figures import (
     Run,
     area_comparison,
@@ -20,7 +21,6 @@ from contact_sim_pkg.report.comparison.figures import (
     make_runs,
     slap_comparison,
 )
-from contact_sim_pkg.report.comparison.curves import compared
 from contact_sim_pkg.report.comparison.maps import map_comparison
 from contact_sim_pkg.report.comparison.scene_differences import differences
 from contact_sim_pkg.report.comparison.tables import difference_table, metric_table

@@ -94,7 +94,11 @@ def _sorted(fields: list[Field]) -> _Fields:
     plain = [field for field in fields if field.type != HEADER]
     two = [field for field in plain if len(field.shape) == 2]
     named = [field for field in two if field.shape[0] in texts]
-    arrays = [field for field in plain if field.is_array and field not in two and not (field.name in texts and field.name in sizes)]
+    arrays = [
+        field
+        for field in plain
+        if field.is_array and field not in two and not (field.name in texts and field.name in sizes)
+    ]
     scalars = [field for field in plain if not field.is_array and field.name not in (*PERIODS, "samples")]
     return _Fields(scalars, arrays, named, [field for field in two if field not in named])
 
@@ -104,7 +108,9 @@ def _map(field: Field) -> Map:
 
 
 def _columns(bag: Bag, topic: str, fields: _Fields) -> list[Column]:
-    messages = [message for _, message in bag.decoded(topic)] if not fields.maps else [*_without_maps(bag, topic, fields)]
+    messages = (
+        [message for _, message in bag.decoded(topic)] if not fields.maps else [*_without_maps(bag, topic, fields)]
+    )
     if not messages:
         return []
     times = np.array([stamp_of(message) for message in messages])
@@ -114,7 +120,9 @@ def _columns(bag: Bag, topic: str, fields: _Fields) -> list[Column]:
     rows = int(counts.sum())
     number = np.arange(rows) - np.repeat(np.cumsum(counts) - counts, counts)
     if period:
-        start = np.repeat(times, counts) + number * np.repeat([float(getattr(each, period)) for each in messages], counts)
+        start = np.repeat(times, counts) + number * np.repeat(
+            [float(getattr(each, period)) for each in messages], counts
+        )
         found = [Column("time", "s", start)]
     else:
         found = [Column("time", "s", np.repeat(times, counts))]
@@ -123,7 +131,9 @@ def _columns(bag: Bag, topic: str, fields: _Fields) -> list[Column]:
         values = np.array([getattr(each, field.name) for each in messages])
         found.append(Column(_own(field.name), field.unit, np.repeat(values, counts)))
     for field in long:
-        found.append(Column(_own(field.name), field.unit, _filled([getattr(each, field.name) for each in messages], counts)))
+        found.append(
+            Column(_own(field.name), field.unit, _filled([getattr(each, field.name) for each in messages], counts))
+        )
     for field in fields.named:
         names = [str(each) for each in getattr(messages[0], field.shape[0])]
         parts = [np.reshape(getattr(each, field.name), (len(names), -1)) for each in messages]
@@ -149,8 +159,12 @@ def _counts(messages: Sequence[Any], long: Sequence[Field], named: Sequence[Fiel
     if not long and not named:
         return np.ones(len(messages), dtype=np.int64)
     sizes = [[len(getattr(each, field.name)) for each in messages] for field in long]
-    sizes += [[len(getattr(each, field.name)) // max(1, len(getattr(each, field.shape[0]))) for each in messages] for field in named]
-    return np.array(sizes, dtype=np.int64).max(axis=0)
+    sizes += [
+        [len(getattr(each, field.name)) // max(1, len(getattr(each, field.shape[0]))) for each in messages]
+        for field in named
+    ]
+    largest: NDArray[np.int64] = np.array(sizes, dtype=np.int64).max(axis=0)
+    return largest
 
 
 def _filled(parts: Sequence[Any], counts: NDArray[np.int64]) -> Any:

@@ -6,6 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Callable, Iterator, Sequence
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import IO, Any
@@ -97,9 +98,7 @@ def _texts(values: Any) -> list[Any]:
 
 
 def _write_parquet(table: Table, stream: IO[bytes]) -> None:
-    import pyarrow
-    from pyarrow import parquet
-
+    pyarrow, parquet = import_module("pyarrow"), import_module("pyarrow.parquet")
     fields = [
         pyarrow.field(column.header, pyarrow.array(np.asarray(column.values)).type, metadata={"unit": column.unit})
         for column in table.columns

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.closed_form.lame import FIT_EXPONENTS
 from contact_sim_pkg.report.drawing import (
-    WITH_BARS,
     ACCENT,
     BAND,
     INK,
@@ -24,6 +23,7 @@ from contact_sim_pkg.report.drawing import (
     PRESSURE_COLOURS,
     SHADE,
     WIDTH,
+    WITH_BARS,
     Picture,
     draw_series,
     new_figure,

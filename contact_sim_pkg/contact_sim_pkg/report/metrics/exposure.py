@@ -18,8 +18,15 @@ RATIO_OF_MTVV = 1.5
 
 
 def exposure_metrics(
-    make: Callable[..., Metric], metrics: RideMetrics, acceleration: FloatArray, rate: float, doubts: tuple[str, ...],
-    weighting: str = "Wk", *, spine: bool = True, health: bool = True,
+    make: Callable[..., Metric],
+    metrics: RideMetrics,
+    acceleration: FloatArray,
+    rate: float,
+    doubts: tuple[str, ...],
+    weighting: str = "Wk",
+    *,
+    spine: bool = True,
+    health: bool = True,
 ) -> list[Metric]:
     """Of one axis.
 
@@ -38,7 +45,9 @@ def exposure_metrics(
     spread = confidence.spread_of_rms(metrics.weighted, rate)
     a_w, mtvv = metrics.weighted_rms, metrics.largest_running_rms
     found = [
-        make("a_w", f"a_w, {weighting}", a_w, "m/s²", quantity="weighted_rms", broken=peaky, spread=spread, count=count),
+        make(
+            "a_w", f"a_w, {weighting}", a_w, "m/s²", quantity="weighted_rms", broken=peaky, spread=spread, count=count
+        ),
     ]
     if health:
         found.append(make("a_8", "A(8)", a_w, "m/s²", quantity="daily_exposure", broken=peaky, spread=spread, count=count,
@@ -52,8 +61,9 @@ def exposure_metrics(
     if spine:
         shocks = spine_model.dose(spine_model.spine_acceleration(acceleration, rate))
         stress = spine_model.stress(spine_model.daily(shocks, duration))
+        said = f"S_d {stress:.3g} MPa; man of 82 kg, 240 days of 8 h a year from 20 to 64"
         found.append(make("spine_risk", "R, ISO 2631-5", spine_model.risk(stress), "", quantity="spine_risk", broken=doubts,
-                          count=count, remark=f"S_d {stress:.3g} MPa; man of 82 kg, 240 days of 8 h a year from 20 to 64"))  # fmt: skip
+                          count=count, remark=said))  # fmt: skip
     return found
 
 

@@ -102,12 +102,21 @@ def _accelerations(bag: Bag, topic: str, field: str, chosen: list[_Chosen]) -> t
         label = f"{name}.{each.axis}" if len(chosen) > 1 else name
         make = Maker(label, topic.lstrip("/"), (float(time[0]), float(time[-1]) + 1.0 / rate)).make
         alone = each.axis == "z" and each.weighting is WK
-        of_axis = exposure_metrics(make, metrics, values, rate, doubts, each.weighting.name, spine=alone, health=len(chosen) == 1 and alone)
-        found += [metric._replace(name=f"{each.axis}: {metric.name}") for metric in of_axis] if len(chosen) > 1 else of_axis
+        of_axis = exposure_metrics(
+            make, metrics, values, rate, doubts, each.weighting.name, spine=alone, health=len(chosen) == 1 and alone
+        )
+        found += (
+            [metric._replace(name=f"{each.axis}: {metric.name}") for metric in of_axis] if len(chosen) > 1 else of_axis
+        )
         health.append((metrics.weighted_rms * (1.0 if each.axis == "z" else HORIZONTAL_FACTOR), each.axis))
     if len(chosen) > 1:
-        found += _together(Maker(name, topic.lstrip("/"), (float(time[0]), float(time[-1]) + 1.0 / rate)), health, found)
-    return found, f"{topic}: {time.size} samples at {rate:.6g} Hz; mean of each axis removed, gravity with it ({', '.join(means)} m/s²)"
+        found += _together(
+            Maker(name, topic.lstrip("/"), (float(time[0]), float(time[-1]) + 1.0 / rate)), health, found
+        )
+    return (
+        found,
+        f"{topic}: {time.size} samples at {rate:.6g} Hz; mean of each axis removed, gravity with it ({', '.join(means)} m/s²)",
+    )
 
 
 def _together(maker: Maker, health: list[tuple[float, str]], found: list[Metric]) -> list[Metric]:
@@ -127,7 +136,9 @@ def _forces(bag: Bag, topic: str) -> list[Metric]:
     columns = bag.columns(topic, ("time", "wrench.force.z"))
     time, rate, faults = sampled(bag, topic, columns)
     force = np.asarray(columns["wrench.force.z"], dtype=np.float64)[: time.size]
-    make = Maker(topic.strip("/").replace("/", "_"), topic.lstrip("/"), (float(time[0]), float(time[-1]) + 1.0 / rate)).make
+    make = Maker(
+        topic.strip("/").replace("/", "_"), topic.lstrip("/"), (float(time[0]), float(time[-1]) + 1.0 / rate)
+    ).make
     doubts = (*faults, *confidence.clipped(confidence.clipped_share(force) if force.min() < force.max() else 0.0))
     variation = float(force.std() / abs(force.mean())) if force.mean() else float("nan")
     return [
@@ -148,11 +159,15 @@ def sampled(bag: Bag, topic: str, columns: dict[str, object]) -> tuple[FloatArra
     steps = np.diff(time)
     step = float(np.median(steps))
     if step <= 0.0:
-        raise BagError(f"{bag.path}: the stamps of {topic} do not ascend, so its rate is unknown and it cannot be weighted")
+        raise BagError(
+            f"{bag.path}: the stamps of {topic} do not ascend, so its rate is unknown and it cannot be weighted"
+        )
     rate = (time.size - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / step
     scatter = float(np.median(np.abs(steps - step))) / step
     gaps = int((steps > 1.5 * step).sum())
-    faults = [f"wrong rate: stamps scatter by {100.0 * scatter:.2g} % of the step"] if scatter > confidence.UNEVEN else []
+    faults = (
+        [f"wrong rate: stamps scatter by {100.0 * scatter:.2g} % of the step"] if scatter > confidence.UNEVEN else []
+    )
     if gaps or steps.min() <= 0.0:
         faults.append(f"wrong rate: {gaps} gaps in the stamps")
     return time, rate, tuple(faults)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import zip_longest
 
 from contact_sim_pkg.records.metric import Metric
@@ -51,7 +50,7 @@ def _lists(recording: Recording) -> list[list[Metric]]:
     return [each for each in (*found, *rest) if each]
 
 
-def load_metrics(name: str, contact: ContactSeries) -> Sequence[Metric]:
+def load_metrics(name: str, contact: ContactSeries) -> list[Metric]:
     """Loads of a contact of which no rig knows more."""
     window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
     make = Maker(name, f"{name}/force", window).make

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag, open_bag
@@ -26,7 +26,11 @@ class FoundMetrics(NamedTuple):
 
 
 def metrics_of_bags(
-    paths: Sequence[Path], *, whole: bool = False, chosen: tuple[str | None, str | None] | None = None, skip_bad: bool = False
+    paths: Sequence[Path],
+    *,
+    whole: bool = False,
+    chosen: tuple[str | None, str | None] | None = None,
+    skip_bad: bool = False,
 ) -> FoundMetrics:
     """Metrics of one bag, or mean and spread of repeated runs.
 
@@ -42,7 +46,7 @@ def metrics_of_bags(
     bags = [open_bag(path, skip_bad=skip_bad) for path in paths]
     notes = [note for bag in bags for note in bag.notes]
     lists: list[list[Metric]] = []
-    scenes = []
+    scenes: list[dict[str, Any]] = []
     for bag in bags:
         if chosen is not None or not is_ours(bag):
             found, said = foreign_metrics(bag, *(chosen or (None, None)))

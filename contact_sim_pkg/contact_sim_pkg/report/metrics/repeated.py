@@ -16,7 +16,9 @@ LARGEST_DEVIATION = 0.05
 UNESSENTIAL = ("name", "description", "pace", "limits")
 
 
-def repeated(names: Sequence[str], scenes: Sequence[Mapping[str, Any]], lists: Sequence[Sequence[Metric]]) -> list[Metric]:
+def repeated(
+    names: Sequence[str], scenes: Sequence[Mapping[str, Any]], lists: Sequence[Sequence[Metric]]
+) -> list[Metric]:
     """Mean of each metric that all runs have, with half the range of the runs as spread.
 
     names, scenes, lists: of the runs, at least two; a bag of anybody has an empty scene.
@@ -61,5 +63,10 @@ def _mean(runs: Sequence[Metric], names: Sequence[str]) -> Metric:
     said = f"{len(runs)} runs, largest deviation {100.0 * off:.3g} %" if math.isfinite(mean) else f"{len(runs)} runs"
     spread = 0.5 * (max(values) - min(values))
     return runs[0]._replace(
-        value=mean, verdict=judged(mean, runs[0].band), spread=spread, count=len(runs), broken=tuple(broken), remark=said
+        value=mean,
+        verdict=judged(mean, runs[0].band),
+        spread=spread,
+        size=len(runs),
+        broken=tuple(broken),
+        remark=said,
     )

@@ -28,7 +28,7 @@ def row_of(metric: Metric) -> dict[str, Any]:
         "low": None if band is None else _finite(band.low), "high": None if band is None else _finite(band.high),
         "kind": "" if band is None else band.kind, "source": "" if band is None else band.source,
         "conditions": "" if band is None else band.conditions, "remark": metric.remark, "broken": list(metric.broken),
-        "spread": _finite(metric.spread), "count": metric.count or None, "topic": metric.topic,
+        "spread": _finite(metric.spread), "count": metric.size or None, "topic": metric.topic,
         "window_start": metric.window[0], "window_end": metric.window[1],
     }  # fmt: skip
 
@@ -132,7 +132,7 @@ def junit_text(name: str, cases: Sequence[ElementTree.Element]) -> str:
         f"{kind}s" if kind != "skipped" else kind: str(sum(each.find(kind) is not None for each in cases))
         for kind in ("failure", "error", "skipped")
     }
-    suite = ElementTree.Element("testsuite", name=name, tests=str(len(cases)), **counts)
+    suite = ElementTree.Element("testsuite", {"name": name, "tests": str(len(cases)), **counts})
     suite.extend(cases)
     ElementTree.indent(suite)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(suite, encoding="unicode") + "\n"

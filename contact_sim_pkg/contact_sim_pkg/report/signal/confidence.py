@@ -68,7 +68,9 @@ def slow(sample_rate: float) -> tuple[str, ...]:
     """That a rate [Hz] does not carry the band of whole-body vibration."""
     if sample_rate >= 2.0 * HIGHEST_FREQUENCY:
         return ()
-    return (f"wrong rate: {sample_rate:.4g} Hz carries nothing above {0.5 * sample_rate:.4g} Hz, the weighting goes to 80",)
+    return (
+        f"wrong rate: {sample_rate:.4g} Hz carries nothing above {0.5 * sample_rate:.4g} Hz, the weighting goes to 80",
+    )
 
 
 def peaky(crest_factor: float) -> tuple[str, ...]:

@@ -70,7 +70,7 @@ def running_rms(weighted: NDArray[np.float64], sample_rate: float) -> NDArray[np
 
 def daily_dose(dose: float, duration: float) -> float:
     """VDV [m/s^1.75] of eight hours of what has the ``dose`` [m/s^1.75] in ``duration`` [s]."""
-    return dose * (EXPOSURE_TIME / duration) ** 0.25
+    return float(dose * (EXPOSURE_TIME / duration) ** 0.25)
 
 
 def weighted_rms(spectrum: Density, weighting: Weighting = WK) -> float:

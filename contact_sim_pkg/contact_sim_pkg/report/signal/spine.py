@@ -36,9 +36,12 @@ class Career(NamedTuple):
     """a year"""
 
 
+WORKING_LIFE = Career()
+
+
 def spine_response(frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
     """H(j 2 pi f) [frequencies] at ``frequency`` [Hz]; 1 at 0 Hz."""
-    s = 2j * np.pi * np.asarray(frequency, dtype=np.float64)
+    s = (2j * np.pi * np.asarray(frequency, dtype=np.float64)).astype(np.complex128)
     result: NDArray[np.complex128] = _second_order(s, *ZERO)
     for pole in POLES:
         result = result / _second_order(s, *pole)
@@ -80,7 +83,7 @@ def stress(daily_dose: float) -> float:
     return STRESS_FACTOR * daily_dose
 
 
-def risk(daily_stress: float, career: Career = Career()) -> float:
+def risk(daily_stress: float, career: Career = WORKING_LIFE) -> float:
     """R of a daily stress [MPa] over the years of a career."""
     ages = career.first_age + np.arange(career.years)
     strength = STRENGTH_AT_BIRTH - STRENGTH_LOSS * ages - STRESS_FACTOR * STANDARD_GRAVITY

@@ -56,7 +56,15 @@ def test_captions_tell_the_numbers_of_the_closed_form(page):
 def test_a_contact_that_is_kept_has_no_section_of_slaps(tmp_path):
     bag = known.backrest_bag(tmp_path / "kept", slaps=False)
     kept = Page(write_report(bag).read_text(encoding="utf-8"))
-    assert kept.headings == ["Result", "Backrest contact", "Contact domain", "Energy", "Cost", "What was run", "Recording"]
+    assert kept.headings == [
+        "Result",
+        "Backrest contact",
+        "Contact domain",
+        "Energy",
+        "Cost",
+        "What was run",
+        "Recording",
+    ]
     text = " ".join(kept.texts)
     assert "The contact never opens. No slap ended within the run." in text
     assert "At the start a = " in text

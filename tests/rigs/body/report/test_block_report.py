@@ -91,7 +91,9 @@ def test_a_body_that_rests_up_to_rounding_rests(tmp_path):
     run_offline(resolve(load_scene("block_fall", [*changed, *start])), tmp_path / "bag")
     recording = read_recording(open_bag(tmp_path / "bag"))
     assert abs(recording.motion.velocity["block_x"][-1]) > 0.0
-    assert {each.key: each.value for each in block_metrics(recording)}["block.rest"] == pytest.approx(1.0 / (0.3 * GRAVITY), abs=2e-3)
+    assert {each.key: each.value for each in block_metrics(recording)}["block.rest"] == pytest.approx(
+        1.0 / (0.3 * GRAVITY), abs=2e-3
+    )
 
 
 @pytest.mark.parametrize("name", ["block_slope", "block_zeno", "box_3d_tumble"])

@@ -11,7 +11,17 @@ from matplotlib.colors import Normalize
 from matplotlib.image import AxesImage
 
 from contact_sim_pkg.pressure.closed_form.lame import LameFit, fit_patch
-from contact_sim_pkg.report.drawing import MULTIPLES, WITH_BARS, ACCENT, MUTED, PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import (
+    ACCENT,
+    MULTIPLES,
+    MUTED,
+    PRESSURE_COLOURS,
+    WIDTH,
+    WITH_BARS,
+    Picture,
+    new_figure,
+    picture,
+)
 from contact_sim_pkg.report.figures.maps import View, Window, common_window, draw_map, draw_outline, set_window
 from contact_sim_pkg.report.point_series import APART, SLIPS, STICKS, TOUCHES, PointSeries, PointSnapshot
 from contact_sim_pkg.report.series import EpisodeSeries, FieldSeries, FloatArray, PressureMap, Snapshot
@@ -190,9 +200,8 @@ def area_over_time(key: str, name: str, field: FieldSeries, slaps: EpisodeSeries
     if area is None:
         return None
     chosen = heaviest_slap(slaps)
-    figure, axes = new_figure(
-        2.7, 1, 1 if chosen is None else 2, **({} if chosen is None else {"width_ratios": [3, 2]})
-    )
+    widths = [1] if chosen is None else [3, 2]
+    figure, axes = new_figure(2.7, 1, len(widths), width_ratios=widths)
     axes[0].plot(*envelope(area.time, area.ratio), color=ACCENT, linewidth=0.9)
     axes[0].axhline(1.0, color=MUTED, linewidth=0.7)
     axes[0].set_xlabel("simulated time, s")

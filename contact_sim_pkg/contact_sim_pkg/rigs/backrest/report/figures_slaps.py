@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact_sim_pkg.report.drawing import Margins, ACCENT, INK, MUTED, SHADE, Picture, draw_series, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, SHADE, Margins, Picture, draw_series, new_figure, picture
 from contact_sim_pkg.report.figures.contact import force_numbers, force_unit, shade
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.series import ContactSeries, EpisodeSeries, FloatArray, Recording

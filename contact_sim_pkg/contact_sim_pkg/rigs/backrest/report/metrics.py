@@ -70,14 +70,21 @@ def _load(make: Any, recording: Recording, contact: ContactSeries) -> Iterator[M
     deepest = int(contact.approach.argmax())
     law = _law(recording, float(contact.approach[deepest]))
     band = None if law is None else near(law, 0.05, "A δⁿ, where the approach turns")
-    yield make("load_deepest", "load at the largest approach", contact.normal[deepest], "N", band=band, count=steady.size)
+    yield make(
+        "load_deepest", "load at the largest approach", contact.normal[deepest], "N", band=band, count=steady.size
+    )
 
 
 def _law(recording: Recording, approach: float) -> float | None:
     """Elastic force [N] at an ``approach`` [m]; None where more than the law of one point carries."""
     effects = (recording.scene.get("effects") or {}).get(BACKREST) or {}
     keys = effects.get("normal_elastic")
-    if not keys or "coefficient" not in keys or effects.get("shell_modes") is not None or effects.get("cushion") is not None:
+    if (
+        not keys
+        or "coefficient" not in keys
+        or effects.get("shell_modes") is not None
+        or effects.get("cushion") is not None
+    ):
         return None
     return float(keys["coefficient"]) * max(approach, 0.0) ** float(keys["exponent"])
 
@@ -111,7 +118,9 @@ def _map(make: Any, recording: Recording, field: FieldSeries) -> Iterator[Metric
                remark=f"at {field.highest_time:.3f} s")  # fmt: skip
     areas = area_ratio(field)
     if areas is not None:
-        yield make("area_ratio", "largest area over that at rest", areas.ratio.max(), "", topic=topic, count=field.time.size)
+        yield make(
+            "area_ratio", "largest area over that at rest", areas.ratio.max(), "", topic=topic, count=field.time.size
+        )
     back = back_load(recording)
     if back is not None:
         yield make("lumbar", "load within 60 mm of the lumbar height", 100.0 * back.lumbar_share, "%", topic=topic,

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact_sim_pkg.report.drawing import Margins, ACCENT, INK, MUTED, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Margins, Picture, new_figure, picture
 from contact_sim_pkg.report.series import FloatArray, MotionSeries
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.rigs.impact.report.series import ImpactSeries

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import TwoSlopeNorm
 
-from contact_sim_pkg.report.drawing import Margins, INK, PRESSURE_COLOURS, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import INK, PRESSURE_COLOURS, Margins, Picture, new_figure, picture
 from contact_sim_pkg.report.series import FloatArray
 from contact_sim_pkg.rigs.impact.report.series import ImpactSeries
 

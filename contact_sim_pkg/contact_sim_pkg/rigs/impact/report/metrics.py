@@ -37,14 +37,16 @@ def impact_metrics(recording: Recording) -> list[Metric]:
     }
     count = len(events.number)
     first, lost = _first(events), -float(events.compression_work[0] + events.restitution_work[0])
-    stress = 1e-6 * float(hertz_pressure(events.peak_force, events.shape_factor * events.storage_modulus, events.radius)[0])
+    stress = 1e-6 * float(
+        hertz_pressure(events.peak_force, events.shape_factor * events.storage_modulus, events.radius)[0]
+    )
 
     def elastic(value: float) -> Band | None:
         return near(value, 0.05 + float(events.loss_tangent[0]), "Hertz's elastic impact") if lossless else None
 
     found = [
-        make("restitution", "restitution e of the first", first["restitution"], "", band=Band(0.0, 1.0, LIMIT, "no impact gains energy"),
-             count=count, remark=spans["restitution"]),
+        make("restitution", "restitution e of the first", first["restitution"], "", count=count,
+             band=Band(0.0, 1.0, LIMIT, "no impact gains energy"), remark=spans["restitution"]),
         make("duration", "contact time of the first", 1e3 * first["duration"], "ms", band=elastic(1e3 * duration), count=count,
              remark=spans["duration"]),
         make("force", "peak force of the first", first["peak_force"], "N", band=elastic(force), count=count,
@@ -79,7 +81,8 @@ def _elastic(events: ImpactEvents) -> tuple[float, float, float]:
     x = (15 m V^2 / (16 E* R^(1/2)))^(2/5), t = 2.94 x / V, F = 4/3 E* R^(1/2) x^(3/2).
     """
     mass, speed, radius, modulus = (
-        float(each[0]) for each in (events.mass, events.speed, events.radius, events.shape_factor * events.storage_modulus)
+        float(each[0])
+        for each in (events.mass, events.speed, events.radius, events.shape_factor * events.storage_modulus)
     )
     depth = (15.0 * mass * speed**2 / (16.0 * modulus * math.sqrt(radius))) ** 0.4
     return depth, CONTACT_TIME * depth / speed, 4.0 / 3.0 * modulus * math.sqrt(radius) * depth**1.5

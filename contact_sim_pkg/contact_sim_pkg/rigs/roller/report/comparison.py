@@ -26,4 +26,8 @@ def roller_comparison(key: str, _contact: str, runs: list[Run]) -> list[Picture]
     axes.set_ylabel("p₀, MPa")
     axes.set_xlabel("simulated time, s")
     legend(figure, axes, "run")
-    return [picture(f"{key}-pressure", figure, "Largest pressure over time in every run", "Largest pressure of the contact.")]
+    return [
+        picture(
+            f"{key}-pressure", figure, "Largest pressure over time in every run", "Largest pressure of the contact."
+        )
+    ]

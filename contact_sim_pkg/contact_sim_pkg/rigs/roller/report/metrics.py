@@ -24,7 +24,12 @@ def roller_metrics(recording: Recording) -> list[Metric]:
     if roller is None:
         return []
     make = Maker(ROLLER, f"{ROLLER}/contact", (0.0, recording.duration)).make
-    return [*_contact(make, roller, recording.scene), *_volumes(make, roller), *_stability(make, roller), *_track(make, roller)]
+    return [
+        *_contact(make, roller, recording.scene),
+        *_volumes(make, roller),
+        *_stability(make, roller),
+        *_track(make, roller),
+    ]
 
 
 def _contact(make: Any, roller: RollerSeries, scene: dict[str, Any]) -> Iterator[Metric]:
@@ -39,10 +44,12 @@ def _contact(make: Any, roller: RollerSeries, scene: dict[str, Any]) -> Iterator
     mean = 1.5e-6 * load / (math.pi * semi[0] * semi[1])
     yield make("pressure", "p₀, largest", 1e-6 * pressure, "MPa", count=count,
                band=near(mean, 1e-3, "3 F / (2 π a b)"),
-               remark=f"{1e-6 * contact.peak_pressure.min():.4g} to {1e-6 * pressure:.4g}, at {roller.time[place]:.3g} s")  # fmt: skip
+               remark=f"from {1e-6 * contact.peak_pressure.min():.4g}, largest at {roller.time[place]:.3g} s")  # fmt: skip
     strength = (scene.get(ROLLER) or {}).get("yield_strength")
     if strength:
-        yield make("yield_share", "p₀ over first yield", pressure / (FIRST_YIELD * float(strength)), "", quantity="yield_share")
+        yield make(
+            "yield_share", "p₀ over first yield", pressure / (FIRST_YIELD * float(strength)), "", quantity="yield_share"
+        )
     names = ("semi-axis along the shaft", "semi-axis along rolling")
     expected = _hertz(scene, roller, place)
     for key, name, value, closed in zip(("along_x", "along_y"), names, semi, expected[:2], strict=True):
@@ -100,7 +107,8 @@ def _stability(make: Any, roller: RollerSeries) -> Iterator[Metric]:
         return
     worst = max(roller.stability, key=lambda each: each.growth_rate)
     yield make("growth", "growth rate of tilt and yaw", worst.growth_rate, "1/s", quantity="growth_rate",
-               topic=f"{ROLLER}/stability", count=len(roller.stability), remark=f"at {worst.frequency:.4g} Hz, {worst.load:.4g} N")  # fmt: skip
+               topic=f"{ROLLER}/stability", count=len(roller.stability),
+               remark=f"at {worst.frequency:.4g} Hz, {worst.load:.4g} N")  # fmt: skip
     if math.isfinite(worst.critical_load):
         yield make("critical_load", "smallest load with growth", worst.critical_load, "N", topic=f"{ROLLER}/stability")
 

@@ -52,9 +52,9 @@ def seat_comparison(key: str, _contact: str, runs: list[Run]) -> list[Picture]:
     left.set_ylim(bottom=0.0)
     left.set_ylabel("T(f), seat over floor")
     right.set_ylabel("PSD of the seat, (m/s²)²/Hz")
-    for place in (left, right):
-        frequency_axis(place, curves[0]["seat.psd"].x)
-        place.set_xlabel("frequency, Hz")
+    for axes in (left, right):
+        frequency_axis(axes, curves[0]["seat.psd"].x)
+        axes.set_xlabel("frequency, Hz")
     legend(figure, left, "run")
     caption = (
         f"Left: transmissibility where its coherence is at least {TRUSTED_COHERENCE} and the floor moves enough. "

@@ -39,7 +39,9 @@ def seat_metrics(recording: Recording) -> list[Metric]:
     make = Maker(SEAT, f"{SEAT}/force", window, conditions_of(recording.scene))
     found += cushion_metrics(recording, make)
     share = 100.0 * float((contact.normal <= 0.0).mean())
-    lifts = make.make("lift_off", "time without load", share, "%", band=at_most(0.0, "contact is kept"), count=contact.normal.size)
+    lifts = make.make(
+        "lift_off", "time without load", share, "%", band=at_most(0.0, "contact is kept"), count=contact.normal.size
+    )
     return [*found, lifts, *occupant_metrics(recording, make.make)]
 
 
@@ -91,8 +93,7 @@ def cushion_metrics(recording: Recording, maker: Maker) -> list[Metric]:
     keys = ((recording.scene.get("effects") or {}).get(SEAT) or {}).get("cushion")
     deepest = 1e3 * float(contact.approach.max())
     band = None if not keys else at_most(1e3 * VALID_STRAIN * float(keys["thickness"]), "range of the foam's law")
-    found = [maker.make("sink", "deepest sink", deepest, "mm", band=band, count=contact.approach.size)]
-    return found
+    return [maker.make("sink", "deepest sink", deepest, "mm", band=band, count=contact.approach.size)]
 
 
 def occupant_metrics(recording: Recording, make: Callable[..., Metric]) -> list[Metric]:
@@ -104,14 +105,32 @@ def occupant_metrics(recording: Recording, make: Callable[..., Metric]) -> list[
     if touching.any():
         height = 1e3 * (H_POINT - float(signals.approach[touching].mean()))
         found.append(make("h_point", "H-point over the unloaded cushion", height, "mm", count=int(touching.sum())))
-    ways = (("apparent_mass", "apparent mass", "kg", apparent_mass_of(signals)), ("to_head", "head over seat", "", seat_to_head_of(signals)))
+    ways = (
+        ("apparent_mass", "apparent mass", "kg", apparent_mass_of(signals)),
+        ("to_head", "head over seat", "", seat_to_head_of(signals)),
+    )
     for key, name, unit, way in ways:
         trusted = None if way is None else trusted_part(way, signals.seat, signals.sample_rate)
         peak = None if way is None or trusted is None else peak_of(way, trusted)
         if way is not None and peak is not None:
             found += [
-                make(key, f"{name} at its peak", peak[0], unit, count=way.segments, topic="bench/motion", remark=signals.name),
-                make(f"{key}_frequency", f"frequency of that peak, {name}", peak[1], "Hz", count=way.segments, topic="bench/motion"),
+                make(
+                    key,
+                    f"{name} at its peak",
+                    peak[0],
+                    unit,
+                    count=way.segments,
+                    topic="bench/motion",
+                    remark=signals.name,
+                ),
+                make(
+                    f"{key}_frequency",
+                    f"frequency of that peak, {name}",
+                    peak[1],
+                    "Hz",
+                    count=way.segments,
+                    topic="bench/motion",
+                ),
             ]
     return found
 

@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from contact_sim_pkg.records.messages import ContactShear
-from contact_sim_pkg.report.drawing import WITH_BARS, ACCENT, MUTED, SHEAR_COLOURS, WIDTH, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, MUTED, SHEAR_COLOURS, WIDTH, WITH_BARS, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.maps import Window, draw_map, loaded_window, set_window
 from contact_sim_pkg.report.series import FieldSeries, FloatArray, PressureMap
 from contact_sim_pkg.report.signal.decimate import envelope

@@ -90,7 +90,9 @@ def _load(ride: _Ride) -> Iterator[Metric]:
     lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
     if ride.standing is not None:
         coefficient = float(normal.std()) / ride.standing
-        yield ride.make("dlc", "dynamic load coefficient", coefficient, "", quantity="dynamic_load", broken=doubts, count=count)
+        yield ride.make(
+            "dlc", "dynamic load coefficient", coefficient, "", quantity="dynamic_load", broken=doubts, count=count
+        )
     yield ride.make("lift_off", "time off the road", lifted, "%", quantity="lift_off", broken=doubts, count=count,
                     remark=f"{lifts} times")  # fmt: skip
     band = None if ride.standing is None else near(ride.standing, 0.05, "weight, mean over the run")

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
+from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.report.series import FieldSeries, FloatArray
 from contact_sim_pkg.report.signal.peaks import PeakRow
 from contact_sim_pkg.report.tables import Table
-from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import TireReference
+
 
 def footprint_table(field: FieldSeries, reference: TireReference | None) -> Table:
     """Load, pressure and size of the footprint: at rest on a flat road, over the run, at the
