@@ -48,7 +48,9 @@ def test_the_terminal_ends_with_what_is_outside_and_what_is_doubtful():
     assert lines[0].split() == ["good", "57.2", "±", "2.1", "%", "good", "at", "most", "100;", "said"]
     assert any(line.strip() == "! too short: 3 s, 34 s needed" for line in lines)
     last = verdict_line(rows)
-    assert last.startswith("OUTSIDE: bad 131 % (at most 100) | DOUBTFUL: too short: 3 s, 34 s needed | the rest ")
+    assert last.startswith(
+        "OUTSIDE: bad 131 % (at most 100) | DOUBTFUL: 1 of 5 metrics, too short: 3 s, 34 s needed | the rest "
+    )
     assert verdict_line(rows_of(METRICS[:1])) == "nothing outside its band: 1 good"
 
 

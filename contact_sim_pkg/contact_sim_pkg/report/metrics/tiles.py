@@ -6,7 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from contact_sim_pkg.records.metric import OUTSIDE, Metric
+from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.report.metrics.views import verdict_text
 from contact_sim_pkg.report.rows import SUPERSCRIPT, number
 
 
@@ -54,7 +55,7 @@ def _tile(metric: Metric, footnote: int) -> Tile:
     return Tile(
         metric.name, number(metric.value) if defined else "–", _printed(metric.unit) if defined else "",
         number(metric.spread) if math.isfinite(metric.spread) else "",
-        metric.verdict.upper() if metric.verdict == OUTSIDE else metric.verdict, metric.verdict.replace(" ", "-"),
+        verdict_text(metric), metric.verdict.replace(" ", "-"),
         "" if band is None else f"{band.text} {_printed(metric.unit)}".rstrip(), metric.remark, bool(metric.broken), footnote,
     )  # fmt: skip
 

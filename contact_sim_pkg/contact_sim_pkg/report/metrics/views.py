@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 from contact_sim_pkg.records.metric import GOOD, NO_BAND, OUTSIDE, USUAL, Band, Metric
 from contact_sim_pkg.report.rows import number
 
-__all__ = ["csv_of", "junit_of", "lines_of", "row_of", "rows_of", "value_text", "verdict_line"]
+__all__ = ["csv_of", "junit_of", "lines_of", "row_of", "rows_of", "value_text", "verdict_line", "verdict_text"]
 
 COLUMNS = (
     "key", "name", "value", "unit", "verdict", "low", "high", "kind", "source", "conditions", "remark", "broken", "spread", "count",
@@ -56,6 +56,12 @@ def value_text(metric: Metric) -> str:
     return f"{number(metric.value)}{spread} {metric.unit}".rstrip()
 
 
+def verdict_text(metric: Metric) -> str:
+    """`good`, `OUTSIDE`, and `good?` where an assumption does not hold."""
+    verdict = metric.verdict.upper() if metric.verdict == OUTSIDE else metric.verdict
+    return f"{verdict}?" if metric.broken and metric.verdict != NO_BAND else verdict
+
+
 def lines_of(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """A line a metric: value, verdict, band and remark; below it what of its assumptions does not hold."""
     metrics = [metric_of(row) for row in rows]
@@ -65,10 +71,10 @@ def lines_of(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     found: list[str] = []
     before: tuple[str, ...] = ()
     for metric, value in zip(metrics, values, strict=True):
-        verdict = metric.verdict.upper() if metric.verdict == OUTSIDE else metric.verdict
+        verdict = verdict_text(metric)
         band = "" if metric.band is None else metric.band.text
         said = "; ".join(filter(None, (band, metric.remark)))
-        found.append(f"{metric.name:<{width}}  {value:<{wide}}  {verdict:<7}  {said}".rstrip())
+        found.append(f"{metric.name:<{width}}  {value:<{wide}}  {verdict:<8}  {said}".rstrip())
         if metric.broken and metric.broken != before:
             found.append(f"{'':<{width}}  ! {'; '.join(metric.broken)}")
         before = metric.broken
@@ -80,11 +86,12 @@ def verdict_line(rows: Sequence[Mapping[str, Any]]) -> str:
     metrics = [metric_of(row) for row in rows]
     outside = [f"{each.name} {value_text(each)} ({_limit(each)})" for each in metrics if each.verdict == OUTSIDE]
     doubts = list(dict.fromkeys(text for each in metrics for text in each.broken))
-    counts = {verdict: sum(each.verdict == verdict for each in metrics) for verdict in (GOOD, USUAL, NO_BAND)}
+    sure = [each.verdict for each in metrics if not each.broken]
+    counts = {verdict: sure.count(verdict) for verdict in (GOOD, USUAL, NO_BAND)}
     rest = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
     parts = [
         f"OUTSIDE: {', '.join(outside)}" if outside else "",
-        f"DOUBTFUL: {'; '.join(doubts)}" if doubts else "",
+        f"DOUBTFUL: {len(metrics) - len(sure)} of {len(metrics)} metrics, {'; '.join(doubts)}" if doubts else "",
         f"{'the rest ' if outside or doubts else 'nothing outside its band: '}{rest}" if rest else "",
     ]
     return " | ".join(filter(None, parts))

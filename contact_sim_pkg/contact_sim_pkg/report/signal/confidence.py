@@ -102,4 +102,4 @@ def _plateaus(at: NDArray[np.bool_]) -> int:
 
 def clipped(share: float) -> tuple[str, ...]:
     """That a share of the samples is clipped."""
-    return (f"clipped: {100.0 * share:.2g} % of the samples at full scale",) if share > CLIPPED_SHARE else ()
+    return (f"clipped: {100.0 * share:.2g} % of the samples",) if share > CLIPPED_SHARE else ()
