@@ -28,7 +28,7 @@ from contact_sim_pkg.report.signal.loops import (
 
 COLOURS = ("#2f7fb5", "#e08a2e", "#3f9b63", "#b4508f", "#8a6d3b", "#6a6fd0", "#c0392b", "#4aa3a2")
 """Of the runs in their order; seen on light and on dark ground."""
-BELOW_LEGEND = Margins(top=0.85)
+BELOW_LEGEND = Margins(top=0.85, right=0.24)
 """Room for the legend of up to eight runs."""
 LOOP_POINTS = 3000
 """Most points of the curve of one run."""

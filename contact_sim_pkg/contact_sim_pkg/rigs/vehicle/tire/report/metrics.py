@@ -84,8 +84,7 @@ def _conditions(recording: Recording) -> dict[str, float | str]:
 def _load(ride: _Ride) -> Iterator[Metric]:
     """Variation and mean of the load, time off the road."""
     normal, rate, count = ride.contact.normal, 1.0 / ride.contact.sample_period, ride.contact.normal.size
-    duration = count / rate
-    doubts = (f"too short: {duration:.3g} s, {SHORTEST:g} s needed",) if ride.rough and duration < SHORTEST else ()
+    doubts = _short(ride)
     lifted = 100.0 * float((normal <= 0.0).mean())
     lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
     if ride.standing is not None:
@@ -98,6 +97,12 @@ def _load(ride: _Ride) -> Iterator[Metric]:
     band = None if ride.standing is None else near(ride.standing, 0.05, "weight, mean over the run")
     yield ride.make("load", "load, mean", normal.mean(), "N", band=band, broken=doubts, count=count,
                     spread=spread_of_mean(normal, rate), remark=f"{normal.min():.4g} to {normal.max():.4g} N")  # fmt: skip
+
+
+def _short(ride: _Ride) -> tuple[str, ...]:
+    """That the ride is too short for its road; empty where it is not."""
+    duration = ride.contact.normal.size * ride.contact.sample_period
+    return (f"too short: {duration:.3g} s, {SHORTEST:g} s needed",) if ride.rough and duration < SHORTEST else ()
 
 
 def _standing(ride: _Ride, stiffness: float | None) -> Iterator[Metric]:
@@ -115,7 +120,7 @@ def _standing(ride: _Ride, stiffness: float | None) -> Iterator[Metric]:
     modes = np.linalg.eigvals(np.array([[stiffness + spring, -spring], [-spring, spring]]) / masses[:, None])
     expected = math.sqrt(float(modes.real.max())) / (2.0 * math.pi)
     found = _highest_line(wheel, 1.0 / motion.sample_period, *HOP_BAND)
-    yield ride.make("hop", "frequency of wheel hop", found, "Hz", topic="bench/motion", count=wheel.size,
+    yield ride.make("hop", "frequency of wheel hop", found, "Hz", topic="bench/motion", count=wheel.size, broken=_short(ride),
                     band=near(expected, 0.15, "wheel on tire and suspension, no damping"))  # fmt: skip
 
 
