@@ -15,7 +15,7 @@ import numpy as np
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
-from contact_sim_pkg.files import FileRefusedError, check_output, new_file
+from contact_sim_pkg.files import FileRefusedError, check_output, new_file, wrong_name
 from contact_sim_pkg.report.export.table import Map, Table, stamp_of, table_of
 
 __all__ = ["CSV", "PARQUET", "export"]
@@ -47,8 +47,10 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
     names = [bag.topic(each).name for each in topics] or [name for name in bag.topics if bag.count(name)]
     if not names:
         raise BagError(f"{bag.path} holds no message: there is nothing to export")
+    if reason := wrong_name(out):
+        raise FileRefusedError(out, reason)
     if out.exists() and not out.is_dir():
-        raise FileRefusedError(out, "is a file; --out names a folder, in which each topic gets a file")
+        raise FileRefusedError(out, "exists already and is a file; --out names a folder with a file a topic")
     files = [out / f"{file_name(name)}.{form}" for name in names]
     for file in files:
         if out.exists():
