@@ -367,7 +367,8 @@ def test_the_metrics_and_the_page_show_what_the_scene_records(tmp_path):
     metrics = {each.key: each for each in roller_metrics(recording)}
     assert metrics["roller.cycles"].value == 250.0 * recording.series["roller"].tracks[-1].turns
     assert metrics["roller.growth"].verdict == "good"
-    assert 0.0 < metrics["roller.volume"].value < metrics["roller.volume"].band.high
+    below = max(each.volume[-1] for each in recording.series["roller"].volumes)
+    assert metrics["roller.volume"].value >= 1e9 * below  # bending is included
     assert metrics["roller.pressure"].verdict == "good"
     keys = [section.key for section in sections(recording)]
     assert keys[:4] == ["roller", "stability", "track", "stress"]

@@ -12,6 +12,8 @@ from contact_sim_pkg.records.metric import Band
 
 __all__ = ["Conditions", "FoundBand", "band_of", "published_range"]
 
+MOST_NAMED = 3
+"""Conditions that a sentence names."""
 Conditions = Mapping[str, "float | str"]
 """What a run is, by the names of the data file: `load_kN`, `speed_m_s`, `road`."""
 
@@ -48,7 +50,8 @@ def band_of(quantity: str, conditions: Conditions) -> FoundBand:
         _met(wanted, conditions.get(name)) for name, wanted in each.conditions.items() if isinstance(wanted, str)
     )]  # fmt: skip
     published = [entry.band.conditions for entry in fitting or entries]
-    reason = f"no band here: published for {', '.join(published)}" if published else "no band"
+    named = ", ".join(published[:MOST_NAMED]) + (" and others" if len(published) > MOST_NAMED else "")
+    reason = f"no band here: published for {named}" if published else "no band"
     return FoundBand(None, reason, ())
 
 

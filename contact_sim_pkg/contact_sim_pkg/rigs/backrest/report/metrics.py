@@ -43,7 +43,7 @@ def _slaps(make: Any, recording: Recording, contact: ContactSeries) -> Iterator[
     if not count:
         return
     if period is not None and count > 2:
-        between = float(np.median(np.diff(slaps.start)))
+        between = float(np.diff(slaps.start).mean())
         whole = max(1, round(between / period)) * period
         yield make("interval", "time from slap to slap", 1e3 * between, "ms", topic=topic, count=count - 1,
                    band=near(1e3 * whole, 0.02, "whole cycles of the drive"))  # fmt: skip
@@ -110,7 +110,9 @@ def _map(make: Any, recording: Recording, field: FieldSeries) -> Iterator[Metric
     carries, topic = field.load > 0.0, f"{BACKREST}/patch"
     if not carries.any():
         return
-    make = make.__self__._replace(conditions={"contact": "kept" if carries.all() else "opens"}).make
+    kept = "kept" if carries.all() else "opens"
+    conditions: dict[str, float | str] = {"contact": kept, "load_N": float(field.load.mean())}
+    make = make.__self__._replace(conditions=conditions).make
     count = int(carries.sum())
     yield make("mean_pressure", "mean pressure", 1e-3 * field.mean[carries].mean(), "kPa", quantity="back_mean_pressure",
                topic=topic, count=count)  # fmt: skip

@@ -11,6 +11,7 @@ import numpy as np
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, near
 from contact_sim_pkg.report.ranges import FIRST_YIELD
+from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries, roller_of
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -91,8 +92,7 @@ def _volumes(make: Any, roller: RollerSeries) -> Iterator[Metric]:
     place = int(np.argmax(volumes))
     share = 100.0 * volumes[place] / roller.volumes[place].working_volume
     yield make("volume", "dangerous volume, largest", 1e9 * volumes[place], "mm³", topic=f"{ROLLER}/volumes", count=len(volumes),
-               band=at_most(1e9 * roller.volumes[place].working_volume, "working volume"),
-               remark=f"{share:.3g} % of the working volume, at {roller.volumes[place].time:.3g} s")  # fmt: skip
+               remark=f"{number(share)} % of the working volume, at {roller.volumes[place].time:.3g} s")  # fmt: skip
     limit = roller.volumes[place].normal_limit
     depth = roller.volumes[place]
     if depth.peak_pressure > limit:

@@ -16,6 +16,7 @@ from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.report.facts import EXCITATION_KEY
 from contact_sim_pkg.report.metrics.exposure import exposure_metrics
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of
+from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.report.series import FieldSeries, Recording
 from contact_sim_pkg.report.signal import confidence
 from contact_sim_pkg.report.signal.metrics import ride_metrics, seat_factor
@@ -148,7 +149,7 @@ def map_metrics(contact: str, field: FieldSeries, maker: Maker, kind: str) -> li
     )
     return [
         maker.make(key, name, values.mean(), unit, quantity=f"{kind}_{key}", count=count, topic=topic,
-                   remark=f"{values.min():.3g} to {values.max():.3g}")
+                   remark=f"{number(values.min())} to {number(values.max())}")
         for key, name, values, unit in rows
     ]  # fmt: skip
 

@@ -73,6 +73,7 @@ def _conditions(recording: Recording) -> dict[str, float | str]:
         found["load_kN"] = 1e-3 * standing
     if effects.get("inflation"):
         found["inflation_kPa"] = 1e-3 * float(effects["inflation"]["pressure"])
+    found["ring"] = "yes" if effects.get("rigid_ring") is not None else "no"
     found["belt"] = "yes" if effects.get("sidewall_compliance") is not None else "no"
     if road is not None and recording.duration > 0.0:
         found["speed_m_s"] = float(road.travel.distance[-1] - road.travel.distance[0]) / recording.duration
@@ -110,7 +111,7 @@ def _standing(ride: _Ride, stiffness: float | None) -> Iterator[Metric]:
     if stiffness is None:
         return
     yield ride.make("stiffness", "vertical stiffness", 1e-3 * stiffness, "kN/m", quantity="tire_stiffness",
-                    remark="slope within 20 % of the standing load")  # fmt: skip
+                    remark="slope of the contact within 20 % of the standing load")  # fmt: skip
     tire, motion = ride.recording.scene["tire"], ride.recording.motion
     wheel = None if motion is None else motion.acceleration.get("wheel_z")
     if motion is None or wheel is None or not ride.rough:
