@@ -13,13 +13,14 @@ from contact_sim_pkg.records.metric import Band, Metric
 from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags
 from contact_sim_pkg.report.metrics.repeated import repeated
 from contact_sim_pkg.report.signal.metrics import ride_metrics
+from contact_sim_pkg.report.signal.weighting import WD
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 T = STORE.types
 RATE = 500.0
 
 
-def foreign_bag(folder, kind, values, rate=RATE, times=None):
+def foreign_bag(folder, kind, values, rate=RATE, times=None, turning=None):
     """A bag by rosbags with one topic of `kind`; values [samples, 3]."""
     name = {
         "imu": "sensor_msgs/msg/Imu",
@@ -31,13 +32,15 @@ def foreign_bag(folder, kind, values, rate=RATE, times=None):
     zero = vector(0.0, 0.0, 0.0)
     with Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
         connection = writer.add_connection(f"/sensor/{kind}", name, typestore=STORE)
-        for time, row in zip(times, values, strict=True):
+        for time, row, turn in zip(
+            times, values, np.zeros((len(values), 3)) if turning is None else turning, strict=True
+        ):
             stamp = round(time * 1e9)
             top = header(T["builtin_interfaces/msg/Time"](stamp // 10**9, stamp % 10**9), "sensor")
             linear = vector(*map(float, row))
             if kind == "imu":
-                turn, none = T["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0), np.zeros(9)
-                message = T[name](top, turn, none, zero, none, linear, none)
+                attitude, none = T["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0), np.zeros(9)
+                message = T[name](top, attitude, none, vector(*map(float, turn)), none, linear, none)
             elif kind == "accel":
                 message = T[name](top, T["geometry_msgs/msg/Accel"](linear, zero))
             else:
@@ -73,8 +76,28 @@ def test_an_axis_and_a_weighting_are_chosen(tmp_path, shaken):
     assert set(by_key([bag], chosen=("x:Wc", None))) >= {"sensor_imu.a_w", "sensor_imu.crest"}
     assert by_key([bag], chosen=("x:Wc", None))["sensor_imu.a_w"].name == "a_w, Wc"
     assert by_key([bag], chosen=("Wj", None))["sensor_imu.a_w"].name == "a_w, Wj"
-    with pytest.raises(BagError, match=r"--axis Wq: is neither axis nor weighting; allowed are x, y, z, Wk"):
+    assert by_key([bag], chosen=("Wf", None))["sensor_imu.a_w"].band is None  # no words of comfort for motion sickness
+    with pytest.raises(
+        BagError, match=r"--axis Wq: is neither axis nor weighting; allowed are x, y, z, rx, ry, rz, Wk"
+    ):
         metrics_of_bags([bag], chosen=("Wq", None))
+
+
+def test_a_rotation_is_weighted_by_we_and_has_no_band(tmp_path):
+    """rad/s of a sine of 1 Hz and 1 rad/s² rms: a_w is |We(1 Hz)| = 0.8798."""
+    time = np.arange(0.0, 60.0, 1.0 / RATE)
+    velocity = np.sqrt(2.0) / (2.0 * np.pi) * np.sin(2.0 * np.pi * time)
+    bag = foreign_bag(tmp_path / "bag", "imu", np.zeros((time.size, 3)), turning=np.stack([velocity] * 3, axis=1))
+    found = by_key([bag], chosen=("ry", None))["sensor_imu.a_w"]
+    assert found.value == pytest.approx(0.8798, rel=5e-3)  # with the start of the sine
+    assert (found.unit, found.band, found.name) == ("rad/s²", None, "a_w, We")
+
+
+def test_the_daily_dose_of_a_horizontal_axis_is_taken_1_4_times(tmp_path, shaken):
+    bag = foreign_bag(tmp_path / "bag", "accel", shaken)
+    along = ride_metrics(shaken[:, 0], RATE, WD)
+    expected = 1.4 * along.vibration_dose * (8.0 * 3600.0 / 40.0) ** 0.25
+    assert by_key([bag])["sensor_accel.x.dose"].value == pytest.approx(expected, rel=1e-9)
 
 
 def test_forces_of_a_wrench(tmp_path, shaken):

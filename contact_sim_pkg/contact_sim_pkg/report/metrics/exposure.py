@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.report.series import FloatArray
@@ -11,10 +12,32 @@ from contact_sim_pkg.report.signal import confidence
 from contact_sim_pkg.report.signal import spine as spine_model
 from contact_sim_pkg.report.signal.metrics import RideMetrics, daily_dose
 
-__all__ = ["exposure_metrics"]
+__all__ = ["Exposed", "exposure_metrics"]
 
 RATIO_OF_MTVV = 1.5
 """MTVV over a_w above which the running rms is to be read beside a_w (ISO 2631-1, 6.3.3)"""
+
+
+COMFORT = ("Wk", "Wd", "Wc", "Wj", "Wb")
+"""Weightings that the words of ISO 2631-1, annex C, are for."""
+HEALTH = ("Wk", "Wd")
+"""Weightings of Directive 2002/44/EC."""
+
+
+class Exposed(NamedTuple):
+    """What an axis is to the person."""
+
+    weighting: str = "Wk"
+    factor: float = 1.0
+    """of the axis, for health: 1.4 of x and y at the seat"""
+    vertical: bool = True
+    """at the seat, which ISO 2631-5 is for"""
+    decides: bool = True
+    """alone on A(8), no other axis being recorded"""
+    unit: str = "m/s²"
+
+
+VERTICAL = Exposed()
 
 
 def exposure_metrics(
@@ -23,10 +46,7 @@ def exposure_metrics(
     acceleration: FloatArray,
     rate: float,
     doubts: tuple[str, ...],
-    weighting: str = "Wk",
-    *,
-    spine: bool = True,
-    health: bool = True,
+    axis: Exposed = VERTICAL,
 ) -> list[Metric]:
     """Of one axis.
 
@@ -36,29 +56,32 @@ def exposure_metrics(
         acceleration: [samples] in [m/s^2], not weighted.
         rate: [Hz].
         doubts: assumptions that do not hold for any of them.
-        weighting: its name.
-        spine: whether it is vertical at the seat, which ISO 2631-5 is for.
-        health: whether this axis alone decides A(8).
+        axis: what it is to the person.
     """  # fmt: skip
     count, duration = metrics.weighted.size, metrics.weighted.size / rate
     peaky = (*doubts, *confidence.peaky(metrics.crest_factor))
     spread = confidence.spread_of_rms(metrics.weighted, rate)
     a_w, mtvv = metrics.weighted_rms, metrics.largest_running_rms
+    comfort = "weighted_rms" if axis.weighting in COMFORT else ""
     found = [
         make(
-            "a_w", f"a_w, {weighting}", a_w, "m/s²", quantity="weighted_rms", broken=peaky, spread=spread, count=count
-        ),
+            "a_w", f"a_w, {axis.weighting}", a_w, axis.unit, quantity=comfort, broken=peaky, spread=spread, count=count
+        )
     ]
-    if health:
-        found.append(make("a_8", "A(8)", a_w, "m/s²", quantity="daily_exposure", broken=peaky, spread=spread, count=count,
+    if axis.decides:
+        found.append(make("a_8", "A(8)", a_w, axis.unit, quantity="daily_exposure", broken=peaky, spread=spread, count=count,
                           remark="eight hours of this ride, z alone"))  # fmt: skip
+    if axis.weighting in HEALTH:
+        dose = axis.factor * daily_dose(metrics.vibration_dose, duration)
+        said = f"{metrics.vibration_dose:.3g} in the run" + (f", times {axis.factor:g}" if axis.factor != 1.0 else "")
+        found.append(
+            make("dose", "VDV of 8 h", dose, "m/s^1.75", quantity="daily_dose", broken=doubts, count=count, remark=said)
+        )
     found += [
-        make("dose", "VDV of 8 h", daily_dose(metrics.vibration_dose, duration), "m/s^1.75", quantity="daily_dose",
-             broken=doubts, count=count, remark=f"{metrics.vibration_dose:.3g} in the run"),
-        make("mtvv", "MTVV, linear 1 s", mtvv, "m/s²", broken=doubts, count=count, remark=_beside(mtvv, a_w)),
+        make("mtvv", "MTVV, linear 1 s", mtvv, axis.unit, broken=doubts, count=count, remark=_beside(mtvv, a_w)),
         make("crest", "crest factor", metrics.crest_factor, "", quantity="crest_factor", broken=doubts, count=count),
-    ]  # fmt: skip
-    if spine:
+    ]
+    if axis.vertical:
         shocks = spine_model.dose(spine_model.spine_acceleration(acceleration, rate))
         stress = spine_model.stress(spine_model.daily(shocks, duration))
         said = f"S_d {stress:.3g} MPa; man of 82 kg, 240 days of 8 h a year from 20 to 64"

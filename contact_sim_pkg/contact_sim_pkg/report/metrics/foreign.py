@@ -10,24 +10,26 @@ from typing import NamedTuple
 import numpy as np
 
 from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.metadata import RecordedTopic
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.records.metric import Metric
-from contact_sim_pkg.report.metrics.exposure import exposure_metrics
+from contact_sim_pkg.report.metrics.exposure import Exposed, exposure_metrics
 from contact_sim_pkg.report.metrics.maker import Maker
 from contact_sim_pkg.report.series import FloatArray
 from contact_sim_pkg.report.signal import confidence
-from contact_sim_pkg.report.signal.metrics import HORIZONTAL_FACTOR, ride_metrics
+from contact_sim_pkg.report.signal.metrics import HORIZONTAL_FACTOR, RideMetrics, ride_metrics
 from contact_sim_pkg.report.signal.weighting import WD, WEIGHTINGS, WK, Weighting
 
 __all__ = ["foreign_metrics"]
 
 ACCELERATIONS = {
-    "sensor_msgs/msg/Imu": "linear_acceleration",
-    "geometry_msgs/msg/AccelStamped": "accel.linear",
+    "sensor_msgs/msg/Imu": ("linear_acceleration", "angular_velocity"),
+    "geometry_msgs/msg/AccelStamped": ("accel.linear", "accel.angular"),
 }
-"""By type: field of the acceleration"""
+"""By type: fields of the acceleration, and of rotation; a velocity is differentiated"""
 WRENCH = "geometry_msgs/msg/WrenchStamped"
 OF_AXIS = {"x": WD, "y": WD, "z": WK}
+ROTATIONS = dict.fromkeys(("rx", "ry", "rz"), WEIGHTINGS["We"])
 FEWEST = 16
 """samples"""
 
@@ -44,7 +46,8 @@ def foreign_metrics(bag: Bag, axis: str | None = None, topic: str | None = None)
 
     Args:
         bag: of anybody.
-        axis: `x`, `y` or `z`, a weighting as `Wc`, or both as `y:Wd`; None: all three, Wd, Wd, Wk.
+        axis: `x`, `y` or `z`, a rotation `rx`, `ry` or `rz`, a weighting as `Wc`, or both as `y:Wd`; None: x, y and
+            z with Wd, Wd, Wk.
         topic: the one to take; None: all.
 
     Raises:
@@ -64,7 +67,7 @@ def foreign_metrics(bag: Bag, axis: str | None = None, topic: str | None = None)
         if row.type == WRENCH:
             found += _forces(bag, row.name)
             continue
-        metrics, said = _accelerations(bag, row.name, ACCELERATIONS[row.type], wanted)
+        metrics, said = _accelerations(bag, row, wanted)
         found += metrics
         notes.append(said)
     return found, notes
@@ -75,48 +78,70 @@ def _chosen(axis: str | None) -> list[_Chosen]:
     if axis is None:
         return [_Chosen(name, weighting) for name, weighting in OF_AXIS.items()]
     first, _, second = axis.partition(":")
-    name, weighting = (first, second) if first in OF_AXIS else ("z", first)
-    weighting = weighting or OF_AXIS[name].name
-    if weighting not in WEIGHTINGS or (second and first not in OF_AXIS):
-        allowed = f"x, y, z, {', '.join(WEIGHTINGS)}, or both as y:Wd"
+    axes = OF_AXIS | ROTATIONS
+    name, weighting = (first, second) if first in axes else ("z", first)
+    weighting = weighting or axes[name].name
+    if weighting not in WEIGHTINGS or (second and first not in axes):
+        allowed = f"{', '.join(axes)}, {', '.join(WEIGHTINGS)}, or both as y:Wd"
         raise BagError(f"--axis {axis}: is neither axis nor weighting; allowed are {allowed}")
     return [_Chosen(name, WEIGHTINGS[weighting])]
 
 
-def _accelerations(bag: Bag, topic: str, field: str, chosen: list[_Chosen]) -> tuple[list[Metric], str]:
-    columns = bag.columns(topic, ("time", *(f"{field}.{each.axis}" for each in chosen)))
-    time, rate, faults = sampled(bag, topic, columns)
-    name = topic.strip("/").replace("/", "_")
+def _accelerations(bag: Bag, row: RecordedTopic, chosen: list[_Chosen]) -> tuple[list[Metric], str]:
+    """Metrics of each axis chosen of a topic, those of all three together, and what was removed."""
+    names = [_field(row.type, each.axis) for each in chosen]
+    columns = bag.columns(row.name, ("time", *names))
+    time, rate, faults = sampled(bag, row.name, columns)
+    key = row.name.strip("/").replace("/", "_")
+    window = float(time[0]), float(time[-1]) + 1.0 / rate
     found: list[Metric] = []
-    health: list[tuple[float, str]] = []
-    means = []
-    for each in chosen:
-        values = np.asarray(columns[f"{field}.{each.axis}"], dtype=np.float64)[: time.size]
-        mean = float(values.mean())
-        means.append(f"{each.axis} {mean:.3g}")
+    health, means = [], []
+    for each, name in zip(chosen, names, strict=True):
+        values = np.asarray(columns[name], dtype=np.float64)
+        means.append(f"{each.axis} {values.mean():.3g}")
+        if name.startswith("angular_velocity"):
+            values = np.gradient(values, 1.0 / rate)
+        maker = Maker(f"{key}.{each.axis}" if len(chosen) > 1 else key, row.name.lstrip("/"), window)
         metrics = ride_metrics(values, rate, each.weighting)
-        doubts = (
-            *faults, *confidence.short(values.size, rate), *confidence.slow(rate), *confidence.tilted(mean),
-            *confidence.clipped(confidence.clipped_share(values)),
-        )  # fmt: skip
-        label = f"{name}.{each.axis}" if len(chosen) > 1 else name
-        make = Maker(label, topic.lstrip("/"), (float(time[0]), float(time[-1]) + 1.0 / rate)).make
-        alone = each.axis == "z" and each.weighting is WK
-        of_axis = exposure_metrics(
-            make, metrics, values, rate, doubts, each.weighting.name, spine=alone, health=len(chosen) == 1 and alone
-        )
+        of_axis = _axis_metrics(maker, metrics, values, rate, faults, each, len(chosen) == 1)
         found += (
             [metric._replace(name=f"{each.axis}: {metric.name}") for metric in of_axis] if len(chosen) > 1 else of_axis
         )
-        health.append((metrics.weighted_rms * (1.0 if each.axis == "z" else HORIZONTAL_FACTOR), each.axis))
+        health.append((metrics.weighted_rms * _factor(each), each.axis))
     if len(chosen) > 1:
-        found += _together(
-            Maker(name, topic.lstrip("/"), (float(time[0]), float(time[-1]) + 1.0 / rate)), health, found
-        )
-    return (
-        found,
-        f"{topic}: {time.size} samples at {rate:.6g} Hz; mean of each axis removed, gravity with it ({', '.join(means)} m/s²)",
-    )
+        found += _together(Maker(key, row.name.lstrip("/"), window), health, found)
+    removed = f"mean of each axis removed, gravity with it ({', '.join(means)})"
+    return found, f"{row.name}: {time.size} samples at {rate:.6g} Hz; {removed}"
+
+
+def _axis_metrics(
+    maker: Maker,
+    metrics: RideMetrics,
+    values: FloatArray,
+    rate: float,
+    faults: tuple[str, ...],
+    chosen: _Chosen,
+    alone: bool,
+) -> list[Metric]:
+    """Metrics of one axis and what is doubtful about it."""
+    turns, vertical = chosen.axis in ROTATIONS, chosen.axis == "z" and chosen.weighting is WK
+    doubts = (
+        *faults, *confidence.short(values.size, rate), *confidence.slow(rate),
+        *(() if turns else confidence.tilted(float(values.mean()))), *confidence.clipped(confidence.clipped_share(values)),
+    )  # fmt: skip
+    unit = "rad/s²" if turns else "m/s²"
+    exposed = Exposed(chosen.weighting.name, _factor(chosen), vertical, vertical and alone, unit)
+    return exposure_metrics(maker.make, metrics, values, rate, doubts, exposed)
+
+
+def _field(kind: str, axis: str) -> str:
+    """Column of an axis or a rotation."""
+    linear, turning = ACCELERATIONS[kind]
+    return f"{turning if axis in ROTATIONS else linear}.{axis[-1]}"
+
+
+def _factor(chosen: _Chosen) -> float:
+    return HORIZONTAL_FACTOR if chosen.axis in ("x", "y") and chosen.weighting is WD else 1.0
 
 
 def _together(maker: Maker, health: list[tuple[float, str]], found: list[Metric]) -> list[Metric]:

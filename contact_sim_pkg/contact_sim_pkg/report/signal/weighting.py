@@ -28,6 +28,9 @@ PADDING_TIME = 10.0
 then.
 """
 
+PADDED_CORNER = 0.4
+"""[Hz] of a high-pass that `PADDING_TIME` is for; a lower one dies out more slowly"""
+
 
 class UpwardStep(NamedTuple):
     """Parameters of the upward step Hs."""
@@ -115,7 +118,8 @@ def apply_weighting(weighting: Weighting, acceleration: NDArray[np.float64], sam
     if acceleration.ndim != 1:
         raise ValueError(f"acceleration has {acceleration.ndim} dimensions; give one signal at a time")
     # Padded by the decay of the filter, to a size that transforms fast
-    length = scipy.fft.next_fast_len(acceleration.size + round(PADDING_TIME * sample_rate), real=True)
+    padding = PADDING_TIME * max(1.0, PADDED_CORNER / weighting.high_pass)
+    length = scipy.fft.next_fast_len(acceleration.size + round(padding * sample_rate), real=True)
     spectrum = scipy.fft.rfft(acceleration, length)
     spectrum *= response(weighting, scipy.fft.rfftfreq(length, 1.0 / sample_rate))
     weighted: NDArray[np.float64] = scipy.fft.irfft(spectrum, length)[: acceleration.size]

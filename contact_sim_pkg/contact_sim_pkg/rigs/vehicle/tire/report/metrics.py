@@ -65,7 +65,7 @@ def tire_metrics(recording: Recording) -> list[Metric]:
 
 
 def _conditions(recording: Recording) -> dict[str, float | str]:
-    """Standing load [kN], inflation [kPa], mean speed [m/s], road, belt, largest slip."""
+    """Standing load [kN], inflation [kPa], mean speed [m/s], road and ground, ring, belt, largest slip."""
     found = conditions_of(recording.scene)
     effects = (recording.scene.get("effects") or {}).get(TIRE) or {}
     standing, road, shear = standing_load_of(recording.scene), road_of(recording), shear_of(recording)
@@ -73,6 +73,7 @@ def _conditions(recording: Recording) -> dict[str, float | str]:
         found["load_kN"] = 1e-3 * standing
     if effects.get("inflation"):
         found["inflation_kPa"] = 1e-3 * float(effects["inflation"]["pressure"])
+    found["ground"] = "stones" if found.get("road") == "opencrg" else "even"
     found["ring"] = "yes" if effects.get("rigid_ring") is not None else "no"
     found["belt"] = "yes" if effects.get("sidewall_compliance") is not None else "no"
     if road is not None and recording.duration > 0.0:
