@@ -18,10 +18,11 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("growth", "page"): ["--page", "FILE"],
     ("growth", "plot"): ["--plot", "FILE"],
     ("report", "out"): ["BAG", "--out", "FILE"],
+    ("export", "out"): ["BAG", "--csv", "--out", "FILE"],
     ("run", "out"): ["seat_ride", "--offline", "--out", "FILE"],
     ("recover", "target"): ["BAG", "FILE"],
 }
-INPUTS = {"impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag", "file"}
+INPUTS = {"impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag", "file", "tolerances"}
 
 
 @pytest.fixture(scope="module")

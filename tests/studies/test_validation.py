@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from contact_sim_pkg.records.published import Published
+from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.studies.validation import validation
 
 INSIDE = Published(

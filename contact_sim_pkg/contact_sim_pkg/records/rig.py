@@ -61,7 +61,7 @@ class Rig:
             those of papers on the rig included: `bench accuracy RIG`.
         goals: modules whose `GOALS` holds `records.goal.GoalPart`: `bench goals`.
         hard_cases: modules whose `CASES` holds `records.hard_case.HardCase`: `bench hard`.
-        validation: modules whose `VALIDATION` holds `records.published.Published`: `bench
+        validation: modules whose `VALIDATION` holds `records.metric.Published`: `bench
             validation`.
         bench_topics: its own topics below `bench/`, by their whole name.
         scenes: its shipped scenes, each with its place in `bench list`: the smaller the run, the

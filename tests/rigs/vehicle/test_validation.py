@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from contact_sim_pkg.records.published import Published
+from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import seat_transmissibility
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OCCUPANTS
 from contact_sim_pkg.rigs.vehicle.studies import validation_occupant, validation_seat

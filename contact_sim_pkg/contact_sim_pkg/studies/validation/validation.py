@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Callable
 from typing import Any
 
-from contact_sim_pkg.records.published import Published
+from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.records.table import Section
 from contact_sim_pkg.studies import cases
 

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.records.published import Published
+from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import apparent_mass, seat_to_head
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OCCUPANTS, OccupantModel, softened
 from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection, SofteningSection

@@ -16,7 +16,8 @@ from contact_sim_pkg.laws.parameters import FoamElastic
 from contact_sim_pkg.pressure.cushion.foam_layer import Compression, FoamGrid, FoamLayer
 from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, pan_gap
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.records.published import Published
+from contact_sim_pkg.records.metric import Published
+from contact_sim_pkg.report.metrics.bands import published_range
 from contact_sim_pkg.report.signal.metrics import seat_factor, weighted_rms
 from contact_sim_pkg.report.signal.spectrum import CrossDensity, Welch
 from contact_sim_pkg.rigs.vehicle.model import build
@@ -194,6 +195,12 @@ def _office() -> _Map:
     return _sitting(sum(OFFICE_LOADS), 50, thickness, factor * _default_hardness())
 
 
+AREA, MEAN_PRESSURE, PEAK_PRESSURE = (
+    published_range(f"cushion_{name}") for name in ("area", "mean_pressure", "peak_pressure")
+)
+PEAK, PEAK_FREQUENCY = published_range("seat_peak"), published_range("seat_peak_frequency")
+SEAT_FACTOR = published_range("seat_factor_conventional")
+"""Bands of the product's data file."""
 _CAR_SEATS = "car seats with people: textbook values, of no single publication"
 _SEAT_FACTORS = "conventional car seats with people, ISO 10326-1: usual values, of no single publication"
 _CAR_MAPS = "pressure maps of car seats: usual values, of no single publication"
@@ -225,33 +232,33 @@ def _by_percentile(percentile: int) -> Iterator[Published]:
     """Area and pressure of a small, medium or large person on the default cushion."""
     load = SEATED_MASS[percentile] * GRAVITY
     who = f"{_PERSONS[percentile]}, {load:.0f} N"
-    yield _published("cushion", _ADULTS, f"loaded area, {who}", "cm²", "1000 to 1500", (1000.0, 1500.0),
+    yield _published("cushion", _ADULTS, f"loaded area, {who}", "cm²", "1000 to 1500", AREA,
                      lambda: _sitting(load, percentile).area, note=_SMALL if percentile == 5 else "")  # fmt: skip
-    yield _published("cushion", _ADULTS, f"mean pressure of the loaded area, {who}", "kPa", "3 to 8", (3.0, 8.0),
+    yield _published("cushion", _ADULTS, f"mean pressure of the loaded area, {who}", "kPa", "3 to 8", MEAN_PRESSURE,
                      lambda: _sitting(load, percentile).mean)  # fmt: skip
-    yield _published("cushion", _ADULTS, f"largest pressure, {who}", "kPa", "8 to 20", (8.0, 20.0),
+    yield _published("cushion", _ADULTS, f"largest pressure, {who}", "kPa", "8 to 20", PEAK_PRESSURE,
                      lambda: _sitting(load, percentile).largest)  # fmt: skip
 
 
 VALIDATION = [
-    _published("seat", _CAR_SEATS, "peak of T(f), noise of 0.5 to 20 Hz, 1 m/s² rms", "Hz", "about 4", (3.0, 4.7),
+    _published("seat", _CAR_SEATS, "peak of T(f), noise of 0.5 to 20 Hz, 1 m/s² rms", "Hz", "about 4", PEAK_FREQUENCY,
                lambda: _peak(1.0)[0],
                note=f"lines of 1/16 Hz, 0.1 Hz wide (Hann); {NOISES} noises of {LENGTH:g} s"),
-    _published("seat", _CAR_SEATS, "T(f) at its peak, the same noise", "", "1.5 to 2.5", (1.5, 2.5), lambda: _peak(1.0)[1],
+    _published("seat", _CAR_SEATS, "T(f) at its peak, the same noise", "", "1.5 to 2.5", PEAK, lambda: _peak(1.0)[1],
                note="lines 0.4 Hz wide, those of the report, lower it by 4 %"),
     _published("seat", _CAR_SEATS, "frequency from which T(f) is below 1, the same noise", "Hz", "about 6", (4.2, 6.6),
                lambda: _isolates_from(1.0), note="band: √2 times that of the peak, as with one mode"),
-    _published("seat", _SEAT_FACTORS, "SEAT, the same noise", "%", "60 to 90", (60.0, 90.0),
+    _published("seat", _SEAT_FACTORS, "SEAT, the same noise", "%", "60 to 90", SEAT_FACTOR,
                lambda: _seat_factor(_ride(1.0)),
                note="SEAT ranks seats (van Niekerk 2003: 16 car seats, R² 0.94 of estimated against measured); no value "
                     "holds for all floors"),
-    _published("seat", _SEAT_FACTORS, "SEAT in the car, road of class B, 20 m/s", "%", "60 to 90", (60.0, 90.0),
+    _published("seat", _SEAT_FACTORS, "SEAT in the car, road of class B, 20 m/s", "%", "60 to 90", SEAT_FACTOR,
                lambda: _seat_factor(_densities("car_full_bench", "body_z", *ROAD))),
     _published("cushion", _CAR_MAPS, "loaded area, 50th percentile of shape, 498 N (`wei_griffin_2`)", "cm²", "1000 to 1500",
-               (1000.0, 1500.0), lambda: _sitting(LOAD).area, fitted=True),
-    _published("cushion", _CAR_MAPS, "mean pressure of the loaded area, the same", "kPa", "3 to 8", (3.0, 8.0),
+               AREA, lambda: _sitting(LOAD).area, fitted=True),
+    _published("cushion", _CAR_MAPS, "mean pressure of the loaded area, the same", "kPa", "3 to 8", MEAN_PRESSURE,
                lambda: _sitting(LOAD).mean, fitted=True),
-    _published("cushion", _CAR_MAPS, "largest pressure, the same", "kPa", "8 to 20", (8.0, 20.0), lambda: _sitting(LOAD).largest),
+    _published("cushion", _CAR_MAPS, "largest pressure, the same", "kPa", "8 to 20", PEAK_PRESSURE, lambda: _sitting(LOAD).largest),
     *(each for percentile in _PERSONS for each in _by_percentile(percentile)),
     _published("cushion", _FOAMS, "work lost in a slow loop up to 705 N", "%", "15 to 30", (15.0, 30.0), _slow_loop),
     _published("cushion", _FOAMS, "indentation force at 40 % over area times stress, 100 mm", "", "1.25 to 1.45",

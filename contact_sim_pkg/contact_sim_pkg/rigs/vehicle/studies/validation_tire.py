@@ -10,7 +10,8 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
-from contact_sim_pkg.records.published import Published
+from contact_sim_pkg.records.metric import Published
+from contact_sim_pkg.report.metrics.bands import published_range
 from contact_sim_pkg.rigs.vehicle.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.studies.machines.flat_track import Track, flat_track
@@ -263,7 +264,14 @@ def _by_slip() -> Iterator[Published]:
                lambda: _relaxation("slip={angle: 0.005}", 1))  # fmt: skip
     yield slip("relaxation length of the braking force", "m", "0.227", (0.1, 0.25),
                lambda: _relaxation("slip={longitudinal: -0.002}", 0))  # fmt: skip
-    yield slip("largest braking force over the load", "", "1.04", (0.9, 1.1), lambda: _braking()[0], fitted=True)
+    yield slip(
+        "largest braking force over the load",
+        "",
+        "1.04",
+        published_range("tire_friction"),
+        lambda: _braking()[0],
+        fitted=True,
+    )
     yield slip("its slip", "", "0.12", (0.08, 0.18), lambda: _braking()[1])
     yield slip("locked wheel: force over the load", "", "0.74", (0.65, 0.85), lambda: _braking()[2], fitted=True)
     yield slip("largest side force over the load", "", "0.88 at 9 degrees", (0.8, 1.1), _largest_side_force)
@@ -288,12 +296,12 @@ def _by_belt() -> Iterator[Published]:
         yield cleat(f"force along behind the cleat, {speed} km/h", "Hz", "33 or 80" if high else "33",
                     (30.0, 90.0) if high else (30.0, 45.0), partial(_ringing, speed, "longitudinal"))  # fmt: skip
     yield _of("rolling resistance over the load, 60 km/h", "", "0.0086 (0.007 to 0.017, mean 0.010 of many tires)",
-              (0.007, 0.013), _rolling_resistance, fitted=True,
+              published_range("tire_rolling_resistance"), _rolling_resistance, fitted=True,
               note="falls a little with speed, where measured ones rise: the branches end at 1 ms")  # fmt: skip
 
 
 VALIDATION = [
-    _of("stiffness under 4 kN, 220 kPa", "kN/m", "210 (200 to 230 of other tires)", (180.0, 250.0),
+    _of("stiffness under 4 kN, 220 kPa", "kN/m", "210 (200 to 230 of other tires)", published_range("tire_stiffness"),
         lambda: 1e-3 * _stiffness(4000.0), fitted=True),
     *_by_load(),
     _of("relative change of stiffness over that of inflation, 4 kN", "", "0.63", (0.45, 0.9), _inflation_effect,
