@@ -9,19 +9,19 @@ from typing import Any, NamedTuple
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.registry import rigs
-from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.resolve import read_explicit
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, drop_inputs
 
-__all__ = ["Alternative", "all_together", "effects_of", "is_on", "with_effect", "without_effects"]
+__all__ = ["Alternative", "effects_of", "is_on", "with_effect", "without_effects"]
 
 
 class Alternative(NamedTuple):
     """Another scene, and what is different in it beside the one effect."""
 
     scene: ResolvedScene
-    beside: tuple[str, ...]  # effects that are left out or added as well
-    replaced: tuple[str, ...]  # effects that it excludes, which are on
+    beside: tuple[str, ...] = ()  # effects that are left out with it, or added for it
+    replaced: tuple[str, ...] = ()  # effects that it excludes, which are on
+    removed: tuple[str, ...] = ()  # effects that need one that is replaced
 
 
 def effects_of(scene: ResolvedScene) -> Iterator[tuple[Contact, Effect]]:
@@ -42,7 +42,7 @@ def without_effects(scene: ResolvedScene, *effects: Effect) -> Alternative:
     left_out = {effect.name for effect in effects}
     before = {(contact.name, name) for contact in rigs()[scene.rig].contacts for name in _named(scene.data, contact)}
     after = {(contact.name, name) for contact in rigs()[scene.rig].contacts for name in _named(other.data, contact)}
-    return Alternative(other, tuple(sorted({name for _, name in before - after} - left_out)), ())
+    return Alternative(other, tuple(sorted({name for _, name in before - after} - left_out)))
 
 
 def with_effect(scene: ResolvedScene, contact: Contact, effect: Effect) -> Alternative:
@@ -66,26 +66,13 @@ def with_effect(scene: ResolvedScene, contact: Contact, effect: Effect) -> Alter
         for other in gone:
             del named[other.name]
             drop_inputs(data, other)
-    left_out = [name for name in before if name not in named and name not in replaced]
     made = ResolvedScene(read_explicit(ResolvedScene(data).to_yaml(), scene.name), scene.files)
-    beside = [each.name for each in added if each is not effect] + [f"no {name}" for name in left_out]
-    return Alternative(made, tuple(beside), tuple(replaced))
-
-
-def all_together(scene: ResolvedScene) -> ResolvedScene:
-    """The scene with every effect that acts on what is recorded without it and can act beside what is on:
-    none that replaces another, that only adds a topic, or that the scene does not take.
-    """
-    for contact, effect in effects_of(scene):
-        if is_on(scene, contact, effect) or effect.carries or set(effect.feeds) <= {effect.publishes}:
-            continue
-        try:
-            other = with_effect(scene, contact, effect)
-        except SceneError:
-            continue
-        if not other.replaced and not any(name.startswith("no ") for name in other.beside):
-            scene = other.scene
-    return scene
+    return Alternative(
+        made,
+        tuple(each.name for each in added if each is not effect),
+        tuple(replaced),
+        tuple(name for name in before if name not in named and name not in replaced),
+    )
 
 
 def _named(data: dict[str, Any], contact: Contact) -> list[str]:

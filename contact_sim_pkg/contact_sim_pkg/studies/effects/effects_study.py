@@ -4,7 +4,7 @@ whether the scene calls for it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from contact_sim_pkg.compare.columns import judged_topics
@@ -20,7 +20,7 @@ from contact_sim_pkg.studies.effects.alternatives import Alternative, effects_of
 from contact_sim_pkg.studies.effects.event_runs import Base, base_of, changed, finer_run
 from contact_sim_pkg.studies.effects.verdicts import Change
 
-__all__ = ["EffectRow", "Study", "observes", "study", "study_of"]
+__all__ = ["EffectRow", "Study", "measured", "observes", "study", "study_of"]
 
 
 class EffectRow(NamedTuple):
@@ -104,7 +104,7 @@ def _row_on(base: Base, contact: Contact, effect: Effect, notify: Notify) -> Eff
     other = without_effects(base.scene, effect)
     beside = f"with it {' and '.join(other.beside)}" if other.beside else ""
     try:
-        changes, cost = _measured(base, other.scene, notify)
+        changes, cost = measured(base, other.scene, notify, effect.not_below)
     except (SceneError, RunError) as error:
         return EffectRow(contact, effect, True, verdicts.NEEDED, (), None, f"without it {_reason(error)}")
     if observes(contact, effect) and not any(each.size > 0.0 for each in changes):
@@ -117,31 +117,30 @@ def _row_on(base: Base, contact: Contact, effect: Effect, notify: Notify) -> Eff
 def _row_off(base: Base, contact: Contact, effect: Effect, notify: Notify) -> EffectRow:
     try:
         other = with_effect(base.scene, contact, effect)
-        changes, cost = _measured(base, other.scene, notify)
+        changes, cost = measured(base, other.scene, notify, effect.not_below)
     except (SceneError, RunError) as error:
         return EffectRow(contact, effect, False, verdicts.UNAVAILABLE, (), None, f"with it {_reason(error)}")
-    called_for = "" if other.replaced or _lacks(other) else effect.called_for(base.scene)
+    called_for = "" if other.replaced or other.removed else effect.called_for(base.scene)
     verdict = verdicts.verdict_off(changes, base.request, called_for)
     if observes(contact, effect) and not any(each.size > 0.0 for each in changes):
         verdict = "would observe"
     return EffectRow(contact, effect, False, verdict, changes, cost, called_for or _different(other))
 
 
-def _lacks(other: Alternative) -> bool:
-    """Whether an effect that another needs had to go."""
-    return any(name.startswith("no ") for name in other.beside)
-
-
 def _different(other: Alternative) -> str:
-    parts = [f"in place of {' and '.join(other.replaced)}"] if other.replaced else []
-    return ", ".join([*parts, *([f"with {' and '.join(other.beside)}"] if other.beside else [])])
+    parts = (("in place of", other.replaced), ("with", other.beside), ("without", other.removed))
+    return ", ".join(f"{word} {' and '.join(names)}" for word, names in parts if names)
 
 
-def _measured(base: Base, scene: ResolvedScene, notify: Notify) -> tuple[tuple[Change, ...], float]:
-    """What is different in another scene, and its cost [ms] per simulated second."""
+def measured(
+    base: Base, scene: ResolvedScene, notify: Notify, not_below: Mapping[str, float] | None = None
+) -> tuple[tuple[Change, ...], float]:
+    """What is different in another scene, and its cost [ms] per simulated second; ``not_below``: by
+    kind the error that what is different has at every accuracy.
+    """
     cost = base.price.of(scene)
     finer = finer_run(scene, base.spans, notify)
-    return verdicts.changes_of(changed(base, finer.moved), base.errors), cost
+    return verdicts.changes_of(changed(base, finer.moved), base.errors, not_below or {}), cost
 
 
 def _reason(error: SceneError | RunError) -> str:

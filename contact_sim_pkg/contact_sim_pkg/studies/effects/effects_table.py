@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.records.table import Section, number_of
 from contact_sim_pkg.studies.effects import verdicts
 from contact_sim_pkg.studies.effects.effects_study import EffectRow, Study
+from contact_sim_pkg.studies.effects.reduced import Reduced
 
-__all__ = ["answer", "facts_of", "parts", "table"]
+__all__ = ["answer", "facts_of", "facts_of_reduced", "parts", "table"]
 
 LEAST_SHARE = 0.005
 """Of the time: what an effect takes below it is not resolved."""
@@ -137,3 +139,25 @@ def _name(study: Study, row: EffectRow) -> str:
     """Name of the effect, behind that of its contact where two contacts have it."""
     several = sum(each.effect.name == row.effect.name for each in study.rows) > 1
     return f"{row.contact.name} {row.effect.name}" if several else row.effect.name
+
+
+def facts_of_reduced(found: Reduced, path: Path) -> dict[str, Any]:
+    """A written scene as plain values, and as a sentence."""
+    largest = verdicts.largest(found.changes)
+    names = ", ".join(f"{row.contact.name} {row.effect.name}" for row in found.left_out)
+    changed = "nothing" if largest is None else verdicts.shown(largest)
+    sentence = (
+        f"without {names}: changes {changed}, saves {100.0 * found.saving:.0f} %"
+        if names
+        else "nothing can be left out"
+    )
+    return {
+        "file": str(path),
+        "sentence": sentence,
+        "left_out": [f"{row.contact.name}.{row.effect.name}" for row in found.left_out],
+        "put_back": [f"{row.contact.name}.{row.effect.name}" for row in found.put_back],
+        "changes": [each._asdict() for each in found.changes],
+        "cost_ms_per_s": found.cost,
+        "full_cost_ms_per_s": found.full_cost,
+        "saving": found.saving,
+    }

@@ -57,10 +57,21 @@ class Change(NamedTuple):
         return self.size > self.error
 
 
-def changes_of(judgements: Iterable[Judgement], errors: Mapping[tuple[str, str], float]) -> tuple[Change, ...]:
-    """Changes by place and kind, largest first, with the ``errors`` of the numbers."""
+def changes_of(
+    judgements: Iterable[Judgement], errors: Mapping[tuple[str, str], float], not_below: Mapping[str, float]
+) -> tuple[Change, ...]:
+    """Changes by place and kind, largest first, with the ``errors`` of the numbers, which are
+    ``not_below`` some of their kind.
+    """
     found = [
-        Change(each.place, each.kind, each.error, errors.get((each.place, each.kind), 0.0), each.column, each.time)
+        Change(
+            each.place,
+            each.kind,
+            each.error,
+            max(errors.get((each.place, each.kind), 0.0), not_below.get(each.kind, 0.0)),
+            each.column,
+            each.time,
+        )
         for each in judgements
     ]
     return tuple(sorted(found, key=lambda each: (each.resolved, each.size), reverse=True))
