@@ -140,7 +140,7 @@ def measured(
     """
     cost = base.price.of(scene)
     finer = finer_run(scene, base.spans, notify)
-    return verdicts.changes_of(changed(base, finer.moved), base.errors, not_below or {}), cost
+    return verdicts.changes_of(changed(base, finer), base.errors, not_below or {}), cost
 
 
 def _reason(error: SceneError | RunError) -> str:

@@ -116,10 +116,26 @@ def _noticed(key: Key, scale: Scale, columns: Mapping[Key, Column], length: floa
     return scale._replace(scale=max(scale.scale, 0.5 * GRAVITY * length**2))
 
 
-def changed(base: Base, other: dict[Key, Column]) -> list[Judgement]:
-    """Differences of the finer run of another scene from that of the base, over its scales."""
-    columns = base.finer if base.agrees_until is None else until(base.finer, base.agrees_until)
-    return judged(columns, other, base.scales)
+def changed(base: Base, other: EventRun) -> list[Judgement]:
+    """Differences of a finer run of another scene from that of the base, over its scales.
+
+    A force that only one of the two has is none in the other: that of bristles, for one.
+    """
+    scales = {**scales_of(other.columns, standing_of(base.scene)), **base.scales}
+    columns = {**base.finer, **_no_forces(other.moved, base.finer)}
+    others = {**other.moved, **_no_forces(base.finer, other.moved)}
+    if base.agrees_until is not None:
+        columns = until(columns, base.agrees_until)
+    return judged(columns, others, scales)
+
+
+def _no_forces(present: Mapping[Key, Column], run: Mapping[Key, Column]) -> dict[Key, Column]:
+    """Zeros for the forces that are ``present`` and that a run does not have."""
+    return {
+        key: column._replace(values=numpy.zeros_like(column.values))
+        for key, column in present.items()
+        if column.kind == "force" and key not in run
+    }
 
 
 def finer_run(scene: ResolvedScene, spans: Sequence[EventSpan], notify: Notify) -> EventRun:

@@ -85,7 +85,7 @@ CASES = (
                OFF_NEEDED, "wheel hop behind the bump"),
     EffectCase("field over a cleat", "tire_cleat", (), "tire.contact_field", NEEDED, "a point follows the cleat's flanks"),
     EffectCase("ring over a cleat", "tire_cleat", (), "tire.rigid_ring", NEEDED, "a cleat of 20 mm swings the belt at 80 Hz"),
-    EffectCase("field on a flat road", "tire_bump", (FLAT,), "tire.contact_field", NOT_NEEDED, "the point law is that of the field"),
+    EffectCase("field on a flat road", "tire_bump", (FLAT,), "tire.contact_field", NOT_NEEDED, "the point law is the field's"),
     EffectCase("long bump without field", "tire_bump", ("road={kind: bump, position: 10, height: 0.03, length: 6}", NO_FIELD),
                "tire.contact_field", FIGURE, "fifty footprints long"),
     EffectCase("cleat without field", "tire_bump", (CLEAT, NO_FIELD), "tire.contact_field", OFF_NEEDED,

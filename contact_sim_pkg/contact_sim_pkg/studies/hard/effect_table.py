@@ -48,7 +48,7 @@ def mark_of(expected: str, verdict: str) -> str:
 
 def failed(rows: Sequence[Row]) -> bool:
     """Whether too many are wrong."""
-    return sum(row["mark"] != "right" for row in rows) > MOST_WRONG * len(rows)
+    return sum(1 for row in rows if row["mark"] != "right") > MOST_WRONG * len(rows)
 
 
 def sections(rows: Sequence[Row]) -> list[Section]:
