@@ -304,8 +304,8 @@ def call_graph(libraries: Iterable[Any]) -> tuple[CallGraph, set[Call]]:
     Python calls.
     """
     known = {library: None for library in libraries if isinstance(library, KernelLibrary) and library.overload}
-    roots = {call_of(library.overload) for library in known if library.is_entry}
-    waiting, edges = [library for library in known if library.is_entry], list[tuple[Call, Call]]()
+    roots = {call_of(library.overload) for library in known if library.overload.function[2]}
+    waiting, edges = [library for library in known if library.overload.function[2]], list[tuple[Call, Call]]()
     while waiting:
         library = waiting.pop()
         edges += library.calls()

@@ -1,0 +1,71 @@
+"""Table of `docs/effects.md`: what `bench effects --write` leaves out of shipped scenes, and saves.
+
+``python -m contact_sim_pkg.studies.effects.savings docs/effects.md [SCENE...]``
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from contact_sim_pkg.records.table import number_of
+from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.studies.effects import verdicts
+from contact_sim_pkg.studies.effects.effects_study import Study, study_of
+from contact_sim_pkg.studies.effects.reduced import Reduced, all_together, reduced
+
+__all__ = ["SCENES", "main", "table_of", "with_table"]
+
+SCENES = (
+    "car_full_bench", "tire_cleat", "tire_braking", "tire_half_space", "seat_ride_full", "seat_slap", "impact_rubber_drop",
+    "roller_corrugation",
+)  # fmt: skip
+BEGIN, END = (f"<!-- tables made from contact_sim_pkg.studies.effects.savings: {word} -->" for word in ("begin", "end"))
+WAYS = {"": (False, True), "without observers": (False, False), "from all": (True, True)}
+"""Start from all that can act together, and keep observers."""
+
+
+def table_of(scenes: Sequence[str], notify: Callable[[str], None]) -> list[str]:
+    """Lines of the table."""
+    lines = ["| scene | at | left out | saves | changes | CPU s |", "|---|---|---|---|---|---|"]
+    for name in scenes:
+        for way, (everything, observers) in WAYS.items():
+            began = time.process_time()
+            resolved = load_resolved(name)
+            start = all_together(resolved) if everything else resolved
+            if everything and start == resolved:
+                continue
+            study = study_of(start, notify)
+            found = reduced(study, notify, observers=observers)
+            if found.left_out or not way:
+                lines.append(_line(f"`{name}` {way}".strip(), study, found, time.process_time() - began))
+                notify(lines[-1])
+    return lines
+
+
+def with_table(page: str, lines: Sequence[str]) -> str:
+    """A page with the table in the place of the one before."""
+    before, _, rest = page.partition(BEGIN)
+    return "\n".join([before + BEGIN, "", *lines, "", END + rest.partition(END)[2]])
+
+
+def main(arguments: list[str]) -> int:
+    """Write the table into the given page."""
+    path = Path(arguments[0])
+    lines = table_of(arguments[1:] or SCENES, lambda line: print(line, file=sys.stderr, flush=True))
+    path.write_text(with_table(path.read_text(encoding="utf-8"), lines), encoding="utf-8")
+    return 0
+
+
+def _line(name: str, study: Study, found: Reduced, seconds: float) -> str:
+    most = verdicts.largest(found.changes)
+    left_out = ", ".join(row.effect.name for row in found.left_out) or "nothing"
+    changed = "nothing" if most is None or most.size == 0.0 else verdicts.shown(most)
+    saving = f"{100.0 * found.saving:.0f} %" if found.left_out else "–"
+    return f"| {name} | {number_of(study.base.request)} | {left_out} | {saving} | {changed} | {seconds:.0f} |"
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))
