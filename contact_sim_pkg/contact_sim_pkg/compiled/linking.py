@@ -303,16 +303,20 @@ def call_graph(libraries: Iterable[Any]) -> tuple[CallGraph, set[Call]]:
     """Calls of the functions whose libraries are given, direct or not; and those among them that
     Python calls.
     """
-    known = {library: None for library in libraries if isinstance(library, KernelLibrary) and library.overload}
-    roots = {call_of(library.overload) for library in known if library.overload.function[2]}
-    waiting, edges = [library for library in known if library.overload.function[2]], list[tuple[Call, Call]]()
+    entries = {
+        library: call_of(library.overload)
+        for library in libraries
+        if isinstance(library, KernelLibrary) and library.overload is not None and library.overload.function[2]
+    }
+    known, waiting, edges = set(entries), list(entries), list[tuple[Call, Call]]()
     while waiting:
         library = waiting.pop()
         edges += library.calls()
         for each in (*library.callees, *library._called):
             if each not in known:
-                known[each] = None
+                known.add(each)
                 waiting.append(each)
+    roots = set(entries.values())
     return graph_of(edges, roots), roots
 
 

@@ -19,7 +19,7 @@ from typing import NamedTuple
 from contact_sim_pkg.compiled.call_graph import Call, CallGraph, only_through
 from contact_sim_pkg.compiled.jit import calls_of
 from contact_sim_pkg.records.hard_case import Finding, HardCase, exactly
-from contact_sim_pkg.records.registry import effects, rigs
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -81,14 +81,9 @@ def absent_law(law: Law) -> Finding:
     """
     scene = load_resolved(law.scene, *law.values)
     graph, roots = _calls(scene)
-    present = functions_of(graph, roots, law.mark)
-    if not present:
+    if not functions_of(graph, roots, law.mark):
         return Finding(math.nan, f"functions of {law.effect} where it is on", -math.inf)
-    without, others = _calls(_without(scene, law.effect))
-    left = functions_of(without, others, law.mark)
-    if not _carries(law.effect):  # what takes its place calls the same losses
-        left |= present & set(without)
-    return exactly(float(len(left)), 0.0)
+    return exactly(float(len(functions_of(*_calls(_without(scene, law.effect)), law.mark))), 0.0)
 
 
 def functions_of(graph: CallGraph, roots: set[Call], mark: str) -> set[Call]:
@@ -102,11 +97,6 @@ def functions_of(graph: CallGraph, roots: set[Call], mark: str) -> set[Call]:
 def _calls(scene: ResolvedScene) -> tuple[CallGraph, set[Call]]:
     """What a run of a scene calls, as far as its preparation compiles all of it."""
     return calls_of(lambda: make_simulation(scene).prepare())
-
-
-def _carries(name: str) -> bool:
-    contact, _dot, effect = name.partition(".")
-    return effects()[effect][contact].carries
 
 
 def _without(scene: ResolvedScene, name: str) -> ResolvedScene:

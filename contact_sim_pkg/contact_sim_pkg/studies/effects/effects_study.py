@@ -77,6 +77,7 @@ def study_of(scene: ResolvedScene, notify: Notify, only: str = "") -> Study:
 
     Raises RunError where its run ends.
     """
+    notify(f"{scene.name}: kernels of each combination of effects are compiled once, some seconds for each")
     notify(f"{scene.name}: the scene as it stands, and one level finer")
     base = base_of(scene, notify)
     length = scene.block_length

@@ -8,7 +8,10 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
+
+import click
 
 from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.scene.resolve import load_resolved
@@ -54,7 +57,7 @@ def with_table(page: str, lines: Sequence[str]) -> str:
 def main(arguments: list[str]) -> int:
     """Write the table into the given page."""
     path = Path(arguments[0])
-    lines = table_of(arguments[1:] or SCENES, lambda line: print(line, file=sys.stderr, flush=True))
+    lines = table_of(arguments[1:] or SCENES, partial(click.echo, err=True))
     path.write_text(with_table(path.read_text(encoding="utf-8"), lines), encoding="utf-8")
     return 0
 
