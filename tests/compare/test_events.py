@@ -43,7 +43,7 @@ def test_a_shock_is_in_the_span_of_a_seat():
 def test_a_rig_that_begins_at_the_start_runs_as_much_as_its_work_allows():
     (short,) = spans("seat_shock")
     assert (short.reason, short.span) == ("the whole run", (0, 0, 300))
-    (long,) = spans("seat_ride_full", "duration=3600")
+    (long,) = spans("seat_slap", "duration=3600")
     # 1 ms a block on a usual machine: 10 s of work are some 10 000 blocks of 360 000
     assert long.reason == "from the start"
     assert 9_000 < long.span.end <= 10_000
