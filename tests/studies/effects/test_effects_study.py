@@ -70,7 +70,9 @@ def test_the_written_scene_has_what_the_scene_calls_for(tmp_path):
     assert set(load_resolved(str(path)).data["effects"]["impact"]) == {"normal_elastic", "normal_dissipative"}
     assert facts["written"]["saving"] > 0.0
     assert all(each["size"] == 0.0 for each in facts["written"]["changes"])
-    assert facts["answer"].startswith("impact_rubber_drop at 1e-3: no effect that is on can be left out")
+    assert facts["answer"].startswith(
+        "impact_rubber_drop at 1e-3: every effect that acts is needed; none that is off is needed"
+    )
     assert "only observing: " in facts["answer"]
     by_name = {row["effect"]: row for row in facts["rows"]}
     assert by_name["normal_elastic"]["verdict"] == verdicts.CARRIES

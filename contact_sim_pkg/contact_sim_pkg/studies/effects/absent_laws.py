@@ -40,13 +40,13 @@ class Law(NamedTuple):
 SOFT_TIRE = ("effects.tire.inflation=null", "effects.tire.normal_elastic={}")
 SPRING_SEAT = ("effects.seat.cushion=null", "effects.seat.normal_elastic={}")
 LAWS = (
-    *(
-        Law(f"tire.{effect}", mark, "tire_cleat")
-        for effect, mark in (
-            ("inflation", "TabulatedElastic"), ("normal_dissipative", "NormalDissipative"), ("contact_field", "FieldRequest"),
-            ("rigid_ring", "RigidRing"), ("brush", "Brush"), ("sidewall_compliance", "Sidewalls"), ("wheel_spin", "WheelSpin"),
-        )
-    ),
+    Law("tire.inflation", "TabulatedElastic", "tire_cleat"),
+    Law("tire.normal_dissipative", "NormalDissipative", "tire_cleat"),
+    Law("tire.contact_field", "FieldRequest", "tire_cleat"),
+    Law("tire.rigid_ring", "RigidRing", "tire_cleat"),
+    Law("tire.brush", "Brush", "tire_cleat"),
+    Law("tire.sidewall_compliance", "Sidewalls", "tire_cleat"),
+    Law("tire.wheel_spin", "WheelSpin", "tire_cleat"),
     Law("tire.normal_elastic", "NormalElastic", "tire_bump", SOFT_TIRE),
     Law("tire.tread_viscoelasticity", "update_branches", "tire_bump", ("effects.tire.tread_viscoelasticity={}",)),
     Law("tire.asperity_impulses", "AsperityImpulses", "tire_bump", ("effects.tire.asperity_impulses={}",)),

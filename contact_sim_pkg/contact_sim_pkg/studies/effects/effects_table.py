@@ -20,13 +20,16 @@ def answer(study: Study) -> str:
     """The answer in one line."""
     groups = (
         ("on but not needed", study.with_verdict(verdicts.NOT_NEEDED), _saving),
+        ("on, but within the accuracy", study.with_verdict(verdicts.WITHIN), _saving),
         ("off but needed", study.with_verdict(verdicts.OFF_NEEDED, on=False), _change),
         ("only observing", study.with_verdict(verdicts.OBSERVES), _price),
         (verdicts.NUMBERS, study.with_verdict(verdicts.NUMBERS), _change),
     )
     found = [f"{title}: {', '.join(each(study, row) for row in rows)}" for title, rows, each in groups if rows]
-    if not any(rows for _title, rows, _each in groups[:2]):
-        found.insert(0, "no effect that is on can be left out, and none that is off is needed")
+    if not groups[2][1]:
+        found.insert(0, "none that is off is needed")
+    if not (groups[0][1] or groups[1][1] or groups[4][1]):
+        found.insert(0, "every effect that acts is needed")
     return f"{study.base.scene.name} at {number_of(study.base.request)}: {'; '.join(found)}"
 
 

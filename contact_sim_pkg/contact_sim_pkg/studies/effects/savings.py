@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -15,6 +15,7 @@ import click
 
 from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.studies.effects import verdicts
 from contact_sim_pkg.studies.effects.effects_study import Study, study_of
 from contact_sim_pkg.studies.effects.reduced import Reduced, all_together, reduced
@@ -27,8 +28,6 @@ SCENES = (
 )  # fmt: skip
 FROM_ALL = ("seat_slap", "impact_rubber_drop")  # of these it takes seconds
 BEGIN, END = (f"<!-- tables made from contact_sim_pkg.studies.effects.savings: {word} -->" for word in ("begin", "end"))
-WAYS = {"": (False, True), "without observers": (False, False), "from all": (True, True)}
-"""Whether from all that can act together, and whether observers stay."""
 
 
 def table_of(scenes: Sequence[str], notify: Callable[[str], None]) -> list[str]:
@@ -36,16 +35,25 @@ def table_of(scenes: Sequence[str], notify: Callable[[str], None]) -> list[str]:
     lines = ["| scene | at | left out | saves | changes | CPU s |", "|---|---|---|---|---|---|"]
     for name in scenes:
         resolved = load_resolved(name)
-        for way, (everything, observers) in WAYS.items():
-            if everything and name not in FROM_ALL:
-                continue
-            began = time.process_time()
-            study = study_of(all_together(resolved) if everything else resolved, notify)
-            found = reduced(study, notify, observers=observers)
-            if found.left_out or not way:
-                lines.append(_line(f"`{name}` {way}".strip(), study, found, time.process_time() - began))
-                notify(lines[-1])
+        lines += _of_scene(f"`{name}`", resolved, notify, (True, False))
+        if name in FROM_ALL:
+            lines += _of_scene(f"`{name}` from all", all_together(resolved), notify, (True,))
     return lines
+
+
+def _of_scene(name: str, scene: ResolvedScene, notify: Callable[[str], None], ways: Sequence[bool]) -> Iterator[str]:
+    """Lines of a scene with and without its observers; the second only where that is another scene."""
+    began = time.process_time()
+    study, before = study_of(scene, notify), -1
+    for observers in ways:
+        found = reduced(study, notify, observers=observers)
+        if len(found.left_out) != before:
+            line = _line(
+                f"{name}{'' if observers else ' without observers'}", study, found, time.process_time() - began
+            )
+            notify(line)
+            yield line
+        before = len(found.left_out)
 
 
 def with_table(page: str, lines: Sequence[str]) -> str:
