@@ -72,6 +72,8 @@ class Rig:
             breaches.
         standing: ``module:function`` of the plain data of a resolved scene -> `Standing`:
             scales of its errors; empty: unknown, and nothing rests on a contact.
+        events: ``module:function`` of a resolved scene -> names and instants [s] of what the scene
+            itself prescribes: largest slip, torque; empty: nothing.
         kernels: about how many kernels its richest scene compiles at its first start; 0: unknown.
     """
 
@@ -96,6 +98,7 @@ class Rig:
     forecast: str = ""
     rules: tuple[str, ...] = ()
     standing: str = ""
+    events: str = ""
     kernels: int = 0
 
 

@@ -21,6 +21,7 @@ HARD_CASES = (
     *(f"{_PACKAGE}.studies.field.{name}" for name in ("hard_cases_geometry", "hard_cases_field", "hard_cases_entries")),
     *(f"{_PACKAGE}.papers.{name}.hard_cases" for name in ("distance", "cnoidal")),
     f"{_PACKAGE}.identify.studies.hard_cases",
+    f"{_PACKAGE}.studies.effects.absent_laws",
 )  # fmt: skip
 """Modules of hard cases of no rig."""
 

@@ -48,6 +48,7 @@ _ACCURACY = (f"{__name__}.studies.accuracy",)
 _TIRE_REPORT, _SEAT_REPORT = f"{__name__}.tire.report:TIRE_REPORT", f"{__name__}.seat.report:SEAT_REPORT"
 _ROAD_STRIP = f"{__name__}.lattice:road_strip"
 _STANDING = f"{__name__}.lattice:standing"
+_EVENTS = f"{__name__}.tire.effects:prescribed_events"
 
 RIGS = (
     Rig(
@@ -72,6 +73,7 @@ RIGS = (
         report=(_TIRE_REPORT,),
         road_strip=_ROAD_STRIP,
         standing=_STANDING,
+        events=_EVENTS,
         accuracy=_ACCURACY,
         work_precision=tuple(
             f"{__name__}.studies.work_precision.{name}"
@@ -121,6 +123,7 @@ RIGS = (
         report=(_TIRE_REPORT, _SEAT_REPORT),
         road_strip=_ROAD_STRIP,
         standing=_STANDING,
+        events=_EVENTS,
         accuracy=_ACCURACY,
         goals=(f"{__name__}.studies.goals",),
     ),
