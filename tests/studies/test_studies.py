@@ -1,12 +1,12 @@
 import numpy
 import pytest
 
-from contact_sim_pkg.rigs.vehicle.studies import accuracy_field as accuracy_cost_field
-from contact_sim_pkg.rigs.vehicle.studies import accuracy_integrator as accuracy_cost_integrator
+from contact_sim_lab import cases
+from contact_sim_lab.accuracy import scene_study as accuracy_cost
+from contact_sim_lab.goals import starts
+from contact_sim_lab.rigs.vehicle import accuracy_field as accuracy_cost_field
+from contact_sim_lab.rigs.vehicle import accuracy_integrator as accuracy_cost_integrator
 from contact_sim_pkg.scene.resolve import load_resolved
-from contact_sim_pkg.studies import cases
-from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
-from contact_sim_pkg.studies.goals import starts
 
 
 @pytest.fixture(scope="module")

@@ -45,9 +45,9 @@ def command(
     from contact_sim_pkg.studies.effects import effects_study, effects_table, reduced
 
     if write is not None:
+        check_output(write, [find_scene(scene)], overwrite=overwrite)
         if write.suffix not in (".yaml", ".yml"):
             raise click.UsageError(f"--write {write}: the name of a scene's file ends in .yaml")
-        check_output(write, [find_scene(scene)], overwrite=overwrite)
     resolved = load_resolved(scene)
     found = effects_study.study_of(reduced.all_together(resolved) if start == "all" else resolved, _report)
     if not as_json:

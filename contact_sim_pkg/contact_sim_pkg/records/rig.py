@@ -55,14 +55,6 @@ class Rig:
         other_half: ``module:function`` of a resolved scene, called in a second process: compiles
             kernels that the run comes to late; empty: none.
         unused_axes: plain data of its effects by contact -> axes whose vibration moves nothing.
-        accuracy: modules whose `ACCURACY` holds `records.accuracy.AccuracyStudy`: `bench accuracy
-            SCENE`.
-        work_precision: modules whose `WORK_PRECISION` holds `records.work_precision.WorkPrecision`,
-            those of papers on the rig included: `bench accuracy RIG`.
-        goals: modules whose `GOALS` holds `records.goal.GoalPart`: `bench goals`.
-        hard_cases: modules whose `CASES` holds `records.hard_case.HardCase`: `bench hard`.
-        validation: modules whose `VALIDATION` holds `records.metric.Published`: `bench
-            validation`.
         bench_topics: its own topics below `bench/`, by their whole name.
         scenes: its shipped scenes, each with its place in `bench list`: the smaller the run, the
             sooner.
@@ -88,11 +80,6 @@ class Rig:
     work: str = ""
     other_half: str = ""
     unused_axes: Callable[[Mapping[str, Any]], str] = lambda _effects: ""
-    accuracy: tuple[str, ...] = ()
-    work_precision: tuple[str, ...] = ()
-    goals: tuple[str, ...] = ()
-    hard_cases: tuple[str, ...] = ()
-    validation: tuple[str, ...] = ()
     bench_topics: tuple[str, ...] = ()
     scenes: Mapping[str, int] = field(default_factory=dict)
     forecast: str = ""

@@ -10,11 +10,11 @@ import time
 import pytest
 from click.testing import CliRunner
 
+from contact_sim_lab.hard import effect_cases, effect_table
 from contact_sim_pkg.cli.effects import command
 from contact_sim_pkg.compare import span
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.studies.effects import effects_study, effects_table, reduced, verdicts
-from contact_sim_pkg.studies.hard import effect_cases, effect_table
 
 QUICK = (
     "slip angle of 1e-9 rad", "sliding of 1e-12 m", "ride without loss", "rubber at 256 K", "0.01 K apart",
