@@ -1,3 +1,21 @@
-"""Contact forces and pressure fields of simulated rigs, as ROS 2 topics and bags."""
+"""Contact forces and pressure fields of simulated rigs, as ROS 2 topics and bags.
+
+As a library: ``from contact_sim_pkg import load_scene, open_bag, run, series``; laws of a contact
+point in ``contact_sim_pkg.laws``, pressure fields in ``contact_sim_pkg.pressure``, rigs in
+``contact_sim_pkg.rigs``. `docs/library.md` has examples. ``run`` is also the package of that name:
+it can be called.
+"""
+
+from contact_sim_pkg.public import on_use
 
 __version__ = "0.1.0"
+__all__ = ["__version__", "load_scene", "open_bag", "series"]
+
+__getattr__ = on_use(
+    __name__,
+    {
+        "load_scene": "contact_sim_pkg.library:load_scene",
+        "open_bag": "contact_sim_pkg.bag.reader:open_bag",
+        "series": "contact_sim_pkg.library:series",
+    },
+)

@@ -1,0 +1,23 @@
+"""Names that a package offers without importing what they come from before they are used."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from typing import Any
+
+__all__ = ["on_use"]
+
+
+def on_use(package: str, places: Mapping[str, str]) -> Callable[[str], Any]:
+    """The `__getattr__` of a package: its public names, each from ``module:name`` when it is used.
+    Raises AttributeError for any other name.
+    """
+
+    def get(name: str) -> Any:
+        if name not in places:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}")
+        module, _, attribute = places[name].partition(":")
+        return getattr(import_module(module), attribute)
+
+    return get

@@ -1,0 +1,79 @@
+"""The bench as a library: the examples run, and a series has one row a sample, as the messages hold them."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy
+import pytest
+from tests.bench_process import ENVIRONMENT, LONGEST_COMMAND
+
+import contact_sim_pkg
+from contact_sim_pkg import load_scene, open_bag, series
+
+EXAMPLES = Path(__file__).parents[1] / "examples" / "library"
+
+
+def run_example(name, folder):
+    environment = {**ENVIRONMENT, "MPLBACKEND": "agg"}
+    command = [sys.executable, EXAMPLES / name]
+    done = subprocess.run(
+        command, cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST_COMMAND, check=True
+    )
+    return done.stdout
+
+
+def test_a_faster_wheel_is_pressed_harder_by_a_bump(tmp_path):
+    forces = [float(each) for each in re.findall(r"(\d+) N at", run_example("force_over_a_bump.py", tmp_path))]
+    assert len(forces) == 3
+    assert forces == sorted(forces)
+
+
+def test_the_pressure_of_a_sphere_is_that_of_hertz(tmp_path):
+    """E* = 5 MPa, R = 50 mm, 3 N: a = 2.823 mm, delta = a^2/R = 0.15937 mm, p0 = 3 F/(2 pi a^2) = 179.7 kPa."""
+    text = run_example("pressure_of_a_sphere.py", tmp_path)
+    a = (3.0 * 3.0 * 0.05 / (4.0 * 5e6)) ** (1.0 / 3.0)
+    approach, peak = 1e3 * a**2 / 0.05, 1e-3 * 3.0 * 3.0 / (2.0 * numpy.pi * a**2)
+    found = [float(each) for each in re.findall(r"(\d+\.\d+) (?:mm|kPa)", text)]
+    assert found[:2] == pytest.approx([approach] * 2, rel=2e-3)
+    assert found[2:] == pytest.approx([peak] * 2, rel=2e-2)
+
+
+def test_the_notebook_shows_its_picture(tmp_path):
+    assert re.search(r"tire \d+ N, seat \d+ N", run_example("seat_and_tire.py", tmp_path))
+    assert (tmp_path / "seat_and_tire.png").stat().st_size > 10_000
+
+
+def test_a_series_has_one_row_a_sample(tmp_path):
+    bag = contact_sim_pkg.run(load_scene("seat_ride", "duration=0.1"), tmp_path / "bag")
+    force, columns = series(bag, "seat/force"), bag.columns("seat/force")
+    assert len(force) == 100
+    assert force.time == pytest.approx(numpy.arange(100) * 1e-3, abs=1e-9)
+    assert force["normal"].tobytes() == columns["normal"].tobytes()
+    assert force.units["normal"] == "N"
+    with pytest.raises(KeyError, match="it has block, normal"):
+        force["norma"]
+    assert series(tmp_path / "bag", "bench/motion")["position.seat_frame_z"].shape == (100,)
+
+
+def test_a_temporary_bag_goes_with_its_object():
+    bag = contact_sim_pkg.run(load_scene("seat_ride", "duration=0.05"))
+    path = bag.path
+    assert open_bag(path).complete
+    del bag
+    assert not path.exists()
+
+
+def test_what_is_public_is_there():
+    import contact_sim_pkg.laws as laws
+    import contact_sim_pkg.pressure as pressure
+    import contact_sim_pkg.rigs as rigs
+
+    page = (Path(__file__).parents[1] / "docs" / "library.md").read_text()
+    for package, module in (("laws", laws), ("pressure", pressure), ("rigs", rigs)):
+        row = next(line for line in page.splitlines() if line.startswith(f"| `contact_sim_pkg.{package}`"))
+        for name in re.findall(r"`(\w+)`", row.split("|")[2]):
+            assert callable(getattr(module, name)), name
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        getattr(pressure, "nothing")  # noqa: B009
