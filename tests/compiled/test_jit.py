@@ -67,6 +67,7 @@ class Start:
             (room / "__init__.py").touch()
         for name in (
             "assembler.py",
+            "call_graph.py",
             "companion.py",
             "compiler.py",
             "jit.py",

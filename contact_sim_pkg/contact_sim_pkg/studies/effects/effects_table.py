@@ -26,9 +26,10 @@ def answer(study: Study) -> str:
         (verdicts.NUMBERS, study.with_verdict(verdicts.NUMBERS), _change),
     )
     found = [f"{title}: {', '.join(each(study, row) for row in rows)}" for title, rows, each in groups if rows]
+    on = sum(bool(rows) for _title, rows, _each in groups[:2])
     if not groups[2][1]:
-        found.insert(0, "none that is off is needed")
-    if not (groups[0][1] or groups[1][1] or groups[4][1]):
+        found.insert(on, "none that is off is needed")
+    if not on and not groups[4][1]:
         found.insert(0, "every effect that acts is needed")
     return f"{study.base.scene.name} at {number_of(study.base.request)}: {'; '.join(found)}"
 
