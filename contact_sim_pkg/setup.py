@@ -36,7 +36,7 @@ setup(
             "py.typed",
             "**/*.pyi",
         ],
-        f"{PACKAGE}.report": ["templates/*", "templates/**/*"],
+        f"{PACKAGE}.report": ["templates/*", "templates/**/*", "metrics/*.yaml"],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
@@ -60,7 +60,10 @@ setup(
         "scipy>=1.11,<2",
         "zstandard>=0.22,<1",
     ],
-    extras_require={"test": ["hypothesis", "mcap-ros2-support", "pytest", "pytest-xdist"]},
+    extras_require={
+        "parquet": ["pyarrow>=15"],
+        "test": ["hypothesis", "mcap-ros2-support", "pytest", "pytest-xdist"],
+    },
     entry_points={
         "console_scripts": [
             f"bench = {PACKAGE}.cli.main:main",

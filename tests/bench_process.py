@@ -21,9 +21,10 @@ from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
 needs_ros = pytest.mark.ros
 
 PACKAGE = Path(__file__).resolve().parents[1] / "contact_sim_pkg"
+LABORATORY = PACKAGE.with_name("contact_sim_lab")
 ENVIRONMENT = {
     **os.environ,
-    "PYTHONPATH": os.pathsep.join(filter(None, [str(PACKAGE), os.environ.get("PYTHONPATH")])),
+    "PYTHONPATH": os.pathsep.join(filter(None, [str(PACKAGE), str(LABORATORY), os.environ.get("PYTHONPATH")])),
     "RCUTILS_CONSOLE_OUTPUT_FORMAT": "{severity} {name}: {message}",
 }
 LONGEST = 300.0  # [s] for what a test waits for, on a busy machine; kernels of one vehicle may have to be compiled

@@ -3,12 +3,12 @@
 import ast
 
 import pytest
-from tests.house.source import PACKAGE, circles, imports, modules
+from tests.house.source import LABORATORY, PACKAGE, circles, imports, modules
 
 ORDER = (
     ("files", "python_process", "requirements"),
-    ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid", "reference"), ("excitation",),
-    ("scene",), ("bag",), ("run",), ("compare",), ("report",), ("rigs", "identify"), ("papers",), ("studies",), ("nodes",),
+    ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid"), ("excitation",),
+    ("scene",), ("bag",), ("run",), ("compare",), ("report",), ("rigs", "identify"), ("studies",), ("nodes",),
     ("cli",),
 )  # fmt: skip
 """A room imports from those before it, and from none beside it."""
@@ -75,3 +75,14 @@ def test_an_import_against_the_order_is_seen():
 
 def test_no_modules_import_each_other(edges):
     assert circles(edges) == []
+
+
+def test_nothing_of_the_product_imports_the_laboratory():
+    """It names it once, as a text, to say what to install."""
+    naming = {name for name, module in modules().items() if LABORATORY.name in module.text}
+    assert naming == {"cli.laboratory", "cli.main"}
+    assert not [name for name, module in modules().items() if f"from {LABORATORY.name}" in module.text]
+
+
+def test_no_modules_of_the_laboratory_import_each_other():
+    assert circles(imports(modules(LABORATORY), LABORATORY.name)) == []

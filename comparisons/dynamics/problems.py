@@ -8,7 +8,7 @@ from typing import NamedTuple, Protocol
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.reference.rigid_impact import newton_by_enumeration
+from contact_sim_lab.twins.rigid_impact import newton_by_enumeration
 
 __all__ = ["GRAVITY", "PROBLEMS", "SIDE", "Engine", "Outcome", "Start", "measure"]
 

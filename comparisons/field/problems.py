@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.rigs.vehicle.studies.work_precision.rolling_problem import LOAD, rolling_problem
+from contact_sim_lab.rigs.vehicle.work_precision.rolling_problem import LOAD, rolling_problem
 
 __all__ = ["Field", "Problem", "hertz", "rough", "tire"]
 

@@ -10,7 +10,7 @@ import numpy
 from comparisons.field.measure import Row
 from comparisons.field.plan import Task
 from comparisons.field.solver import OURS
-from contact_sim_pkg.studies.field.field_benchmark import read_at
+from contact_sim_lab.field.field_benchmark import read_at
 
 __all__ = ["AIMS", "Aim", "Reading", "Verdict", "readings", "verdicts"]
 

@@ -5,7 +5,7 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 WORKSPACE = PROJECT / "ros2_ws"
 ENVIRONMENT = PROJECT / ".ros2"
-PACKAGES = ("contact_msgs_defs", "contact_sim_pkg")
+PACKAGES = ("contact_msgs_defs", "contact_sim_pkg", "contact_sim_lab")
 
 LOCK = WORKSPACE / "requirements.txt"
 BUILD_TOOLS_LOCK = WORKSPACE / "requirements-build-tools.txt"

@@ -1,18 +1,17 @@
 """`bench accuracy` with the name of a rig, a scene or a bag, and `bench run --check`."""
 
 import json
-from dataclasses import replace
 
 import pytest
 from click.testing import CliRunner
 
+from contact_sim_lab.accuracy import rig_study, scene_study, work_precision
+from contact_sim_lab.cases import RigStudies, rig_studies
+from contact_sim_lab.records.work_precision import WorkPrecision
+from contact_sim_lab.rigs.vehicle.work_precision import road as work_precision_road
 from contact_sim_pkg.cli.accuracy import command
 from contact_sim_pkg.cli.main import main
-from contact_sim_pkg.records.registry import rigs
-from contact_sim_pkg.records.work_precision import WorkPrecision
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import road as work_precision_road
 from contact_sim_pkg.scene.errors import SceneError
-from contact_sim_pkg.studies.accuracy import scene_study, work_precision, work_precision_plot
 
 
 @pytest.fixture
@@ -50,7 +49,7 @@ def test_a_picture_that_cannot_be_written_is_refused_before_the_work(monkeypatch
 
 
 def test_the_table_is_printed_even_if_the_picture_fails(one_study, monkeypatch, tmp_path):
-    monkeypatch.setattr(work_precision_plot, "write_plot", lambda rows, path, **_: 1 / 0)
+    monkeypatch.setattr(rig_study, "write_plot", lambda rows, path, **_: 1 / 0)
     shown = CliRunner().invoke(command, ["tire", "--plot", str(tmp_path / "x.png")])
     assert isinstance(shown.exception, ZeroDivisionError)
     assert "ms a call" in shown.stdout
@@ -67,8 +66,8 @@ def test_each_study_of_the_tire_is_there():
 
 
 def test_a_scene_of_a_rig_that_is_not_measured_is_refused_with_the_way_out(monkeypatch):
-    without = {**rigs(), "backrest": replace(rigs()["backrest"], accuracy=())}
-    monkeypatch.setattr(scene_study, "rigs", lambda: without)
+    without = {**rig_studies(), "backrest": RigStudies()}
+    monkeypatch.setattr(scene_study, "rig_studies", lambda: without)
     with pytest.raises(SceneError, match=r"not for backrest; compare runs with --set integrator\.relative_tolerance"):
         CliRunner().invoke(command, ["seat_slap", "--parts"], catch_exceptions=False)
 

@@ -9,7 +9,7 @@ from tests.bench_process import ENVIRONMENT, LONGEST, bench, end, needs_ros, sta
 from contact_sim_pkg.bag.errors import BagWriteError
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.writer import BagWriter
-from contact_sim_pkg.cli.main import COMMANDS
+from contact_sim_pkg.cli.main import COMMANDS, LABORATORY
 from contact_sim_pkg.cli.main import main as bench_main
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.errors import RunError
@@ -25,7 +25,7 @@ def refused(capsys, *arguments):
     return status, said
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", [*COMMANDS, *LABORATORY])
 def test_every_command_has_a_help_text(capsys, command):
     assert bench_main([command, "--help"]) == 0
     assert "Usage: bench" in capsys.readouterr().out

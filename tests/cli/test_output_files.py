@@ -6,7 +6,7 @@ from tests.report import synthetic_bag as known
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.names import new_directory
-from contact_sim_pkg.cli.main import COMMANDS, bench, main
+from contact_sim_pkg.cli.main import COMMANDS, LABORATORY, bench, main
 
 IMPACTS = "m,R,V0,tau,k\n0.02,0.01,1,0.001,0.5\n0.02,0.01,1,0.001,0.51\n"
 OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
@@ -14,14 +14,16 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("material", "plot"): ["IMPACTS", "--plot", "FILE"],
     ("identify", "plot"): ["BAG", "--box", "1", "1", "1", "--plot", "FILE"],
     ("accuracy", "plot"): ["seat_ride", "--plot", "FILE"],
+    ("effects", "write"): ["seat_ride", "--write", "FILE"],
     ("validation", "page"): ["--page", "FILE"],
     ("growth", "page"): ["--page", "FILE"],
     ("growth", "plot"): ["--plot", "FILE"],
     ("report", "out"): ["BAG", "--out", "FILE"],
+    ("export", "out"): ["BAG", "--csv", "--out", "FILE"],
     ("run", "out"): ["seat_ride", "--offline", "--out", "FILE"],
     ("recover", "target"): ["BAG", "FILE"],
 }
-INPUTS = {"impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag", "file"}
+INPUTS = {"impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag", "file", "tolerances"}
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +40,7 @@ def call(bag, folder, arguments, file):
 def test_every_path_of_a_command_is_a_known_output_or_an_input():
     paths = {
         (name, parameter.name)
-        for name in COMMANDS
+        for name in (*COMMANDS, *LABORATORY)
         for parameter in bench.get_command(click.Context(bench), name).params
         if isinstance(parameter.type, click.Path)
     }

@@ -22,7 +22,8 @@ PRIVATE_WORDS = (
     "tiers?|told|tells|touch(es)? nothing known|waited in vain"
 )
 """Words that `docs/glossary.md` has a term for."""
-ROOMS = (ROOT, ROOT / "contact_sim_pkg", ROOT / "contact_sim_pkg" / "contact_sim_pkg")
+LABORATORY = ROOT / "contact_sim_lab" / "contact_sim_lab"
+ROOMS = (ROOT, ROOT / "contact_sim_pkg", ROOT / "contact_sim_pkg" / "contact_sim_pkg", LABORATORY, LABORATORY.parent)
 
 
 TEXTS = sorted(

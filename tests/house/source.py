@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parents[2] / "contact_sim_pkg" / "contact_sim_pkg"
+LABORATORY = PACKAGE.parents[1] / "contact_sim_lab" / "contact_sim_lab"
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 

@@ -5,9 +5,9 @@ import functools
 import numpy
 from scipy.spatial.transform import Rotation
 
+from contact_sim_lab.identify.twins.falling_body import FallingBody, fall
 from contact_sim_pkg.identify.motion.rotation import exponential
 from contact_sim_pkg.identify.motion.states import BodyStates
-from contact_sim_pkg.identify.reference.falling_body import FallingBody, fall
 from contact_sim_pkg.rigid.body import RigidBody, box, placed, slope
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.problem import PLANE, SPACE

@@ -4,13 +4,13 @@ import numpy
 import pytest
 from tests.identify import motions
 
+from contact_sim_lab.identify.twins.falling_body import FallingBody, fall
 from contact_sim_pkg.identify import geometry
 from contact_sim_pkg.identify.contact import wrench
 from contact_sim_pkg.identify.contact.modes import REVERSED
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.identify import Setup, identify
 from contact_sim_pkg.identify.motion.states import BodyStates
-from contact_sim_pkg.identify.reference.falling_body import FallingBody, fall
 
 SQUARE = Setup(geometry.box([motions.SIDE] * 3))
 BOX = Setup(geometry.box(motions.LENGTHS))

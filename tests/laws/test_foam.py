@@ -8,6 +8,8 @@ import numpy
 import pytest
 from scipy.integrate import solve_ivp
 
+from contact_sim_lab.rigs.vehicle.scene_drive import drive_of, fast_run
+from contact_sim_lab.twins import impact
 from contact_sim_pkg.laws.elastic_law import (
     approach_of_force,
     elastic_energy,
@@ -24,9 +26,7 @@ from contact_sim_pkg.laws.foam_hysteresis import (
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import FoamElastic, FoamHysteresis, NormalDissipative, NormalElastic
-from contact_sim_pkg.reference import impact
 from contact_sim_pkg.rigs.vehicle.entries import energies
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run
 from contact_sim_pkg.scene.resolve import load_resolved
 
 FOAM = FoamElastic(0.12, 0.08, 4.0e4, 3.0e3, 150.0, 3.0)

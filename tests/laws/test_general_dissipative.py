@@ -5,12 +5,12 @@ import math
 import numpy
 import pytest
 
+from contact_sim_lab.twins import general_law, impact
 from contact_sim_pkg.laws.general_dissipative import SMOOTHING, rate_power, rate_power_slope
 from contact_sim_pkg.laws.normal_force import normal_force, normal_force_rate, tension_event
 from contact_sim_pkg.laws.one_mass.parameters import ImpactWorks, PointContact
 from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipative, NormalElastic
-from contact_sim_pkg.reference import general_law, impact
 
 PULLS = -math.inf
 MASS, SPEED, GAP = 20.0, 0.5, 0.01

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from contact_sim_lab.twins import impact
 from contact_sim_pkg.laws.restitution import damping_of_restitution
-from contact_sim_pkg.reference import impact
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from contact_sim_lab.twins import general_law
 from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.laws.restitution_law import (
     NEVER_PULLS,
@@ -19,7 +20,6 @@ from contact_sim_pkg.laws.restitution_law import (
     restitution_of_severity,
     severity_of_restitution,
 )
-from contact_sim_pkg.reference import general_law
 
 ENDS = st.sampled_from([NEVER_PULLS, PULLS])
 FEW = settings(max_examples=6)

@@ -36,6 +36,7 @@ class Page(HTMLParser):
 
 
 HEADINGS = (
+    "Result",
     "What was run",
     "Tire contact",
     "Seat contact",

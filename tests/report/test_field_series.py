@@ -16,7 +16,7 @@ def message(pressure, load=None, origin=(0.0, 0.0)):
     return SimpleNamespace(
         rows=rows, cols=cols, cell_x=CELL, cell_y=CELL, origin_x=origin[0], origin_y=origin[1],
         load=float(pressure.sum()) * CELL**2 if load is None else load, peak=float(pressure.max()), mean=1.0, area=1.0,
-        lame_a=0.0, lame_b=0.0, lame_n=2.0, pressure=pressure.ravel(),
+        lame_a=0.0, lame_b=0.0, lame_n=2.0, centre_x=0.0, centre_y=0.0, pressure=pressure.ravel(),
     )  # fmt: skip
 
 

@@ -23,7 +23,7 @@ def car_page(car_text):
 
 def test_a_car_with_a_tire_field_has_every_section(car_page):
     assert car_page.headings == [
-        "What was run", "Tire contact", "Rolling tire", "Seat contact", "Seat vibration", "Energy", "Cost", "Recording",
+        "Result", "Tire contact", "Rolling tire", "Seat contact", "Seat vibration", "Energy", "Cost", "What was run", "Recording",
     ]  # fmt: skip
     assert car_page.tags.count("figure") == 4 + 2 + 2 + 2 + 1 + 1
 
@@ -38,14 +38,14 @@ def test_each_section_is_named_before_it_is_drawn(car, tmp_path):
 def test_a_seat_alone_has_no_tire_and_no_map(seat, tmp_path):
     page = Page(write_report(seat, tmp_path / "seat.html").read_text(encoding="utf-8"))
 
-    assert page.headings == ["What was run", "Seat contact", "Seat vibration", "Energy", "Cost", "Recording"]
+    assert page.headings == ["Result", "Seat contact", "Seat vibration", "Energy", "Cost", "What was run", "Recording"]
     assert not any("Pressure" in description for description in page.values("aria-label"))
 
 
 def test_a_bag_of_forces_alone_still_gives_a_page(bare, tmp_path):
     page = Page(write_report(bare, tmp_path / "bare.html").read_text(encoding="utf-8"))
 
-    assert page.headings == ["What was run", "Tire contact", "Rolling tire", "Recording"]
+    assert page.headings == ["Tire contact", "Rolling tire", "What was run", "Recording"]
 
 
 def test_the_page_lies_in_the_bag_unless_told_otherwise(tmp_path):

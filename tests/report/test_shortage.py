@@ -4,7 +4,8 @@ import numpy
 import pytest
 
 from contact_sim_pkg.report.signal.spectrum import shortage, shortage_of_record
-from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals, ride_tiles, vibration_numbers
+from contact_sim_pkg.rigs.vehicle.seat.report.metrics import vibration_metrics
+from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals
 
 RATE = 1000.0
 
@@ -29,7 +30,7 @@ def test_the_random_error_that_sixteen_segments_leave_is_six_per_cent():
 @pytest.mark.parametrize(("seconds", "says"), [(5.0, True), (60.0, False)])
 def test_it_stands_beside_seat(seconds, says):
     floor = numpy.random.default_rng(1).normal(size=round(seconds * RATE))
-    numbers = vibration_numbers(RideSignals(numpy.arange(len(floor)) / RATE, RATE, floor, 0.5 * floor))
-    (tile,) = (tile for tile in ride_tiles({"seat_vibration": numbers}) if tile.label == "SEAT")
-    assert ("uncertain: " in tile.detail) is says
-    assert numbers["seat_factor_percent"] == pytest.approx(50.0)
+    found = vibration_metrics(RideSignals(numpy.arange(len(floor)) / RATE, RATE, floor, 0.5 * floor))
+    (factor,) = (each for each in found if each.name == "SEAT")
+    assert any("too short: " in text for text in factor.broken) is says
+    assert factor.value == pytest.approx(50.0)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from contact_sim_pkg.studies.growth import growth
+from contact_sim_lab.growth import growth
 
 
 def test_the_slope_is_the_power_of_the_last_points(monkeypatch):

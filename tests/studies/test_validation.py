@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from contact_sim_pkg.records.published import Published
-from contact_sim_pkg.studies.validation import validation
+from contact_sim_lab.validation import validation
+from contact_sim_pkg.records.metric import Published
 
 INSIDE = Published(
     machine="scale", quantity="weight of 1 kg", unit="N", value="9.81 ± 0.01", band=(9.80, 9.82), source="a book, 1901",

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from contact_sim_pkg.cli.laboratory import laboratory
 from contact_sim_pkg.cli.output.tables import (
     json_option,
     overwrite_option,
@@ -38,9 +39,9 @@ def command(
     quantity of its contact by inexpensive and expensive formulas, on the same input. For a file
     named like a rig write ./NAME.
     """
-    from contact_sim_pkg.studies.accuracy.work_precision import measured_rigs
+    from contact_sim_pkg.records.registry import rig_names
 
-    what, rig = names[0], names[0] in measured_rigs()
+    what, rig = names[0], names[0] in rig_names()
     bag = _is_bag(what) and not rig
     _refuse_options(deep=deep, parts=parts, whole=whole, plot=plot, bag=bag, rig=rig)
     if len(names) > 1 and (rig or bag or parts):
@@ -91,15 +92,11 @@ def _check(path: Path, *, whole: bool, as_json: bool) -> None:
 def _study(names: tuple[str, ...], plot: Path | None, kind: str, *, deep: bool, overwrite: bool, as_json: bool) -> None:
     """A study of scenes at first look, of the parts of one, or of a rig."""
     if kind == "rig":
-        from contact_sim_pkg.studies.accuracy import work_precision, work_precision_plot, work_precision_table
-
-        rows = work_precision.study(names[0], _tell)
-        draw, sections = work_precision_plot.write_plot, work_precision_table.sections
+        study = laboratory("accuracy.rig_study", f"bench accuracy RIG ({names[0]})")
+        rows, draw, sections = study.study(names[0], _tell), study.write_plot, study.sections
     elif kind == "parts":
-        from contact_sim_pkg.studies.accuracy import scene_study
-
-        rows = scene_study.study(names[0], _tell)
-        draw, sections = scene_study.write_plot, scene_study.sections
+        study = laboratory("accuracy.scene_study", "bench accuracy --parts")
+        rows, draw, sections = study.study(names[0], _tell), study.write_plot, study.sections
     else:
         from contact_sim_pkg.studies.accuracy import first_look_table
 

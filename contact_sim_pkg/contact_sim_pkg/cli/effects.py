@@ -1,21 +1,75 @@
-"""`bench effects`: cost and outputs of each effect."""
+"""`bench effects`: which effects a scene calls for."""
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import click
 
-from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show_sections
+from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.studies.effects.effects_study import Study
 
 
 @click.command("effects")
 @click.argument("scene")
+@click.option("--parts", is_flag=True, help="Behind the table: every change, reasons, outputs.")
+@click.option(
+    "--write",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write the scene with only what it calls for.",
+)
+@click.option("--without-observers", is_flag=True, help="With --write: leave out what only observes as well.")
+@click.option(
+    "--from",
+    "start",
+    type=click.Choice(["scene", "all"]),
+    default="scene",
+    show_default=True,
+    help="Start from the effects of the scene, or from all that can act together.",
+)
+@overwrite_option
 @json_option
-def command(scene: str, as_json: bool) -> None:
-    """Each effect of SCENE, on and off: its measured cost and its influence on the outputs."""
-    from contact_sim_pkg.studies.effects import ablation
+def command(
+    scene: str, parts: bool, write: Path | None, without_observers: bool, start: str, overwrite: bool, as_json: bool
+) -> None:
+    """Which effects SCENE calls for: each left out or added, what that changes and saves."""
+    if without_observers and write is None:
+        raise click.UsageError("--without-observers is for the scene that --write FILE writes")
+    from contact_sim_pkg.files import check_output
+    from contact_sim_pkg.scene.load import find_scene
+    from contact_sim_pkg.scene.resolve import load_resolved
+    from contact_sim_pkg.studies.effects import effects_study, effects_table, reduced
 
-    rows = ablation.study(scene, lambda line: click.echo(line, err=True))
+    if write is not None:
+        check_output(write, [find_scene(scene)], overwrite=overwrite)
+        if write.suffix not in (".yaml", ".yml"):
+            raise click.UsageError(f"--write {write}: the name of a scene's file ends in .yaml")
+    resolved = load_resolved(scene)
+    found = effects_study.study_of(reduced.all_together(resolved) if start == "all" else resolved, _report)
+    if not as_json:
+        click.echo(effects_table.answer(found))
+        click.echo()
+        show_sections([*effects_table.table(found), *(effects_table.parts(found) if parts else ())])
+    written = {} if write is None else _write(found, scene, write, observers=not without_observers, overwrite=overwrite)
     if as_json:
-        print_json_rows(rows)
-    else:
-        show_sections(ablation.sections(rows))
+        print_json(effects_table.facts_of(found) | written)
+    elif written:
+        click.echo(f"{write}: {written['written']['sentence']}")
+
+
+def _write(study: Study, scene: str, path: Path, *, observers: bool, overwrite: bool) -> dict[str, dict[str, object]]:
+    from contact_sim_pkg.files import new_file
+    from contact_sim_pkg.studies.effects import effects_table, reduced
+
+    found = reduced.reduced(study, _report, observers=observers)
+    with new_file(path, overwrite=overwrite) as stream:
+        stream.write(reduced.text_of(scene, (), found, study.base.request).encode())
+    return {"written": effects_table.facts_of_reduced(found, path)}
+
+
+def _report(line: str) -> None:
+    click.echo(line, err=True)

@@ -21,17 +21,22 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "show": "scenes:show_command",
     "run": "run",
     "replay": "replay",
+    "metrics": "bags.metrics",
+    "compare": "bags.compare",
+    "export": "bags.export",
     "report": "report",
     "identify": "identify",
     "accuracy": "accuracy",
     "effects": "effects",
+    "material": "material",
+    "tire": "tire",
+    "recover": "recover",
+}
+LABORATORY = {  # the same, in contact_sim_lab.cli
     "hard": "hard",
     "validation": "validation",
     "goals": "goals",
     "growth": "goals:growth_command",
-    "material": "material",
-    "tire": "tire",
-    "recover": "recover",
 }
 ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share the cores; the same bits without nodes
 
@@ -43,10 +48,12 @@ class LazyGroup(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names, in the order of use."""
-        return [*COMMANDS, *_foreign()]
+        return [*COMMANDS, *LABORATORY, *_foreign()]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """The command of this name, imported now; None where there is none."""
+        if name in LABORATORY:
+            return _of_laboratory(name)
         if name not in COMMANDS:
             foreign = _foreign().get(name)
             return None if foreign is None else _foreign_command(foreign)
@@ -58,11 +65,30 @@ class LazyGroup(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """The command that the arguments begin with; a name that is none is refused with the nearest one."""
-        if args and not args[0].startswith("-") and args[0] not in COMMANDS and args[0] not in _foreign():
+        if args and not args[0].startswith("-") and args[0] not in self.list_commands(ctx):
             near = get_close_matches(args[0].lower(), self.list_commands(ctx), n=1, cutoff=0.5)
             hint = f" Did you mean {near[0]!r}?" if near else ""
             raise click.UsageError(f"No such command {args[0]!r}.{hint}", ctx)
         return super().resolve_command(ctx, args)
+
+
+def _of_laboratory(name: str) -> click.Command:
+    """A command of the laboratory; without it one that names what to install."""
+    from contact_sim_pkg.cli.laboratory import laboratory
+
+    module, _, command = LABORATORY[name].partition(":")
+    try:
+        found: click.Command = getattr(laboratory(f"cli.{module}", f"bench {name}"), command or "command")
+    except click.UsageError as error:
+        refusal_of_it = error
+
+        @click.command(name, short_help="Of the laboratory, which is not installed.", add_help_option=False,
+                       context_settings={"ignore_unknown_options": True, "allow_extra_args": True})  # fmt: skip
+        def absent() -> None:
+            raise refusal_of_it
+
+        return absent
+    return found
 
 
 def _foreign() -> dict[str, str]:
@@ -72,8 +98,8 @@ def _foreign() -> dict[str, str]:
     found: dict[str, str] = {}
     for plugin in plugins():
         for name, place in plugin.commands.items():
-            if name in COMMANDS or name in found:
-                other = "the bench's own" if name in COMMANDS else f"{found[name]}"
+            if name in COMMANDS or name in LABORATORY or name in found:
+                other = "the bench's own" if name not in found else f"{found[name]}"
                 raise PluginError(f"two commands are named {name}: {other} and {place} of plug-in {plugin}")
             found[name] = place
     return found

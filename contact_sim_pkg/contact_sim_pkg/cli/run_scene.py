@@ -100,6 +100,7 @@ def run_scene(
     # everything that can be refused comes before the first process or file
     directory = new_directory(out, scene.name) if record else None
     _report_work(scene, allow_long)
+    _report_absent(scene)
     forecast = _forecast(scene)
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
     with RunDisplay(scene.duration) as display:
@@ -157,6 +158,15 @@ def _report_work(scene: ResolvedScene, allow_long: bool) -> None:
     report = refuse_long(scene, allowed=allow_long)
     if report:
         print(f"{scene.name}: {report}", file=sys.stderr)
+
+
+def _report_absent(scene: ResolvedScene) -> None:
+    """One line on standard error where the scene's own values call for an effect that is off."""
+    from contact_sim_pkg.studies.effects.absent import sentence_of_absent
+
+    sentence = sentence_of_absent(scene)
+    if sentence:
+        print(f"{scene.name}: {sentence}", file=sys.stderr)
 
 
 def _forecast(scene: ResolvedScene) -> dict[str, Any]:

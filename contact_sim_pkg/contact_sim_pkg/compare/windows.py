@@ -16,7 +16,16 @@ from contact_sim_pkg.run.block_simulation import InputBlock
 from contact_sim_pkg.run.sources import Source
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["LEAD", "LENGTH", "Window", "event_block", "from_the_start", "span_round", "windows_of"]
+__all__ = [
+    "LEAD",
+    "LENGTH",
+    "Window",
+    "event_block",
+    "from_the_start",
+    "size_of",
+    "span_round",
+    "windows_of",
+]
 
 LENGTH = 0.2  # [s]
 LEAD = 0.1  # [s] from standstill to the window
@@ -84,10 +93,10 @@ def event_block(sources: Mapping[str, Source], blocks: int) -> int:
     """The block whose excitation is largest: the steepest road, else the largest acceleration."""
     source = sources.get("road/patch") or next(iter(sources.values()))
     looked = range(0, blocks, max(1, -(-blocks // MOST_LOOKS)))
-    return max(looked, key=lambda block: _size(source.block(block)))
+    return max(looked, key=lambda block: size_of(source.block(block)))
 
 
-def _size(block: InputBlock) -> float:
+def size_of(block: InputBlock) -> float:
     """Largest slope [1] under the wheel centre, or largest acceleration [m/s^2], of a block."""
     if isinstance(block, VibrationBlock):
         return float(max(numpy.abs(block.acceleration_x).max(), numpy.abs(block.acceleration_z).max()))

@@ -19,12 +19,14 @@ import numba
 from numba.extending import overload
 
 from contact_sim_pkg.compiled import linking, transforms
+from contact_sim_pkg.compiled.call_graph import Call, CallGraph
 from contact_sim_pkg.compiled.compiler import compiled_kernels, compiler_of
 from contact_sim_pkg.compiled.kernel_cache import attach_cache
 
 __all__ = [
     "COMPILE_OPTIONS",
     "borrowing_kernel",
+    "calls_of",
     "closed",
     "compiled_functions",
     "compiled_kernels",
@@ -130,6 +132,19 @@ def compiled_functions() -> list[Any]:
 def never_called() -> list[Any]:
     """Entries that have no compiled version, which `closed` refuses: what a warm-up left out."""
     return [function for function in _dispatchers(_entries) if not function.overloads]
+
+
+def calls_of(run: Callable[[], Any]) -> tuple[CallGraph, set[Call]]:
+    """Which compiled functions call which in what ``run`` makes, and those that Python calls.
+
+    Versions from before are forgotten, and come from the cache again where they are needed.
+    """
+    for function in _dispatchers(compiled_functions()):
+        function.overloads.clear()
+        function._reset_overloads()
+    run()
+    found = _dispatchers(compiled_functions())  # of modules that the run has loaded as well
+    return linking.call_graph(each.library for function in found for each in function.overloads.values())
 
 
 def _compile(function: Function, form: str = "", **options: Any) -> Function:

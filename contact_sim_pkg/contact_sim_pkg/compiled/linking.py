@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import atexit
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import CancelledError, Future
 from typing import Any, NamedTuple
 
@@ -33,10 +33,12 @@ from numba.core.compiler_lock import require_global_compiler_lock
 from numba.core.environment import lookup_environment
 
 from contact_sim_pkg.compiled.assembler import DYNAMIC, ENVIRONMENT, Assembler, Assembly, assemble
+from contact_sim_pkg.compiled.call_graph import Call, CallGraph, call_of, edges_between, graph_of
 
 __all__ = [
     "KernelLibrary",
     "Overload",
+    "call_graph",
     "finish",
     "make_at_once",
     "rebuild",
@@ -89,6 +91,7 @@ class KernelLibrary(JITCodeLibrary):
         self._awaited: Future[Assembly] | None = None  # machine code in the making
         self._code = b""  # machine code, as it goes to disk
         self._called: list[KernelLibrary] = []  # by symbol
+        self._calls: tuple[tuple[Call, Call], ...] = ()  # in its machine code
         self._symbols: list[str] = []  # functions that it defines itself
         self._environments: tuple[str, ...] = ()
         self.enable_object_caching()
@@ -135,6 +138,7 @@ class KernelLibrary(JITCodeLibrary):
             self._finalize_dynamic_globals()
             self._finalized = True
             return
+        self._calls = tuple(dict.fromkeys(edges_between((self, *linked))))
         for each in linked:
             self._final_module.link_in(each.own_module(), preserve=True)
         self._refuse_unknown_symbols()
@@ -200,6 +204,10 @@ class KernelLibrary(JITCodeLibrary):
         visit(self)
         return linked[::-1], list(called)
 
+    def calls(self) -> tuple[tuple[Call, Call], ...]:
+        """Calls of its own, and of what is linked into it."""
+        return self._calls if self.is_machine_code else tuple(edges_between((self,)))
+
     def size(self) -> int:
         """Length of its own intermediate code [bytes]."""
         if not self._size:
@@ -247,7 +255,7 @@ class KernelLibrary(JITCodeLibrary):
         else:
             code, needed = self._final_module.as_bitcode(), list(self.callees)
         wanted = [(each.overload, each._symbols) for each in needed]
-        return self.name, self.overload, self.is_machine_code, code, self._symbols, wanted
+        return self.name, self.overload, self.is_machine_code, code, self._symbols, wanted, self._calls
 
     @classmethod
     def rebuild(cls, codegen: Any, reduced: tuple[Any, ...]) -> KernelLibrary | None:
@@ -255,9 +263,9 @@ class KernelLibrary(JITCodeLibrary):
         was made with: another process may have compiled it with other flags, which numba takes over
         from the first caller, or linked it where it was machine code.
         """
-        name, overload, is_machine_code, code, symbols, wanted = reduced
+        name, overload, is_machine_code, code, symbols, wanted, calls = reduced
         self = cls(codegen, name, overload, is_machine_code=is_machine_code)
-        self._symbols = symbols
+        self._symbols, self._calls = symbols, calls
         for each, names in wanted:
             library = each.library()
             if not set(names) <= set(library._symbols) or (is_machine_code and not library.is_machine_code):
@@ -289,6 +297,27 @@ class _WithoutEngine:
 def register(function: Callable[..., Any], dispatcher: Any, *, is_entry: bool) -> None:
     """Let other processes' code find the overloads of a decorated function."""
     _dispatchers[function.__module__, function.__qualname__, is_entry] = dispatcher
+
+
+def call_graph(libraries: Iterable[Any]) -> tuple[CallGraph, set[Call]]:
+    """Calls of the functions whose libraries are given, direct or not; and those among them that
+    Python calls.
+    """
+    entries = {
+        library: call_of(library.overload)
+        for library in libraries
+        if isinstance(library, KernelLibrary) and library.overload is not None and library.overload.function[2]
+    }
+    known, waiting, edges = set(entries), list(entries), list[tuple[Call, Call]]()
+    while waiting:
+        library = waiting.pop()
+        edges += library.calls()
+        for each in (*library.callees, *library._called):
+            if each not in known:
+                known.add(each)
+                waiting.append(each)
+    roots = set(entries.values())
+    return graph_of(edges, roots), roots
 
 
 def finish() -> None:

@@ -6,30 +6,32 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple, TypeAlias
-
-import numpy
-from numpy.typing import NDArray
+from typing import Any, TypeAlias
 
 from contact_sim_pkg.records.topic import ContactTopic
 
-__all__ = ["Effect", "Observed", "Rule", "Verdict", "choice_of_model", "needed_where_it_opens"]
+__all__ = ["Effect", "Rule", "never_called_for", "without_loss"]
+
+Rule: TypeAlias = Callable[[Any], str]
+"""Of a `scene.resolved_scene.ResolvedScene`, which records do not know: what in its data calls for
+an effect, as a sentence; empty where nothing does."""
 
 
-class Observed(NamedTuple):
-    """Result of a run that the rules look at: by contact the normal force [N] and whether it opens,
-    and the largest fore-aft acceleration [m/s^2] of the floor.
-    """
-
-    forces: dict[str, NDArray[numpy.float64]]
-    opens: dict[str, bool]
-    forward: float
+def never_called_for(_scene: Any) -> str:
+    """The rule of an effect that is a choice of the model, or a question of the scene."""
+    return ""
 
 
-Verdict: TypeAlias = tuple[bool | None, str]
-"""Whether a scene calls for an effect (None: there is no rule), and the figures behind it."""
-Rule: TypeAlias = Callable[[Any, Observed], Verdict]
-"""Of a `scene.resolved_scene.ResolvedScene`, which records do not know, and a run of it."""
+def without_loss(contact: str, *losses: str) -> Rule:
+    """The rule of a loss: none of the ``losses`` of the contact acts."""
+
+    def rule(scene: Any) -> str:
+        named = scene.data["effects"].get(contact) or {}
+        return (
+            "" if any(named.get(loss) is not None for loss in losses) else f"nothing dissipates energy at the {contact}"
+        )
+
+    return rule
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -52,8 +54,9 @@ class Effect:
             nothing: a function of a resolved scene that returns a `run.observers.Observer`; empty: the
             rig's own simulation has the effect.
         feeds: topics of the contact whose values it changes.
-        inputs: sections of the scene that act through it alone.
-        called_for: rule that says from a scene and its result whether the scene calls for it.
+        inputs: sections of the scene, or dotted keys, that act through it alone.
+        called_for: what in the data of a scene calls for it. That it acts by more than the requested
+            accuracy there is for a measurement to show.
         not_below: numerical error, by kind as of `definitions.KINDS`, that no request makes smaller:
             measured, of a table or a number of parts that has no dial.
     """
@@ -70,21 +73,5 @@ class Effect:
     observer: str = ""
     feeds: tuple[str, ...]
     inputs: tuple[str, ...] = ()
-    called_for: Rule
+    called_for: Rule = never_called_for
     not_below: Mapping[str, float] = field(default_factory=dict)
-
-
-def choice_of_model(why: str) -> Rule:
-    """The rule of an effect that no result can call for."""
-    return lambda _scene, _observed: (None, why)
-
-
-def needed_where_it_opens(contact: str) -> Rule:
-    """The rule of a loss: an impact has no restitution without one."""
-
-    def rule(_scene: Any, observed: Observed) -> Verdict:
-        if observed.opens[contact]:
-            return True, "the contact opens: an impact needs a loss to have a restitution"
-        return None, "the contact stays closed; how much it damps is a choice of the model"
-
-    return rule

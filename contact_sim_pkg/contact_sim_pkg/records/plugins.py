@@ -3,7 +3,8 @@
 An entry point of the group `contact_sim_pkg.rigs` names a module, or a package, whose `RIGS` holds
 `records.rig.Rig`; its folder `scenes` holds their scenes. One of `contact_sim_pkg.effects` names
 ``module:mapping`` of contact -> `records.effect.Effect`s that act there. One of
-`contact_sim_pkg.commands` is a command of `bench` by its name. `docs/extend.md` shows each.
+`contact_sim_pkg.commands` is a command of `bench` by its name. One of `contact_sim_pkg.studies` is
+for the laboratory. `docs/extend.md` shows each.
 
 `CONTACT_BENCH_PLUGINS` chooses: unset, all that are installed; `off`, none; else the names of
 packages, separated by commas, as the nodes of a run get it from its supervisor.
@@ -42,6 +43,7 @@ class Plugin(NamedTuple):
     rigs: dict[str, tuple[Rig, ...]]  # by the module that exports them
     effects: dict[str, tuple[Effect, ...]]  # by contact
     commands: dict[str, str]  # by name: module:object
+    studies: list[str]  # module:object
 
     def __str__(self) -> str:
         """Name and version, as a resolved scene states them."""
@@ -69,7 +71,7 @@ def plugins() -> tuple[Plugin, ...]:
 
 
 def _loaded(distribution: Distribution, name: str, entries: Iterable[EntryPoint]) -> Plugin | None:
-    plugin = Plugin(name, distribution.version, {}, {}, {})
+    plugin = Plugin(name, distribution.version, {}, {}, {}, [])
     for entry in entries:
         try:
             _add(plugin, entry)
@@ -93,3 +95,5 @@ def _add(plugin: Plugin, entry: EntryPoint) -> None:
             plugin.effects[contact] = (*plugin.effects.get(contact, ()), *effects)
     elif kind == "commands":
         plugin.commands[entry.name] = f"{module}:{attribute or 'command'}"
+    elif kind == "studies":
+        plugin.studies.append(f"{module}:{attribute or 'STUDIES'}")

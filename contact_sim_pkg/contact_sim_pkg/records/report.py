@@ -43,12 +43,13 @@ class ContactReport:
         sections: (number of the contact, recording) -> sections of the page, in place of the
             general one.
         closing_sections: (recording) -> sections that follow those of all contacts.
-        contact_numbers: (recording) -> numbers of the contact in the summary.
-        numbers: (recording) -> further sections of the summary by their keys.
-        tiles: (summary) -> key numbers at the head of the page.
+        metrics: (recording) -> its list of metrics, 8 to 14, the most important first.
         warnings: (recording) -> sentences that stand before the numbers.
         ledger: (recording) -> `LedgerScope` of its energy ledger, where that is not of the whole rig.
         drive_period: (scene) -> period [s] of a drive that is not the vibration, or None.
+        lead: beginnings of the names of its pictures that stand below the key numbers; `{contact}` is the key of
+            its general section.
+        curves: (recording) -> `compare.side_by_side.Curve` by name, for tolerances.
         comparison: (key, contact, runs) -> pictures that compare several runs.
     """
 
@@ -56,10 +57,10 @@ class ContactReport:
     series: tuple[SeriesReader, ...] = ()
     sections: str = ""
     closing_sections: str = ""
-    contact_numbers: str = ""
-    numbers: str = ""
-    tiles: str = ""
+    metrics: str = ""
     warnings: str = ""
     ledger: str = ""
     drive_period: str = ""
+    lead: tuple[str, ...] = ()
+    curves: str = ""
     comparison: str = ""

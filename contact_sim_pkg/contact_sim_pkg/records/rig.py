@@ -55,14 +55,6 @@ class Rig:
         other_half: ``module:function`` of a resolved scene, called in a second process: compiles
             kernels that the run comes to late; empty: none.
         unused_axes: plain data of its effects by contact -> axes whose vibration moves nothing.
-        accuracy: modules whose `ACCURACY` holds `records.accuracy.AccuracyStudy`: `bench accuracy
-            SCENE`.
-        work_precision: modules whose `WORK_PRECISION` holds `records.work_precision.WorkPrecision`,
-            those of papers on the rig included: `bench accuracy RIG`.
-        goals: modules whose `GOALS` holds `records.goal.GoalPart`: `bench goals`.
-        hard_cases: modules whose `CASES` holds `records.hard_case.HardCase`: `bench hard`.
-        validation: modules whose `VALIDATION` holds `records.published.Published`: `bench
-            validation`.
         bench_topics: its own topics below `bench/`, by their whole name.
         scenes: its shipped scenes, each with its place in `bench list`: the smaller the run, the
             sooner.
@@ -72,6 +64,8 @@ class Rig:
             breaches.
         standing: ``module:function`` of the plain data of a resolved scene -> `Standing`:
             scales of its errors; empty: unknown, and nothing rests on a contact.
+        events: ``module:function`` of a resolved scene -> names and instants [s] of what the scene
+            itself prescribes: largest slip, torque; empty: nothing.
         kernels: about how many kernels its richest scene compiles at its first start; 0: unknown.
     """
 
@@ -86,16 +80,12 @@ class Rig:
     work: str = ""
     other_half: str = ""
     unused_axes: Callable[[Mapping[str, Any]], str] = lambda _effects: ""
-    accuracy: tuple[str, ...] = ()
-    work_precision: tuple[str, ...] = ()
-    goals: tuple[str, ...] = ()
-    hard_cases: tuple[str, ...] = ()
-    validation: tuple[str, ...] = ()
     bench_topics: tuple[str, ...] = ()
     scenes: Mapping[str, int] = field(default_factory=dict)
     forecast: str = ""
     rules: tuple[str, ...] = ()
     standing: str = ""
+    events: str = ""
     kernels: int = 0
 
 

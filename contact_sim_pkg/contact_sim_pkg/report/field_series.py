@@ -15,7 +15,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.report.series import FieldSeries, FloatArray, PressureMap, Snapshot
 from contact_sim_pkg.report.signal.thinning import ThinnedRows
 
-SCALARS = ("load", "peak", "mean", "area", "lame_a", "lame_b", "lame_n")
+SCALARS = ("load", "peak", "mean", "area", "lame_a", "lame_b", "lame_n", "centre_x", "centre_y")
 _scalars_of = attrgetter(*SCALARS)
 AROUND_LARGEST_LOAD = 20
 """Fields kept before and after the one with the largest load."""

@@ -13,15 +13,15 @@ from contact_sim_pkg.files import check_output, new_file
 from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report import facts, rig_reports
-from contact_sim_pkg.report.drawing import style
+from contact_sim_pkg.report.drawing import Picture, style
 from contact_sim_pkg.report.figures.bench import energy_balance, real_time_factor
 from contact_sim_pkg.report.figures.contact import contact_section
+from contact_sim_pkg.report.metrics.listing import metrics_of
+from contact_sim_pkg.report.metrics.tiles import doubts_of, sources_of, tiles_of
 from contact_sim_pkg.report.page import Section, environment, is_page
 from contact_sim_pkg.report.reading import OnRead, read_recording
 from contact_sim_pkg.report.rows import scene_rows
 from contact_sim_pkg.report.series import Recording
-from contact_sim_pkg.report.summary import summarise_recording
-from contact_sim_pkg.report.tiles import tiles
 
 TEMPLATE = "report.html.j2"
 FILE_NAME = "report.html"
@@ -66,7 +66,8 @@ def write_report(
 
 def render(recording: Recording, on_section: OnSection = lambda *_: None) -> str:
     """The page as text. Everything that comes from the bag is escaped."""
-    summary = summarise_recording(recording)
+    metrics = metrics_of(recording)
+    drawn = sections(recording, on_section)
     page: str = (
         environment()
         .get_template(TEMPLATE)
@@ -75,14 +76,16 @@ def render(recording: Recording, on_section: OnSection = lambda *_: None) -> str
             title=recording.scene.get("name") or recording.name,
             description=recording.scene.get("description") or "",
             bag_name=recording.name,
-            warnings=facts.warnings(recording),
-            tiles=tiles(summary, rig_reports.rig_tiles(recording, summary)),
+            warnings=[*facts.warnings(recording), *doubts_of(metrics)],
+            tiles=tiles_of(metrics),
+            sources=sources_of(metrics),
+            lead=lead_of(recording, drawn),
             run=facts.run_rows(recording),
             effects=facts.effect_rows(recording),
             excitations=facts.excitation_facts(recording),
             versions=facts.version_rows(recording),
             scene=scene_rows(recording.scene),
-            sections=sections(recording, on_section),
+            sections=drawn,
             topics=recording.topics,
             duration=recording.duration,
         )
@@ -110,6 +113,26 @@ def sections(recording: Recording, on_section: OnSection = lambda *_: None) -> l
             on_section(number, len(drawn), name)
             found += draw()
     return [section for section in found if section.pictures]
+
+
+def lead_of(recording: Recording, drawn: list[Section]) -> list[Picture]:
+    """The pictures that stand below the tiles, taken out of their sections: those of `ContactReport.lead`."""
+    found = []
+    number = {name: f"contact-{place}" for place, name in enumerate(recording.contacts)}
+    names = [
+        name.format(contact=number.get(each.contact, ""))
+        for each in rig_reports.reports_of(recording)
+        for name in each.lead
+    ]
+    for name in dict.fromkeys(names):
+        for section in drawn:
+            chosen = [each for each in section.pictures if each.name.startswith(name)][:1]
+            found += chosen
+            section.pictures[:] = [each for each in section.pictures if each not in chosen]
+            if chosen:
+                break
+    drawn[:] = [section for section in drawn if section.pictures or section.tables]
+    return found
 
 
 def _contact_sections(number: int, name: str, recording: Recording) -> list[Section]:

@@ -4,14 +4,11 @@ pictures.
 
 from __future__ import annotations
 
-from typing import Any
-
 from contact_sim_pkg.records.registry import contact_reports, rigs
 from contact_sim_pkg.records.report import ContactReport, LedgerScope, SeriesReader
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.report.signal.loops import vibration_period
-from contact_sim_pkg.report.tiles import Tile
 
 
 def series_readers() -> dict[str, SeriesReader]:
@@ -30,26 +27,6 @@ def reports_of(recording: Recording) -> list[ContactReport]:
         for each in contact_reports().values()
         if each.contact in contacts or any(series.name in recording.series for series in each.series)
     ]
-
-
-def contact_numbers(name: str, recording: Recording) -> dict[str, Any]:
-    """Numbers of a contact in the summary that only its rig knows."""
-    report = contact_reports().get(name)
-    found: dict[str, Any] = (
-        {} if report is None or not report.contact_numbers else load(report.contact_numbers)(recording)
-    )
-    return found
-
-
-def summary_numbers(recording: Recording) -> dict[str, Any]:
-    """Sections of the summary that the rigs add."""
-    named = [each.numbers for each in reports_of(recording) if each.numbers]
-    return {key: value for name in named for key, value in load(name)(recording).items()}
-
-
-def rig_tiles(recording: Recording, summary: dict[str, Any]) -> list[Tile]:
-    """Key numbers of the rigs."""
-    return [tile for each in reports_of(recording) if each.tiles for tile in load(each.tiles)(summary)]
 
 
 def rig_warnings(recording: Recording) -> list[str]:

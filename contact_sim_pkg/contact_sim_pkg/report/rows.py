@@ -25,6 +25,9 @@ another.
 """
 
 
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
 class Row(NamedTuple):
     """One row: what it is, and its value with unit."""
 
@@ -74,6 +77,16 @@ def described_rows(value: Any, label: str = "") -> list[Row]:
         return [row for item in value for row in described_rows(item, label)]
     suffix = next((ending for ending in SUFFIXES if label.endswith(ending)), "")
     return [Row(plain_name(label.removesuffix(suffix)), with_unit(value, SUFFIXES.get(suffix, "")))]
+
+
+def number(value: float) -> str:
+    """Text of a value (any unit, dimensionless too) in three digits; very small and large ones as
+    1.2·10⁻⁸."""
+    if value != 0.0 and not 1e-3 <= abs(value) < 1e6:
+        mantissa, exponent = f"{value:.1e}".split("e")
+        return f"{mantissa}·10{str(int(exponent)).translate(SUPERSCRIPT)}"
+    digits = f"{value:.3g}"
+    return f"{value:.0f}" if "e" in digits else digits
 
 
 def with_unit(value: Any, unit: str) -> str:

@@ -106,6 +106,9 @@ class FieldSeries(NamedTuple):
     """the first field of all"""
     touch: Snapshot | None
     """the first field with a load after one without; None where the contact never closes"""
+    centre_x: FloatArray
+    centre_y: FloatArray
+    """[m] centre of pressure, forward and left; 0 without contact"""
 
     @property
     def heaviest(self) -> Snapshot:

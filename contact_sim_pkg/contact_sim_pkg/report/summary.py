@@ -14,10 +14,11 @@ import numpy as np
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.compare.estimated import accuracy_numbers
 from contact_sim_pkg.report.energy import relative_residual, throughput
+from contact_sim_pkg.report.metrics.listing import metrics_of
+from contact_sim_pkg.report.metrics.views import rows_of
 from contact_sim_pkg.report.reading import read_recording
-from contact_sim_pkg.report.rig_reports import contact_numbers, ledger_scope, rig_warnings, summary_numbers
-from contact_sim_pkg.report.series import ContactSeries, CostSeries, FieldSeries, LedgerSeries, Recording
-from contact_sim_pkg.report.signal.episodes import slap_numbers
+from contact_sim_pkg.report.rig_reports import ledger_scope, rig_warnings
+from contact_sim_pkg.report.series import CostSeries, LedgerSeries, Recording
 
 
 def summarise(bag: Bag) -> dict[str, Any]:
@@ -28,30 +29,19 @@ def summarise(bag: Bag) -> dict[str, Any]:
 
 
 def summarise_recording(recording: Recording) -> dict[str, Any]:
-    """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
+    """Summary of a run, ready for JSON: its metrics, and the numbers of the bench, SI units in their names, None
+    where a number is not defined.
 
-    Sections that the run does not have are absent: `slaps` without contact episodes, `energy`
-    without a ledger, `solver` without cost messages, the pressure of a contact without a field,
-    `warnings` where there is nothing to warn of. Rigs add sections and numbers of their contacts
-    (`records.report`).
+    Sections that the run does not have are absent: `energy` without a ledger, `solver` without cost
+    messages, `warnings` where there is nothing to warn of.
     """
     summary: dict[str, Any] = {
         "scene": recording.scene.get("name"),
         "rig": recording.scene.get("rig"),
         "simulated_s": round(recording.duration, 9),
-        "contacts": {
-            name: {
-                **force_numbers(series),
-                **field_numbers(recording.fields.get(name)),
-                **contact_numbers(name, recording),
-            }
-            for name, series in recording.contacts.items()
-        },
+        "metrics": rows_of(metrics_of(recording)),
     }
     # Sections by what the recording holds
-    if recording.episodes is not None:
-        summary["slaps"] = slap_numbers(recording.episodes)
-    summary |= summary_numbers(recording)
     if warnings := rig_warnings(recording):
         summary["warnings"] = warnings
     if recording.ledger is not None:
@@ -63,33 +53,6 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     summary["messages"] = {topic.name: topic.messages for topic in recording.topics}
     defined: dict[str, Any] = _without_nan(summary)
     return defined
-
-
-def force_numbers(contact: ContactSeries) -> dict[str, Any]:
-    """Load in [N], share of the time without contact (0 .. 1), number of lift-offs: from a load to
-    none.
-    """
-    separated = contact.normal <= 0.0
-    return {
-        "load_mean_N": float(contact.normal.mean()),
-        "load_min_N": float(contact.normal.min()),
-        "load_max_N": float(contact.normal.max()),
-        "lifted_share": float(separated.mean()),
-        "lift_offs": int(np.count_nonzero(separated[1:] & ~separated[:-1])),
-    }
-
-
-def field_numbers(field: FieldSeries | None) -> dict[str, Any]:
-    """Largest pressure and when, mean contact area over all recorded instants; empty without a
-    field.
-    """
-    if field is None:
-        return {}
-    return {
-        "peak_pressure_Pa": float(field.peak.max()),
-        "peak_pressure_time_s": field.highest_time,
-        "contact_area_mean_m2": float(field.area.mean()),
-    }
 
 
 def energy_numbers(ledger: LedgerSeries) -> dict[str, Any]:
@@ -138,4 +101,6 @@ def _without_nan(value: Any) -> Any:
     """The same tree with None for numbers that are not finite: JSON has no nan."""
     if isinstance(value, dict):
         return {key: _without_nan(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_without_nan(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -153,7 +153,7 @@ class ResolvedScene:
                 yield record, load(record.section).model_validate(named[record.name])
 
     def without(self, *effects: Effect) -> ResolvedScene:
-        """The scene less some effects, those that need them, and the sections that act through them
+        """The scene less some effects, those that need them, and the keys that act through them
         alone.
         """
         data = copy.deepcopy(self.data)
@@ -162,8 +162,7 @@ class ResolvedScene:
             while left_out:
                 record = left_out.pop()
                 (data["effects"].get(contact.name) or {}).pop(record.name, None)
-                for section in record.inputs:
-                    data.pop(section, None)
+                drop_inputs(data, record)
                 left_out += [other for other in contact.effects if record.name in other.needs]
         return ResolvedScene(data, self.files)
 
@@ -203,6 +202,16 @@ class ResolvedScene:
             sentence = f"{path} has another content than the scene was resolved with: sha256 {found}, stated {stated}"
             raise SceneError([Fault("resolved scene", 0, 0, where, sentence)])
         return path
+
+
+def drop_inputs(data: dict[str, Any], effect: Effect) -> None:
+    """Take out of plain data of a scene what acts through an effect alone."""
+    for where in effect.inputs:
+        *sections, key = where.split(".")
+        found = data
+        for section in sections:
+            found = found.get(section) or {}
+        found.pop(key, None)
 
 
 def sha256_of(path: Path) -> str:

@@ -1,7 +1,7 @@
 """A mass that falls on a spring with a damper: rig bouncer. And an effect for the bench's own tire."""
 
 from contact_sim_pkg.records.contact import Contact
-from contact_sim_pkg.records.effect import Effect, choice_of_model
+from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.rig import Rig
 from contact_sim_pkg.records.topic import FORCE, WRENCH, ContactTopic
 
@@ -12,7 +12,6 @@ PAD = Effect(
     source="Johnson, Contact Mechanics, section 6.5",
     carries=True,
     feeds=("force", "wrench"),
-    called_for=choice_of_model("it carries the mass"),
 )
 FOOT = Contact(
     name="foot",
@@ -40,6 +39,5 @@ LOAD_CHANGE = Effect(
     publishes="load_change",
     topic=ContactTopic("load_change", "contact_msgs_defs/msg/Series"),
     observer=f"{__name__}.load_change:LoadChange",
-    called_for=choice_of_model("it only looks"),
 )
 EFFECTS = {"tire": (LOAD_CHANGE,)}

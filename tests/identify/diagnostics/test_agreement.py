@@ -4,10 +4,10 @@ import numpy
 import pytest
 from tests.identify import motions
 
+from contact_sim_lab.identify.twins.falling_body import FallingBody, fall
 from contact_sim_pkg.identify import geometry
 from contact_sim_pkg.identify.identify import Setup, identify
 from contact_sim_pkg.identify.motion.states import BodyStates
-from contact_sim_pkg.identify.reference.falling_body import FallingBody, fall
 
 COARSE = {"position": 1e-3, "rotation": 1e-3, "velocity": 1e-3, "spin": 1e-2}
 LENGTHS = numpy.array([0.11, 0.07, 0.23])

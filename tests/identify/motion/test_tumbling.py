@@ -5,6 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from tests.identify import motions
 
+from contact_sim_lab.identify.twins.falling_body import FallingBody, fall
 from contact_sim_pkg.identify import geometry
 from contact_sim_pkg.identify.contact.wrench import NO_WRENCH
 from contact_sim_pkg.identify.identify import Setup, identify
@@ -12,7 +13,6 @@ from contact_sim_pkg.identify.motion.flight import FlightModel
 from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
 from contact_sim_pkg.identify.motion.tumbling import tumbling_start
 from contact_sim_pkg.identify.problem import spatial_basis
-from contact_sim_pkg.identify.reference.falling_body import FallingBody, fall
 
 LENGTHS = numpy.array([0.10, 0.14, 0.20])
 CORNERS = 0.5 * LENGTHS * numpy.array([[i, j, k] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)])

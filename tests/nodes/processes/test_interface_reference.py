@@ -7,9 +7,7 @@ from pathlib import Path
 import pytest
 from tests.bench_process import resolved
 
-from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.bag.topics import TOPICS, full_name
-from contact_sim_pkg.nodes.processes.interface_reference import (
+from contact_sim_lab.pages.interface_reference import (
     PARAMETERS,
     FieldRow,
     message_fields,
@@ -17,6 +15,8 @@ from contact_sim_pkg.nodes.processes.interface_reference import (
     reference,
     with_tables,
 )
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.topics import TOPICS, full_name
 from contact_sim_pkg.run.bag_content import recorded_names
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.load import shipped_names
@@ -36,7 +36,7 @@ def rows():
 
 def test_the_tables_of_the_document_are_those_of_the_code():
     text = (ROOT / "docs" / "interfaces.md").read_text(encoding="utf-8")
-    command = "python -m contact_sim_pkg.nodes.processes.interface_reference docs/interfaces.md"
+    command = "python -m contact_sim_lab.pages.interface_reference docs/interfaces.md"
     assert with_tables(text, TEXT) == text, f"run: {command}"
 
 

@@ -9,15 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from contact_sim_pkg.laws.parameters import NormalElastic
-from contact_sim_pkg.papers.cnoidal.cnoidal import (
+from contact_sim_lab.papers.cnoidal.cnoidal import (
     CnoidalError,
     QuadraticOscillator,
     contact_oscillator,
     position,
     released_at,
 )
-from contact_sim_pkg.papers.cnoidal.periodic_contact import exact_period
+from contact_sim_lab.papers.cnoidal.periodic_contact import exact_period
+from contact_sim_pkg.laws.parameters import NormalElastic
 
 TIMES = numpy.linspace(0.0, 6.0, 121)
 

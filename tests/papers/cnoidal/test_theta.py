@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contact_sim_pkg.papers.cnoidal import theta
+from contact_sim_lab.papers.cnoidal import theta
 
 QUICK = settings(max_examples=40)
 PHASES = numpy.linspace(-4.0, 4.0, 17)

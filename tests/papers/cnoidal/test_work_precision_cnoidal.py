@@ -3,11 +3,11 @@
 import numpy
 import pytest
 
-from contact_sim_pkg.papers.cnoidal import work_precision_modes as study_modes
-from contact_sim_pkg.papers.cnoidal import work_precision_periodic as study_periodic
-from contact_sim_pkg.papers.cnoidal.fit import ansatz, fit_ansatz, fit_harmonics, harmonics_of_period
-from contact_sim_pkg.papers.cnoidal.periodic_contact import steady_response
-from contact_sim_pkg.records import work_precision as study_row
+from contact_sim_lab.papers.cnoidal import work_precision_modes as study_modes
+from contact_sim_lab.papers.cnoidal import work_precision_periodic as study_periodic
+from contact_sim_lab.papers.cnoidal.fit import ansatz, fit_ansatz, fit_harmonics, harmonics_of_period
+from contact_sim_lab.papers.cnoidal.periodic_contact import steady_response
+from contact_sim_lab.records import work_precision as study_row
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from contact_sim_pkg.papers.distance import reference
-from contact_sim_pkg.papers.distance.closest import CONVERGED, minimum_distance, minimum_distance_from
-from contact_sim_pkg.papers.distance.convex_body import ConvexBody, box, ellipsoid, half_space, sphere
-from contact_sim_pkg.papers.distance.convex_intersection import intersection, polyhedron
+from contact_sim_lab.papers.distance import reference
+from contact_sim_lab.papers.distance.closest import CONVERGED, minimum_distance, minimum_distance_from
+from contact_sim_lab.papers.distance.convex_body import ConvexBody, box, ellipsoid, half_space, sphere
+from contact_sim_lab.papers.distance.convex_intersection import intersection, polyhedron
 
 
 def random_ellipsoid(random: numpy.random.Generator, centre: numpy.ndarray) -> ConvexBody:

@@ -8,7 +8,7 @@ import numpy
 import pytest
 from scipy.spatial.transform import Rotation
 
-from contact_sim_pkg.papers.distance.convex_body import (
+from contact_sim_lab.papers.distance.convex_body import (
     BodyError,
     ConvexBody,
     box,
@@ -17,7 +17,7 @@ from contact_sim_pkg.papers.distance.convex_body import (
     quadric,
     sphere,
 )
-from contact_sim_pkg.papers.distance.convex_intersection import intersection, polyhedron
+from contact_sim_lab.papers.distance.convex_intersection import intersection, polyhedron
 
 TURN = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
 

@@ -8,7 +8,7 @@ import numpy
 import pytest
 import scipy.optimize
 
-from contact_sim_pkg.papers.distance.convex_program import Program, minimise
+from contact_sim_lab.papers.distance.convex_program import Program, minimise
 
 
 def linear_program(cost: numpy.ndarray, rows: numpy.ndarray, bounds: numpy.ndarray) -> Program:

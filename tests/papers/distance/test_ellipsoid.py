@@ -9,8 +9,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from contact_sim_pkg.papers.distance.ellipsoid import supporting_plane
-from contact_sim_pkg.papers.distance.reference import directions, support
+from contact_sim_lab.papers.distance.ellipsoid import supporting_plane
+from contact_sim_lab.papers.distance.reference import directions, support
 
 AXIS = st.floats(0.05, 20.0)
 PLACE = st.one_of(st.just(0.0), st.floats(-2.0, 2.0), st.floats(-1e-9, 1e-9)).map(

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy
 import pytest
 
-from contact_sim_pkg.papers.distance import work_precision as study_closest
-from contact_sim_pkg.papers.distance.convex_body import box, ellipsoid, half_space, sphere
-from contact_sim_pkg.papers.distance.genetic_search import genetic_distance, genetic_interference
-from contact_sim_pkg.rigs.backrest.studies import work_precision_shell as study_shell
+from contact_sim_lab.papers.distance import work_precision as study_closest
+from contact_sim_lab.papers.distance.convex_body import box, ellipsoid, half_space, sphere
+from contact_sim_lab.papers.distance.genetic_search import genetic_distance, genetic_interference
+from contact_sim_lab.rigs.backrest import work_precision_shell as study_shell
 
 SPHERES = sphere([0, 0, 0], 0.3), sphere([0.3, 0.5, 0.1], 0.1)
 GAP = float(numpy.linalg.norm([0.3, 0.5, 0.1])) - 0.4
@@ -32,7 +32,7 @@ def test_the_same_seed_gives_the_same_result_and_another_one_does_not() -> None:
 
 
 def test_the_residual_tells_a_point_that_is_not_the_closest(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("contact_sim_pkg.papers.distance.genetic_search.GENERATIONS", 2)
+    monkeypatch.setattr("contact_sim_lab.papers.distance.genetic_search.GENERATIONS", 2)
     assert genetic_distance(*SPHERES, polish=False).residual > 1e-3
 
 

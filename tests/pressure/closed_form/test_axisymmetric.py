@@ -11,6 +11,7 @@ import scipy.integrate
 import scipy.interpolate
 import scipy.optimize
 
+from contact_sim_lab.twins import axisymmetric as reference
 from contact_sim_pkg.pressure.closed_form.axisymmetric import (
     approach_at_radius,
     load_at_radius,
@@ -25,7 +26,6 @@ from contact_sim_pkg.pressure.closed_form.axisymmetric_profile import (
     tabulated_profile,
 )
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact
-from contact_sim_pkg.reference import axisymmetric as reference
 
 MODULUS = 4e6
 INSIDE = numpy.array([1e-6, 0.01, 0.3, 0.5, 0.9, 0.999, 0.9999999])

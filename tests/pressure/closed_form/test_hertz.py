@@ -8,6 +8,7 @@ import mpmath
 import numpy
 import pytest
 
+from contact_sim_lab.twins import hertz as reference
 from contact_sim_pkg.pressure.closed_form.hertz import (
     HertzContact,
     HertzError,
@@ -16,7 +17,6 @@ from contact_sim_pkg.pressure.closed_form.hertz import (
     hertz_contact_at_approach,
     power_law,
 )
-from contact_sim_pkg.reference import hertz as reference
 
 MODULUS = 4e6
 NEAR_THE_CIRCLE = [1e-9, 1e-5, 3e-4, 1e-3, 0.01, 0.0199, 0.0201, 0.03]

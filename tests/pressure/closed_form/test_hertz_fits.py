@@ -3,6 +3,7 @@
 import numpy
 import pytest
 
+from contact_sim_lab.twins import hertz as reference
 from contact_sim_pkg.pressure.closed_form.hertz_fits import (
     EXACT,
     POLYNOMIAL,
@@ -11,7 +12,6 @@ from contact_sim_pkg.pressure.closed_form.hertz_fits import (
     contacts_at_load,
     make_shape_table,
 )
-from contact_sim_pkg.reference import hertz as reference
 
 MODULUS, LOAD = 4e6, 123.0
 TABLE_OF_SHAPES = make_shape_table()

@@ -5,9 +5,9 @@ import math
 import numpy
 import pytest
 
+from contact_sim_lab.rigs.roller.twin import ellipse_stress as point_forces
 from contact_sim_pkg.pressure.closed_form.hertz_stress import EllipseLoad, ellipse_stress
 from contact_sim_pkg.pressure.closed_form.subsurface import max_shear
-from contact_sim_pkg.rigs.roller.reference import ellipse_stress as point_forces
 
 XX, YY, ZZ, XY, XZ, YZ = range(6)
 

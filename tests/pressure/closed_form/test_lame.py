@@ -7,8 +7,8 @@ import math
 import numpy
 import pytest
 
+from contact_sim_lab.twins import lame as reference
 from contact_sim_pkg.pressure.closed_form.lame import LameFit, fit_boundary, fit_patch, lame_area, lame_moment
-from contact_sim_pkg.reference import lame as reference
 
 
 @pytest.mark.parametrize("exponent", [0.5, 1.0, 1.7, 2.0, 4.0, 12.0])

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from contact_sim_lab.twins import lame as reference
 from contact_sim_pkg.pressure.closed_form.lame import lame_area, lame_moment
 from contact_sim_pkg.pressure.closed_form.lame_domain import (
     inside,
@@ -19,7 +20,6 @@ from contact_sim_pkg.pressure.closed_form.lame_domain import (
     perimeter,
     radial_variable,
 )
-from contact_sim_pkg.reference import lame as reference
 
 EXPONENTS = (0.1, 0.5, 0.8, 1.0, 1.3, 2.0, 4.0, 20.0, 100.0)
 

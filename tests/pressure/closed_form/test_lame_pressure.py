@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
+from contact_sim_lab.twins import lame_pressure as reference
 from contact_sim_pkg.pressure.closed_form.hertz import HertzError, hertz_contact
 from contact_sim_pkg.pressure.closed_form.lame import LameFit, fit_patch, lame_area
 from contact_sim_pkg.pressure.closed_form.lame_pressure import (
@@ -25,7 +26,6 @@ from contact_sim_pkg.pressure.closed_form.lame_pressure import (
 )
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.solver import make_workspace, solve_at_load
-from contact_sim_pkg.reference import lame_pressure as reference
 
 TIRE = (0.5, 0.5 / 0.3, 4e6, 4000.0)  # A, B, E*, P of the check tire
 

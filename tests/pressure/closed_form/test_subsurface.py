@@ -8,6 +8,7 @@ import numpy
 import pytest
 import scipy.optimize
 
+from contact_sim_lab.twins import subsurface as reference
 from contact_sim_pkg.pressure.closed_form.subsurface import (
     SurfaceGrid,
     max_shear,
@@ -15,7 +16,6 @@ from contact_sim_pkg.pressure.closed_form.subsurface import (
     subsurface_stress,
     von_mises,
 )
-from contact_sim_pkg.reference import subsurface as reference
 
 ONE = numpy.ones((1, 1))
 GRID = SurfaceGrid(2.0, 1.0, 0.0, 0.0)  # one cell |x| < 1, |y| < 0.5

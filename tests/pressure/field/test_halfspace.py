@@ -6,6 +6,7 @@ import numpy
 import pytest
 from scipy.signal import fftconvolve
 
+from contact_sim_lab.twins import halfspace as reference
 from contact_sim_pkg.pressure.field.halfspace import (
     _nearest_circulant,
     coarsened,
@@ -16,7 +17,6 @@ from contact_sim_pkg.pressure.field.halfspace import (
     part_of,
 )
 from contact_sim_pkg.pressure.settings import BeltSettings
-from contact_sim_pkg.reference import halfspace as reference
 from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
 
 MODULUS = 3.7e6

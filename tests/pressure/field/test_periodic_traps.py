@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from contact_sim_lab.field.field_entries import ENTRIES, SolveRequest
+from contact_sim_lab.twins import halfspace as reference
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.periodic import PeriodicField, make_periodic_half_space
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, NOT_CONVERGED
-from contact_sim_pkg.reference import halfspace as reference
-from contact_sim_pkg.studies.field.field_entries import ENTRIES, SolveRequest
 
 SIDE, CELLS, MODULUS = 24, (1.0e-3, 1.4e-3), 6.58e6
 AREA = CELLS[0] * CELLS[1]

@@ -8,6 +8,7 @@ import numpy
 import pytest
 from numpy.typing import NDArray
 
+from contact_sim_lab.twins import halfspace as reference
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, make_half_space
 from contact_sim_pkg.pressure.field.solver import (
     BAD_INPUT,
@@ -23,7 +24,6 @@ from contact_sim_pkg.pressure.field.solver import (
     solve_at_approach,
     solve_at_load,
 )
-from contact_sim_pkg.reference import halfspace as reference
 
 Field = NDArray[numpy.float64]
 MODULUS = 6.58e6

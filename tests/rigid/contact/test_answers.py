@@ -8,7 +8,7 @@ import numpy
 import pytest
 from tests.rigid.contact.contact_case import PLANE, solve
 
-from contact_sim_pkg.reference.rigid_contact import coulomb_residual
+from contact_sim_lab.twins.rigid_contact import coulomb_residual
 from contact_sim_pkg.rigid.contact.solver import LEMKE, NEWTON
 from contact_sim_pkg.rigid.results import RAY, SOLVED
 

@@ -8,8 +8,8 @@ import numpy
 import pytest
 from tests.rigid.contact.contact_case import PLANE, SPACE, contact_rows, random_case, solve
 
+from contact_sim_lab.twins.rigid_contact import coulomb_residual, planar_velocity_by_enumeration
 from contact_sim_pkg.compiled.jit import entry
-from contact_sim_pkg.reference.rigid_contact import coulomb_residual, planar_velocity_by_enumeration
 from contact_sim_pkg.rigid.contact.single import single_impulses
 from contact_sim_pkg.rigid.contact.solver import NEWTON
 from contact_sim_pkg.rigid.geometry.face import face_impulses, make_face_workspace

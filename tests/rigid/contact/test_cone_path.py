@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import brentq
 from tests.rigid.contact.contact_case import SPACE, contact_rows, problem_of, solve
 
-from contact_sim_pkg.reference.rigid_contact import coulomb_residual
+from contact_sim_lab.twins.rigid_contact import coulomb_residual
 from contact_sim_pkg.rigid.contact.cone_path import candidates_by_path
 from contact_sim_pkg.rigid.results import SOLVED
 

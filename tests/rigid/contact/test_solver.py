@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import minimize
 from tests.rigid.contact.contact_case import PLANE, SPACE, contact_rows, random_case, solve
 
-from contact_sim_pkg.reference.rigid_contact import (
+from contact_sim_lab.twins.rigid_contact import (
     coulomb_residual,
     planar_velocity_by_enumeration,
     planar_wrench_cone_split,

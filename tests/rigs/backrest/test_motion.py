@@ -7,11 +7,7 @@ import pytest
 from tests.rigs.backrest.backrest_runs import FRICTION, GRAVITY, LAW, LOSS, MASS, driven, one_mass, sine
 from tests.run.scenes import FRICTIONLESS, resolved
 
-from contact_sim_pkg.laws.parameters import Friction, GeneralDissipative, NormalElastic
-from contact_sim_pkg.laws.restitution import damping_of_restitution
-from contact_sim_pkg.rigs.backrest import entries as columns
-from contact_sim_pkg.rigs.backrest.model import build_backrest, resting_state
-from contact_sim_pkg.rigs.backrest.reference import (
+from contact_sim_lab.rigs.backrest.twin import (
     SlappingMass,
     SlappingPoints,
     slapping_mass,
@@ -19,6 +15,10 @@ from contact_sim_pkg.rigs.backrest.reference import (
     slapping_points,
     sliding_friction,
 )
+from contact_sim_pkg.laws.parameters import Friction, GeneralDissipative, NormalElastic
+from contact_sim_pkg.laws.restitution import damping_of_restitution
+from contact_sim_pkg.rigs.backrest import entries as columns
+from contact_sim_pkg.rigs.backrest.model import build_backrest, resting_state
 
 SPINE = (4.75, 5.25, 5.75, 6.25)  # [Hz]
 KELVIN_VOIGT = GeneralDissipative(1360.0, 0.0, 1.0, 0.0, -math.inf)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contact_sim_pkg.rigs.backrest.reference_shell import plate_centre_deflection, shell_frequencies
+from contact_sim_lab.rigs.backrest.twin_shell import plate_centre_deflection, shell_frequencies
 from contact_sim_pkg.rigs.backrest.shell import (
     MODE_COUNTS,
     ShallowShell,

@@ -355,22 +355,20 @@ def test_radii_that_do_not_divide_are_refused_for_a_track_on_both():
         )
 
 
-def test_the_summary_and_the_page_show_what_the_scene_records(tmp_path):
+def test_the_metrics_and_the_page_show_what_the_scene_records(tmp_path):
     from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.report.reading import read_recording
     from contact_sim_pkg.report.report import sections
-    from contact_sim_pkg.report.summary import summarise_recording
+    from contact_sim_pkg.rigs.roller.report.metrics import roller_metrics
     from contact_sim_pkg.run.offline import run_offline
 
     run_offline(resolved("roller_programme", *SHORT["roller_programme"]), tmp_path / "bag")
     recording = read_recording(open_bag(tmp_path / "bag"))
-    numbers = summarise_recording(recording)["roller"]
-    assert numbers["tracks"][0]["time_acceleration"] == 250.0
-    assert [each["load_N"] for each in numbers["stability"]] == [26.5]
-    below = numbers["dangerous_volumes"][0]
-    assert 0.0 < below["share"] < 1.0
-    assert max(value for name, value in below["volume_m3"].items() if name != "any") <= below["any_m3"]
-    assert below["with_bending_m3"]["xx"] != below["volume_m3"]["xx"]
-    assert below["with_bending_m3"]["zz"] == below["volume_m3"]["zz"]
+    metrics = {each.key: each for each in roller_metrics(recording)}
+    assert metrics["roller.cycles"].value == 250.0 * recording.series["roller"].tracks[-1].turns
+    assert metrics["roller.growth"].verdict == "good"
+    below = max(each.volume[-1] for each in recording.series["roller"].volumes)
+    assert metrics["roller.volume"].value >= 1e9 * below  # bending is included
+    assert metrics["roller.pressure"].verdict == "good"
     keys = [section.key for section in sections(recording)]
     assert keys[:4] == ["roller", "stability", "track", "stress"]

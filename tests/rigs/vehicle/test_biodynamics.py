@@ -7,6 +7,7 @@ import mpmath
 import numpy
 import pytest
 
+from contact_sim_lab.rigs.vehicle.validation_occupant import VALIDATION
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import (
     apparent_mass,
     matrices,
@@ -24,7 +25,6 @@ from contact_sim_pkg.rigs.vehicle.seat.occupants import (
     softened,
     stiffened,
 )
-from contact_sim_pkg.rigs.vehicle.studies.validation_occupant import VALIDATION
 
 FREQUENCIES = (1.0, 2.0, 4.0, 5.0, 6.3, 8.0, 10.0, 16.0, 20.0)
 # Apparent mass [kg] and its phase [degrees] at FREQUENCIES, computed apart from this project.

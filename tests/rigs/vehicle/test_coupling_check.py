@@ -85,11 +85,11 @@ def test_a_single_step_changes_the_way_by_half_or_twice():
 def test_an_error_counts_under_the_load_that_it_acts_at():
     """On a spring: its stiffness times a height; a rate's error is a part of the force there, whatever is at rest."""
     law, tolerance, damping = NormalElastic(1e5, 1.0), 1e-2, 0.05
-    allowed = Allowance(force=tolerance * 3e3, load=3e3, speed=tolerance / damping)
+    allowed = Allowance(height=3e-4, force=tolerance * 3e3, load=3e3, speed=tolerance / damping)
     assert allowed.missed_force(law, 0.03, 1e-4, 0.0) == pytest.approx(10.0)
     assert allowed.missed_force(law, 0.03, 0.0, 0.1) == pytest.approx(3e3 * damping * 0.1)
     assert allowed.missed_force(law, 0.12, 0.0, 0.1) == pytest.approx(12e3 * damping * 0.1)
-    assert allowed.missed_force(law, -0.01, 1e-4, 0.1) == 0.0
+    assert allowed.missed_force(law, -0.01, 1e-4, 0.0) == pytest.approx(10.0)  # aloft, as at rest
 
 
 ROADS = {

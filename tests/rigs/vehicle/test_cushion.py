@@ -6,11 +6,11 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import PchipInterpolator
 from tests.run.scenes import resolved
 
+from contact_sim_lab.rigs.vehicle.accuracy_cushion import cushion_rows
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
 from contact_sim_pkg.report.signal.spectrum import transmissibility
 from contact_sim_pkg.rigs.vehicle.model import build
-from contact_sim_pkg.rigs.vehicle.studies.accuracy_cushion import cushion_rows
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.errors import SceneError

@@ -4,9 +4,9 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
+from contact_sim_lab.twins import general_law
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipative
 from contact_sim_pkg.pressure.settings import BeltSettings
-from contact_sim_pkg.reference import general_law
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.parameters import RigidRing
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush

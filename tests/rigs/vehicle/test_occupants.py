@@ -7,12 +7,12 @@ import pytest
 import scipy.signal
 from tests.run.scenes import resolved
 
+from contact_sim_lab.rigs.vehicle.scene_drive import drive_of, fast_run, slow_run
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, EnergyLedger
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import apparent_mass, seat_to_head
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OCCUPANTS, SEATED_MASS, OccupantModel, scaled, softened
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run, slow_run
 from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
 
 LINEAR = (

@@ -4,11 +4,11 @@ import math
 
 import pytest
 
-from contact_sim_pkg.records.published import Published
+from contact_sim_lab.rigs.vehicle import validation_occupant, validation_seat
+from contact_sim_lab.rigs.vehicle.validation_seat import FLOOR, SEAT
+from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import seat_transmissibility
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OCCUPANTS
-from contact_sim_pkg.rigs.vehicle.studies import validation_occupant, validation_seat
-from contact_sim_pkg.rigs.vehicle.studies.validation_seat import FLOOR, SEAT
 
 LINEAR = (
     "effects.seat={normal_elastic: {coefficient: 5e4, exponent: 1}, "

@@ -3,8 +3,8 @@
 import numpy
 import pytest
 
+from contact_sim_lab.rigs.vehicle.scene_drive import drive_of, fast_run, slow_run
 from contact_sim_pkg.laws.parameters import TabulatedElastic
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run, slow_run
 from contact_sim_pkg.scene.resolve import load_resolved
 
 ON_A_SPRING = "effects.seat={normal_elastic: {}, normal_dissipative: {}}"

@@ -5,8 +5,8 @@ import math
 import pytest
 from matplotlib import pyplot
 
-from contact_sim_pkg.studies.accuracy import scene_plot as accuracy_cost_plot
-from contact_sim_pkg.studies.accuracy.lines import parts_of_rigs
+from contact_sim_lab.accuracy import scene_plot as accuracy_cost_plot
+from contact_sim_lab.accuracy.lines import parts_of_rigs
 
 
 def row(error, milliseconds=2.0, tolerance=1e-3, part="scheme in time"):

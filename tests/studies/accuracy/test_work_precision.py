@@ -6,14 +6,17 @@ import math
 import numpy
 import pytest
 
-from contact_sim_pkg.records import work_precision as study_row
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import area as study_area
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import elliptic as study_elliptic
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import exponent as study_exponent
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import road as study_road
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import rough as study_rough
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import smooth as study_smooth
-from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
+from contact_sim_lab.accuracy import work_precision as whole_study
+from contact_sim_lab.accuracy import work_precision_plot as study_plot
+from contact_sim_lab.accuracy import work_precision_table as study_table
+from contact_sim_lab.records import work_precision as study_row
+from contact_sim_lab.rigs.vehicle.work_precision import area as study_area
+from contact_sim_lab.rigs.vehicle.work_precision import elliptic as study_elliptic
+from contact_sim_lab.rigs.vehicle.work_precision import exponent as study_exponent
+from contact_sim_lab.rigs.vehicle.work_precision import road as study_road
+from contact_sim_lab.rigs.vehicle.work_precision import rough as study_rough
+from contact_sim_lab.rigs.vehicle.work_precision import smooth as study_smooth
+from contact_sim_lab.rigs.vehicle.work_precision.fields import (
     FIELD,
     FORCE,
     GIVEN,
@@ -22,17 +25,14 @@ from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
     distances,
     solve,
 )
-from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import (
+from contact_sim_lab.rigs.vehicle.work_precision.patch_problem import (
     LOAD,
     PATCH,
     means_over,
     patch_problem,
     road_heights,
 )
-from contact_sim_pkg.rigs.vehicle.studies.work_precision.rolling_problem import FINEST, FIRST, rough_road
-from contact_sim_pkg.studies.accuracy import work_precision as whole_study
-from contact_sim_pkg.studies.accuracy import work_precision_plot as study_plot
-from contact_sim_pkg.studies.accuracy import work_precision_table as study_table
+from contact_sim_lab.rigs.vehicle.work_precision.rolling_problem import FINEST, FIRST, rough_road
 
 
 @pytest.fixture(scope="module", autouse=True)

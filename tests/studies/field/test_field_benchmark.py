@@ -3,8 +3,8 @@ import math
 import numpy
 import pytest
 
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import rolling_problem
-from contact_sim_pkg.studies.field import field_benchmark
+from contact_sim_lab.field import field_benchmark
+from contact_sim_lab.rigs.vehicle.work_precision import rolling_problem
 
 
 def test_the_road_has_the_spectrum_that_is_asked_for():

@@ -1,9 +1,9 @@
 import pytest
 
-from contact_sim_pkg.records.goal import GoalPart, Measured
-from contact_sim_pkg.studies.goals import goals as benchmark
-from contact_sim_pkg.studies.goals import laws as benchmark_core
-from contact_sim_pkg.studies.laws import seat_slap
+from contact_sim_lab.goals import goals as benchmark
+from contact_sim_lab.goals import laws as benchmark_core
+from contact_sim_lab.laws import seat_slap
+from contact_sim_lab.records.goal import GoalPart, Measured
 
 
 @pytest.mark.parametrize(

@@ -2,12 +2,12 @@
 
 import pytest
 
+from contact_sim_lab.hard import accuracy_table
+from contact_sim_lab.hard.accuracy_cases import CASES, AccuracyCase
+from contact_sim_lab.hard.accuracy_table import failed, mark_of, rows_of, sections, study
 from contact_sim_pkg.compare.first_look import FirstLook, Request
 from contact_sim_pkg.compare.least_errors import LeastError, least_errors
 from contact_sim_pkg.scene.resolve import load_resolved
-from contact_sim_pkg.studies.hard import accuracy_table
-from contact_sim_pkg.studies.hard.accuracy_cases import CASES, AccuracyCase
-from contact_sim_pkg.studies.hard.accuracy_table import failed, mark_of, rows_of, sections, study
 
 BRUSH = {"force": LeastError(1.5e-2, "tire brush")}
 BLOCK = AccuracyCase("jam", "a slipping block jams", "block_painleve", ("duration=0.1",))

@@ -7,17 +7,17 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from contact_sim_lab.hard import hard_cases
+from contact_sim_lab.laws import hard_cases_impact
+from contact_sim_lab.twins import impact
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.one_mass.parameters import BeltSlider, PointContact
 from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
-from contact_sim_pkg.reference import impact
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.motion import event_count
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle, rigid_occupant
-from contact_sim_pkg.studies.hard import hard_cases
-from contact_sim_pkg.studies.laws import hard_cases_impact
 
 CASES = hard_cases.all_cases()
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from contact_sim_pkg.records import work_precision as study_row
-from contact_sim_pkg.studies.laws import work_precision_restitution as restitution_study
-from contact_sim_pkg.studies.laws.restitution_formulas import FORMULAS
+from contact_sim_lab.laws import work_precision_restitution as restitution_study
+from contact_sim_lab.laws.restitution_formulas import FORMULAS
+from contact_sim_lab.records import work_precision as study_row
 
 PUBLISHED = {  # e obtained, Driver and Seat's law, by requested e: in the order of FORMULAS
     0.95: (0.9524, 0.9535, 0.9468, 0.9359, 0.9500),

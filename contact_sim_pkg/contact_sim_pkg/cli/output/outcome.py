@@ -103,18 +103,11 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome, checked: Iterable[str
     for topic, description in facts["excitation"].items():
         for note in description.get("notes", []):
             click.echo(f"{topic}: {note}", err=True)
-    # one line for the run, one for each contact, then what the rig adds
     factor = facts["real_time_factor"]
     speed = "" if factor is None else f" in {facts['wall_s']:.3g} s: {factor:.3g}x real time"
     state = "stopped after" if outcome.stopped else "simulated"
     click.echo(f"{facts['scene']}: {state} {facts['simulated_s']:g} s{speed} (start-up {facts['startup_s']:.2f} s)")
     summary = facts["summary"]
-    for contact, numbers in summary.get("contacts", {}).items():
-        click.echo(f"  {contact}: {_contact_line(numbers)}")
-    if "slaps" in summary:
-        click.echo(f"  {_slap_line(summary['slaps'])}")
-    if "impacts" in summary:
-        click.echo(f"  {_impact_line(summary['impacts'])}")
     _echo_accuracy(summary.get("accuracy"))
     for warning in summary.get("warnings", []):
         click.echo(f"  warning: {warning}")
@@ -122,6 +115,7 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome, checked: Iterable[str
         click.echo(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")
     for line in checked:
         click.echo(f"  {line}")
+    _echo_metrics(summary.get("metrics", []))
     if facts["bag"] is not None:
         click.echo(f"bag: {facts['bag']}")
 
@@ -141,23 +135,12 @@ def _echo_accuracy(numbers: dict[str, Any] | None) -> None:
         )
 
 
-def _slap_line(slaps: dict[str, Any]) -> str:
-    if not slaps["count"]:
-        return "no slaps"
-    return f"{slaps['count']} slaps, restitution {slaps['restitution_min']:.3f} to {slaps['restitution_max']:.3f}"
+def _echo_metrics(rows: list[dict[str, Any]]) -> None:
+    """The list of metrics, and the verdict on all of it."""
+    if not rows:
+        return
+    from contact_sim_pkg.report.metrics.views import lines_of, verdict_line
 
-
-def _impact_line(impacts: dict[str, Any]) -> str:
-    low, high = impacts["restitution_min"], impacts["restitution_max"]
-    return (
-        f"{impacts['count']} impacts, restitution {low:.3f} to {high:.3f}, {1e3 * impacts['duration_min_s']:.4g} to "
-        f"{1e3 * impacts['duration_max_s']:.4g} ms; largest force {impacts['peak_force_max_N']:.5g} N"
-    )
-
-
-def _contact_line(numbers: dict[str, Any]) -> str:
-    line = (
-        f"load {numbers['load_mean_N']:.5g} N on average, {numbers['load_min_N']:.5g} to {numbers['load_max_N']:.5g} N"
-    )
-    peak = next((value for key, value in numbers.items() if "peak" in key and isinstance(value, float)), None)
-    return line if peak is None else f"{line}; peak pressure {peak / 1e3:.5g} kPa"
+    for line in lines_of(rows):
+        click.echo(f"  {line}")
+    click.echo(verdict_line(rows))

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from contact_sim_pkg.report.drawing import MUTED, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import MUTED, Margins, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.contact import force_unit
 from contact_sim_pkg.report.rig_reports import drive_period
 from contact_sim_pkg.report.series import FloatArray, Recording
@@ -28,6 +28,8 @@ from contact_sim_pkg.report.signal.loops import (
 
 COLOURS = ("#2f7fb5", "#e08a2e", "#3f9b63", "#b4508f", "#8a6d3b", "#6a6fd0", "#c0392b", "#4aa3a2")
 """Of the runs in their order; seen on light and on dark ground."""
+BELOW_LEGEND = Margins(top=0.85, right=0.24)
+"""Room for the legend of up to eight runs."""
 LOOP_POINTS = 3000
 """Most points of the curve of one run."""
 
@@ -60,7 +62,7 @@ def force_comparison(key: str, name: str, runs: list[Run], title: str) -> Pictur
     cyclic = all(run.steady()[1] is not None for run in runs)
     contacts = [run.recording.contacts[name] for run in runs]
     unit, scale = max((force_unit(each) for each in contacts), key=lambda found: -found[1])
-    figure, (axes,) = new_figure(2.8)
+    figure, (axes,) = new_figure(3.1, margins=BELOW_LEGEND)
     for run, contact in zip(runs, contacts, strict=True):
         time, force = _over_cycles(run, contact.time, contact.normal) if cyclic else (contact.time, contact.normal)
         axes.plot(*envelope(time, force * scale), color=run.colour, linewidth=1.0, label=run.label)
@@ -98,7 +100,7 @@ def loop_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture
             ("friction force, N", "tangential displacement, mm", label, lambda each: _friction_loop(name, each))
         )
     # One panel a loop, all runs in it
-    figure, axes = new_figure(3.3, 1, len(panels))
+    figure, axes = new_figure(3.7, 1, len(panels), BELOW_LEGEND)
     for place, (along, across, label, loop_of) in zip(axes, panels, strict=True):
         for run in runs:
             _draw_loop(place, run, loop_of(run.recording))
@@ -169,7 +171,7 @@ def area_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture
         return None
     slapping = [(run, area, slap) for run, area in drawn if (slap := _last_slap(run)) is not None]
     cyclic = all(run.steady()[1] for run, _ in drawn)
-    figure, axes = new_figure(2.9, 1, 2 if slapping else 1)
+    figure, axes = new_figure(3.2, 1, 2 if slapping else 1, BELOW_LEGEND)
     # Left: through one impact
     for run, area, (start, end) in slapping:
         during = (area.time >= start) & (area.time <= end)
@@ -206,7 +208,7 @@ def slap_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture
     found = [(run, slaps) for run, slaps in found if slaps.start.size]
     if not found:
         return None
-    figure, axes = new_figure(3.4, 2, sharex=True)
+    figure, axes = new_figure(3.8, 2, margins=BELOW_LEGEND, sharex=True)
     for run, slaps in found:
         style: dict[str, Any] = {
             "linestyle": "-",
@@ -238,7 +240,12 @@ def slap_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture
     return picture(f"{key}-slaps", figure, f"Restitution and duration of the slaps of the {name} in every run", caption)
 
 
+def over_legend(height: float, cols: int) -> tuple[Figure, list[Axes]]:
+    """A figure of `height` [in] with room for `legend` above its axes."""
+    return new_figure(height + 0.5, 1, cols, BELOW_LEGEND)
+
+
 def legend(figure: Figure, axes: Axes, title: str) -> None:
     """One legend above all panels."""
     handles, names = axes.get_legend_handles_labels()
-    figure.legend(handles, names, title=title, loc="outside upper left", ncols=4, alignment="left")
+    figure.legend(handles, names, title=title, loc="upper left", ncols=4, alignment="left")

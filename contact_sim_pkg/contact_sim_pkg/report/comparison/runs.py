@@ -7,10 +7,12 @@ from pathlib import Path
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.compare.side_by_side import side_by_side
 from contact_sim_pkg.files import check_output, new_file
 from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report import facts
+from contact_sim_pkg.report.comparison.curves import compared
 from contact_sim_pkg.report.comparison.figures import (
     Run,
     area_comparison,
@@ -19,13 +21,13 @@ from contact_sim_pkg.report.comparison.figures import (
     make_runs,
     slap_comparison,
 )
-from contact_sim_pkg.report.comparison.scene_differences import differences, labels
-from contact_sim_pkg.report.comparison.tables import difference_table, number_table
+from contact_sim_pkg.report.comparison.maps import map_comparison
+from contact_sim_pkg.report.comparison.scene_differences import differences
+from contact_sim_pkg.report.comparison.tables import difference_table, metric_table
 from contact_sim_pkg.report.drawing import Picture, style
 from contact_sim_pkg.report.page import Section, environment, is_page
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.series import Recording
-from contact_sim_pkg.report.summary import summarise_recording
 
 TEMPLATE = "comparison.html.j2"
 FILE_NAME = "comparison.html"
@@ -59,9 +61,9 @@ def write_comparison(bags: Sequence[Bag], out: Path | None = None, *, overwrite:
 def render_comparison(recordings: Sequence[Recording]) -> str:
     """The page as text. Raises BagError for runs of different rigs, or fewer than two."""
     refuse_other_rigs(recordings)
-    called = labels(recordings)
-    runs = make_runs(called.names, recordings)
-    summaries = [summarise_recording(each) for each in recordings]
+    names = distinct_names(recordings)
+    runs = make_runs(names, recordings)
+    sides = side_by_side([compared(name, each) for name, each in zip(names, recordings, strict=True)])
     title = " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings))
     page: str = (
         environment()
@@ -69,12 +71,21 @@ def render_comparison(recordings: Sequence[Recording]) -> str:
         .render(
             title=title,
             warnings=[f"{each.name}: {text}" for each in recordings for text in facts.warnings(each)],
-            differences=difference_table(recordings, differences([each.scene for each in recordings])),
-            numbers=number_table(runs, summaries),
-            sections=_sections(runs, called.title),
+            count=len(recordings),
+            differences=difference_table(names, differences([each.scene for each in recordings])),
+            numbers=metric_table(names, sides),
+            sections=_sections(runs, "run"),
         )
     )
     return page
+
+
+def distinct_names(recordings: Sequence[Recording]) -> list[str]:
+    """Names of the bags, of two runs with A and B before them; equal names with their number."""
+    names = [each.name for each in recordings]
+    if len(set(names)) < len(names):
+        names = [f"{name} ({place})" for place, name in enumerate(names, start=1)]
+    return [f"{letter}: {name}" for letter, name in zip("AB", names, strict=True)] if len(names) == 2 else names
 
 
 def refuse_other_rigs(recordings: Sequence[Recording]) -> None:
@@ -102,6 +113,7 @@ def _sections(runs: list[Run], title: str) -> list[Section]:
             key = f"contact-{number}"
             made: list[Picture | None] = [
                 force_comparison(key, name, runs, title),
+                map_comparison(key, name, runs),
                 *_rig_pictures(key, name, runs),
                 loop_comparison(key, name, runs, title),
             ]

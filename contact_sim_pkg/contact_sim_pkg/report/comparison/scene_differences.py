@@ -6,13 +6,10 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.report.rows import scene_value
-from contact_sim_pkg.report.series import Recording
 
 UNIMPORTANT = ("description",)
 LAST = ("duration", "block_length", "seed", "pace", "accuracy", "integrator", "outputs", "limits", "name")
 """How a scene is run rather than what it is: distinguishes runs only where nothing else does."""
-MOST_TOGETHER = 3
-"""Values that a legend can take."""
 ABSENT = "–"
 
 
@@ -23,14 +20,6 @@ class Difference(NamedTuple):
     """`vibration.frequency`"""
     values: tuple[str, ...]
     """with unit, one a run"""
-
-
-class Labels(NamedTuple):
-    """What a legend calls the runs."""
-
-    title: str
-    """the key of the scene, or `bag`"""
-    names: tuple[str, ...]
 
 
 def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
@@ -45,20 +34,6 @@ def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
         if len(set(values)) > 1 and key[0] not in UNIMPORTANT:
             found.append(Difference(".".join(key), values))
     return found
-
-
-def labels(recordings: Sequence[Recording]) -> Labels:
-    """The first value that alone distinguishes all runs; else all of them together, if few; else
-    the names of the bags.
-    """
-    found = differences([each.scene for each in recordings])
-    for each in found:
-        if len(set(each.values)) == len(recordings):
-            return Labels(each.key, each.values)
-    joined = tuple(", ".join(values) for values in zip(*(each.values for each in found), strict=True))
-    if len(found) <= MOST_TOGETHER and len(set(joined)) == len(recordings):
-        return Labels(", ".join(each.key for each in found), joined)
-    return Labels("bag", tuple(each.name for each in recordings))
 
 
 def _leaves(value: Any, location: tuple[str, ...] = ()) -> list[tuple[tuple[str, ...], Any]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from contact_sim_pkg.records.report import LedgerScope
-from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, draw_series, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Margins, Picture, draw_series, new_figure, picture
 from contact_sim_pkg.report.energy import AT_REST, relative_residual, residual_scale, throughput
 from contact_sim_pkg.report.series import CostSeries, LedgerSeries
 from contact_sim_pkg.report.signal.decimate import envelope
@@ -51,7 +51,7 @@ def energy_balance(ledger: LedgerSeries, scope: LedgerScope | None = None) -> Pi
 
 def real_time_factor(cost: CostSeries) -> Picture:
     """Real-time factor of the blocks over time, and how often each wall time occurs."""
-    figure, axes = new_figure(2.7, 1, 2, width_ratios=[3, 2])
+    figure, axes = new_figure(2.7, 1, 2, Margins(left=0.95), width_ratios=[3, 2])
     draw_series(axes[0], cost["time"], cost["real_time_factor"], color=ACCENT, linewidth=0.8)
     axes[0].axhline(1.0, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
     axes[0].set_yscale("log")

@@ -6,6 +6,8 @@ area.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
@@ -21,6 +23,7 @@ from contact_sim_pkg.report.drawing import (
     PRESSURE_COLOURS,
     SHADE,
     WIDTH,
+    WITH_BARS,
     Picture,
     draw_series,
     new_figure,
@@ -31,7 +34,6 @@ from contact_sim_pkg.report.page import Section
 from contact_sim_pkg.report.series import ContactSeries, FieldSeries, PressureMap, Recording
 from contact_sim_pkg.report.signal.decimate import BANDS, envelope
 from contact_sim_pkg.report.signal.lift_off import lifted_intervals
-from contact_sim_pkg.report.summary import field_numbers, force_numbers
 
 LOOP_POINTS = 4000
 """Most points of the curve of load over approach."""
@@ -39,6 +41,29 @@ LOOP_POINTS = 4000
 
 LEAST_APPROACH = 1e-9
 """[m]: a contact that never yields more is rigid."""
+
+
+def force_numbers(contact: ContactSeries) -> dict[str, Any]:
+    """Load in [N], share of the time without contact (0 .. 1), number of lift-offs: from a load to
+    none.
+    """
+    separated = contact.normal <= 0.0
+    return {
+        "load_mean_N": float(contact.normal.mean()),
+        "load_min_N": float(contact.normal.min()),
+        "load_max_N": float(contact.normal.max()),
+        "lifted_share": float(separated.mean()),
+        "lift_offs": int(np.count_nonzero(separated[1:] & ~separated[:-1])),
+    }
+
+
+def field_numbers(field: FieldSeries) -> dict[str, Any]:
+    """Largest pressure and when, mean contact area over all recorded instants."""
+    return {
+        "peak_pressure_Pa": float(field.peak.max()),
+        "peak_pressure_time_s": field.highest_time,
+        "contact_area_mean_m2": float(field.area.mean()),
+    }
 
 
 def contact_section(number: int, name: str, recording: Recording) -> Section:
@@ -136,7 +161,7 @@ def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture |
 def pressure_maps(key: str, name: str, field: FieldSeries, view: View = FROM_ABOVE) -> Picture:
     """The map with the largest peak and the mean map, one colour scale each, cells as they are."""
     window = loaded_window(field.average)
-    figure, axes = new_figure(_map_height(window), 1, 2)
+    figure, axes = new_figure(_map_height(window), 1, 2, WITH_BARS)
     _map(axes[0], field.highest, window, f"largest peak, t = {field.highest_time:.3f} s", view)
     _mark_peak(axes[0], field.highest)
     _map(axes[1], field.average, window, "mean over the run", view)

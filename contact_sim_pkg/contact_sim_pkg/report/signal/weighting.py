@@ -8,12 +8,15 @@ H(s) = Hh Hl Ht Hs with s = j 2 pi f and omega_i = 2 pi f_i:
 * step        Hs = (f5/f6)^2 (1 + s/(Q5 omega_5) + (s/omega_5)^2) / (1 + s/(Q6 omega_6) +
 (s/omega_6)^2)
 
+Ht has the numerator 1 where f3 is infinite, and is 1 where f4 is too; K is 1 but for Wb.
+
 The weighting of a recorded signal is done in the frequency domain with this exact complex response.
 A digital filter would be up to 6 % low at 80 Hz for data sampled at 476 Hz.
 """
 
 from __future__ import annotations
 
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +27,9 @@ PADDING_TIME = 10.0
 """[s] of zeros behind a signal: the response of the 0.4 Hz high-pass has died out to e^-17 by
 then.
 """
+
+PADDED_CORNER = 0.4
+"""[Hz] of a high-pass that `PADDING_TIME` is for; a lower one dies out more slowly"""
 
 
 class UpwardStep(NamedTuple):
@@ -46,20 +52,34 @@ class Weighting(NamedTuple):
     low_pass: float
     """[Hz] f2"""
     transition_zero: float
-    """[Hz] f3"""
+    """[Hz] f3; infinite: numerator 1"""
     transition_pole: float
-    """[Hz] f4"""
+    """[Hz] f4; infinite: no transition"""
     transition_quality: float
     """Q4"""
     step: UpwardStep | None
     """None: the weighting has no upward step."""
+    gain: float = 1.0
+    """K"""
+    use: str = ""
 
 
-WK = Weighting("Wk", 0.4, 100.0, 12.5, 12.5, 0.63, UpwardStep(2.37, 0.91, 3.35, 0.91))
+WK = Weighting("Wk", 0.4, 100.0, 12.5, 12.5, 0.63, UpwardStep(2.37, 0.91, 3.35, 0.91), use="seat z, feet")
 """Vertical at the seat surface and at the platform."""
-
-WD = Weighting("Wd", 0.4, 100.0, 2.0, 2.0, 0.63, None)
+WD = Weighting("Wd", 0.4, 100.0, 2.0, 2.0, 0.63, None, use="seat x and y, backrest y and z")
 """Horizontal at the seat surface."""
+WEIGHTINGS = {
+    each.name: each
+    for each in (
+        WK, WD,
+        Weighting("Wc", 0.4, 100.0, 8.0, 8.0, 0.63, None, use="backrest x"),
+        Weighting("We", 0.4, 100.0, 1.0, 1.0, 0.63, None, use="rotations of the seat, rad/s²"),
+        Weighting("Wj", 0.4, 100.0, inf, inf, 1.0, UpwardStep(3.75, 0.91, 5.32, 0.91), use="head, recumbent"),
+        Weighting("Wf", 0.08, 0.63, inf, 0.25, 0.86, UpwardStep(0.0625, 0.80, 0.1, 0.80), use="motion sickness, z"),
+        Weighting("Wb", 0.4, 100.0, 16.0, 16.0, 0.55, UpwardStep(2.5, 0.9, 4.0, 0.95), 1.024, "rail, BS 6841"),
+    )
+}  # fmt: skip
+"""By name. Source: ISO 8041-1 as in the Larson Davis HVM200 reference manual."""
 
 
 def response(weighting: Weighting, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
@@ -74,7 +94,7 @@ def response(weighting: Weighting, frequency: NDArray[np.float64]) -> NDArray[np
     high = s**2 / (s**2 + np.sqrt(2.0) * omega_1 * s + omega_1**2)
     low = omega_2**2 / (s**2 + np.sqrt(2.0) * omega_2 * s + omega_2**2)
     transition = (1.0 + s / omega_3) / _second_order(s, omega_4, weighting.transition_quality)
-    total: NDArray[np.complex128] = high * low * transition * _step_response(weighting.step, s)
+    total: NDArray[np.complex128] = weighting.gain * high * low * transition * _step_response(weighting.step, s)
     return total
 
 
@@ -98,7 +118,8 @@ def apply_weighting(weighting: Weighting, acceleration: NDArray[np.float64], sam
     if acceleration.ndim != 1:
         raise ValueError(f"acceleration has {acceleration.ndim} dimensions; give one signal at a time")
     # Padded by the decay of the filter, to a size that transforms fast
-    length = scipy.fft.next_fast_len(acceleration.size + round(PADDING_TIME * sample_rate), real=True)
+    padding = PADDING_TIME * max(1.0, PADDED_CORNER / weighting.high_pass)
+    length = scipy.fft.next_fast_len(acceleration.size + round(padding * sample_rate), real=True)
     spectrum = scipy.fft.rfft(acceleration, length)
     spectrum *= response(weighting, scipy.fft.rfftfreq(length, 1.0 / sample_rate))
     weighted: NDArray[np.float64] = scipy.fft.irfft(spectrum, length)[: acceleration.size]

@@ -42,9 +42,5 @@ RIGS = (
         work=f"{__name__}.work:work_of_backrest",
         report=(f"{__name__}.report:BACKREST_REPORT",),
         unused_axes=lambda _effects: "z",
-        accuracy=(f"{__name__}.studies.accuracy",),
-        hard_cases=tuple(
-            f"{__name__}.studies.{name}" for name in ("hard_cases_shell", "hard_cases", "hard_cases_surface")
-        ),
     ),
 )

@@ -56,11 +56,5 @@ RIGS = (
         other_half=f"{__name__}.simulation:warm_up_solvers",
         work=f"{__name__}.work:work_of_block",
         report=(f"{__name__}.report:BLOCK_REPORT",),
-        accuracy=(f"{__name__}.studies.accuracy",),
-        work_precision=(f"{__name__}.studies.work_precision", "contact_sim_pkg.identify.studies.work_precision"),
-        goals=(f"{__name__}.studies.goals",),
-        hard_cases=tuple(
-            f"{__name__}.studies.{name}" for name in ("hard_cases_contact", "hard_cases_motion", "hard_cases")
-        ),
     ),
 )

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from contact_sim_pkg.records.effect import Effect, choice_of_model
+from contact_sim_pkg.records.effect import Effect
 
 __all__ = ["BLOCK_EFFECTS"]
 
 _SCHEMA = f"{__package__}.schema"
-_RIGID = choice_of_model("rigid or compliant is a choice of the model: stiffer is nearer to rigid, and more expensive")
 
 BLOCK_EFFECTS = (
     Effect(
         name="rigid_contact", section=f"{_SCHEMA}:RigidContact", help="rigid contact with friction", source="Identifiability",
-        carries=True, feeds=("force", "wrench", "points"), called_for=_RIGID,
+        carries=True, feeds=("force", "wrench", "points"),
     ),
     Effect(
         name="compliant_contact", section=f"{_SCHEMA}:CompliantContact",
         help="the same contact with springs and dampers in place of impulses", source="Brogliato, Nonsmooth Mechanics, 2",
-        needs=("rigid_contact",), feeds=("force", "wrench", "points"), called_for=_RIGID,
+        needs=("rigid_contact",), feeds=("force", "wrench", "points"),
     ),
 )  # fmt: skip

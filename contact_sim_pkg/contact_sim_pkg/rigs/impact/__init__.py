@@ -48,12 +48,5 @@ RIGS = (
         simulation=f"{__name__}.simulation:ImpactSimulation",
         standing=f"{__name__}:standing",
         report=(f"{__name__}.report:IMPACT_REPORT",),
-        accuracy=(f"{__name__}.studies.accuracy",),
-        work_precision=tuple(
-            f"{__name__}.studies.{name}"
-            for name in ("work_precision", "work_precision_material", "work_precision_memory")
-        ),
-        goals=(f"{__name__}.studies.goals",),
-        hard_cases=(f"{__name__}.studies.hard_cases_sphere", f"{__name__}.studies.hard_cases"),
     ),
 )

@@ -20,7 +20,6 @@ RIGS = (
             "contact_sim_pkg.rigs.vehicle.seat.report:SEAT_REPORT",
             "contact_sim_pkg.rigs.backrest.report:BACKREST_REPORT",
         ),
-        accuracy=(f"{__name__}.accuracy",),
         standing="contact_sim_pkg.rigs.vehicle.lattice:standing",
         rules=(f"{__name__}.schema_rules:leaning_breaches",),
     ),

@@ -56,14 +56,6 @@ RIGS = (
         standing=f"{__name__}:standing",
         work=f"{__name__}.work:work_of_roller",
         report=(f"{__name__}.report:ROLLER_REPORT",),
-        accuracy=(f"{__name__}.studies.accuracy",),
-        work_precision=(
-            "contact_sim_pkg.rigs.vehicle.studies.work_precision.elliptic",
-            f"{__name__}.studies.work_precision",
-            f"{__name__}.studies.work_precision_interval",
-        ),
-        goals=(f"{__name__}.studies.goals",),
-        hard_cases=(f"{__name__}.studies.hard_cases",),
         forecast=f"{__name__}.forecast",
     ),
 )

@@ -44,10 +44,10 @@ SEAT = Contact(
 )
 _SIMULATION = f"{__name__}.simulation:Simulation"
 _OTHER_HALF = f"{__name__}.other_half:compile_all_but_fields"
-_ACCURACY = (f"{__name__}.studies.accuracy",)
 _TIRE_REPORT, _SEAT_REPORT = f"{__name__}.tire.report:TIRE_REPORT", f"{__name__}.seat.report:SEAT_REPORT"
 _ROAD_STRIP = f"{__name__}.lattice:road_strip"
 _STANDING = f"{__name__}.lattice:standing"
+_EVENTS = f"{__name__}.tire.effects:prescribed_events"
 
 RIGS = (
     Rig(
@@ -72,16 +72,7 @@ RIGS = (
         report=(_TIRE_REPORT,),
         road_strip=_ROAD_STRIP,
         standing=_STANDING,
-        accuracy=_ACCURACY,
-        work_precision=tuple(
-            f"{__name__}.studies.work_precision.{name}"
-            for name in ("elliptic", "force", "smooth", "rough", "area", "exponent", "road")
-        ),
-        hard_cases=tuple(
-            f"{__name__}.studies.hard_cases.{name}"
-            for name in ("tire", "inflation", "rolling", "obstacles", "scenes", "occupant")
-        ),
-        validation=(f"{__name__}.studies.validation_tire",),
+        events=_EVENTS,
     ),
     Rig(
         name="seat",
@@ -95,17 +86,7 @@ RIGS = (
         work=f"{__name__}.work:work_of_seat",
         report=(_SEAT_REPORT,),
         unused_axes=lambda effects: "x" if effects["seat"].get("friction") is None else "",
-        validation=tuple(f"{__name__}.studies.validation_{name}" for name in ("occupant", "seat")),
         standing=_STANDING,
-        accuracy=_ACCURACY,
-        hard_cases=(f"{__name__}.studies.hard_cases.cushion",),
-        work_precision=(
-            "contact_sim_pkg.studies.laws.work_precision_restitution",
-            "contact_sim_pkg.papers.cnoidal.work_precision_periodic",
-            "contact_sim_pkg.papers.cnoidal.work_precision_modes",
-            "contact_sim_pkg.rigs.backrest.studies.work_precision_shell",
-            "contact_sim_pkg.papers.distance.work_precision",
-        ),
     ),
     Rig(
         name="car",
@@ -121,7 +102,6 @@ RIGS = (
         report=(_TIRE_REPORT, _SEAT_REPORT),
         road_strip=_ROAD_STRIP,
         standing=_STANDING,
-        accuracy=_ACCURACY,
-        goals=(f"{__name__}.studies.goals",),
+        events=_EVENTS,
     ),
 )

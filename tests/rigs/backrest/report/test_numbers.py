@@ -148,10 +148,5 @@ def test_the_lumbar_part_and_the_height_are_those_of_the_mean_map(kept):
     field = kept.fields["backrest"]._replace(average=average)
     scene = {**kept.scene, "effects": {"backrest": {"cushion": {"lumbar_height": 0.2}}}}
     recording = kept._replace(scene=scene, fields={"backrest": field})
-    found = numbers.back_numbers(recording)
-    assert found == pytest.approx({"centre_height_m": 0.185, "lumbar_share": 0.7})
-    (tile,) = numbers.back_tiles({"contacts": {"backrest": found}})
-    assert (tile.value, tile.unit) == ("70", "%")
-    assert "185 mm" in tile.detail
-    assert numbers.back_numbers(kept) == {}
-    assert numbers.back_tiles({"contacts": {"backrest": {}}}) == []
+    assert numbers.back_load(recording) == pytest.approx((0.185, 0.7))
+    assert numbers.back_load(kept) is None

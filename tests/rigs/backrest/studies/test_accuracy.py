@@ -3,12 +3,12 @@
 import numpy
 import pytest
 
+from contact_sim_lab.accuracy import scene_study as accuracy_cost
+from contact_sim_lab.rigs.backrest import accuracy as accuracy_cost_backrest
+from contact_sim_lab.rigs.backrest.drive import drive_of, fast_run, slow_run
+from contact_sim_lab.rigs.backrest.twin import SlappingMass, slapping_mass
 from contact_sim_pkg.records.registry import rigs
-from contact_sim_pkg.rigs.backrest.reference import SlappingMass, slapping_mass
-from contact_sim_pkg.rigs.backrest.studies import accuracy as accuracy_cost_backrest
-from contact_sim_pkg.rigs.backrest.studies.drive import drive_of, fast_run, slow_run
 from contact_sim_pkg.scene.resolve import load_resolved
-from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 
 SMALL_SHELL = (
     "effects.backrest.shell_modes={}", "backrest.preload=20", "effects.backrest.shell_modes.points_up=8",

@@ -6,9 +6,9 @@ from itertools import pairwise
 
 import pytest
 
-from contact_sim_pkg.rigs.body.studies import accuracy as accuracy_cost_block
+from contact_sim_lab.accuracy import scene_study as accuracy_cost
+from contact_sim_lab.rigs.body import accuracy as accuracy_cost_block
 from contact_sim_pkg.scene.resolve import load_resolved
-from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 
 
 def quiet(_line):

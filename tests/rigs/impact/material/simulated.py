@@ -7,8 +7,8 @@ import math
 
 import numpy
 
+from contact_sim_lab.rigs.impact.twins import goloshchapov
 from contact_sim_pkg.rigs.impact.material.reading import Impacts
-from contact_sim_pkg.rigs.impact.reference import goloshchapov
 
 MASS, RADIUS = 0.02, 0.01
 

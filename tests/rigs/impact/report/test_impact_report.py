@@ -1,6 +1,5 @@
 """Report and summary of the impact rig: what the bag holds is shown, what it lacks is absent, numbers are the bag's."""
 
-import json
 import re
 from types import SimpleNamespace
 
@@ -10,8 +9,8 @@ import pytest
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.report import render
-from contact_sim_pkg.report.summary import summarise_recording
-from contact_sim_pkg.rigs.impact.report.figures_material import material_of_run
+from contact_sim_pkg.rigs.impact.report.material import material_of_run
+from contact_sim_pkg.rigs.impact.report.metrics import impact_metrics
 from contact_sim_pkg.rigs.impact.report.series import MOST_COURSES, ImpactReader, hertz_pressure, impact_warnings
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.load import load_scene
@@ -54,16 +53,25 @@ def test_a_run_that_ends_before_the_touch_has_a_page_without_impacts(tmp_path):
     early = recording_of(tmp_path, "impact_rubber_drop", "duration=0.1")
     assert "impacts" not in early.series
     assert shown(render(early)) == []
-    assert "impacts" not in summarise_recording(early)
+    (count,) = impact_metrics(early)
+    assert (count.value, count.broken) == (0.0, ("too short: no impact ended",))
 
 
-def test_the_summary_has_the_events_and_is_json(rubber):
-    impacts = summarise_recording(rubber)["impacts"]
+def test_the_metrics_are_those_of_the_events(rubber):
+    metrics = {each.key: each for each in impact_metrics(rubber)}
     events = rubber.series["impacts"].events
-    assert impacts["count"] == len(events.number) == 2
-    assert impacts["restitution"] == events.restitution.tolist()
-    assert impacts["peak_force_max_N"] == pytest.approx(59.1039, abs=1e-3)
-    json.dumps(impacts)
+    assert metrics["impact.count"].value == len(events.number) == 2
+    assert metrics["impact.restitution"].value == events.restitution[0]
+    assert metrics["impact.force"].value == pytest.approx(59.1039, abs=1e-3)
+    assert metrics["impact.storage_modulus"].verdict == metrics["impact.energy"].verdict == "good"
+
+
+def test_steel_meets_the_closed_form_of_hertz(tmp_path):
+    steel = recording_of(tmp_path, "impact_steel", "duration=0.2")
+    metrics = {each.key: each for each in impact_metrics(steel)}
+    for key in ("duration", "force", "depth"):
+        assert metrics[f"impact.{key}"].band.source == "Hertz's elastic impact"
+        assert metrics[f"impact.{key}"].verdict == "good"
 
 
 def test_the_material_of_the_run_is_that_of_its_scene(rubber):

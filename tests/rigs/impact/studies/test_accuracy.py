@@ -2,7 +2,7 @@
 
 import pytest
 
-from contact_sim_pkg.rigs.impact.studies import accuracy as accuracy_cost_impact
+from contact_sim_lab.rigs.impact import accuracy as accuracy_cost_impact
 from contact_sim_pkg.scene.resolve import load_resolved
 
 

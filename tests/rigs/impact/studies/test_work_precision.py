@@ -2,11 +2,11 @@
 
 import pytest
 
-from contact_sim_pkg.records import work_precision as records
-from contact_sim_pkg.rigs.impact.studies import work_precision as impact_levels
-from contact_sim_pkg.rigs.impact.studies import work_precision_material as impact_material
-from contact_sim_pkg.rigs.impact.studies import work_precision_memory as memory_studies
-from contact_sim_pkg.studies.accuracy import work_precision as work_precision
+from contact_sim_lab.accuracy import work_precision
+from contact_sim_lab.records import work_precision as records
+from contact_sim_lab.rigs.impact import work_precision as impact_levels
+from contact_sim_lab.rigs.impact import work_precision_material as impact_material
+from contact_sim_lab.rigs.impact import work_precision_memory as memory_studies
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from contact_sim_pkg.rigs.impact.reference import goloshchapov
+from contact_sim_lab.rigs.impact.twins import goloshchapov
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.inverse import material_of_impact

@@ -7,7 +7,7 @@ import numpy
 import pytest
 from scipy.integrate import quad
 
-from contact_sim_pkg.rigs.impact.reference import hereditary as slow
+from contact_sim_lab.rigs.impact.twins import hereditary as slow
 from contact_sim_pkg.rigs.impact.theory import moduli
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
 from contact_sim_pkg.rigs.impact.theory.closed_form import harmonic, operator_form

@@ -2,9 +2,9 @@
 
 import pytest
 
-from contact_sim_pkg.rigs.roller.studies import accuracy as accuracy_cost_roller
+from contact_sim_lab.accuracy import scene_study as accuracy_cost
+from contact_sim_lab.rigs.roller import accuracy as accuracy_cost_roller
 from contact_sim_pkg.scene.resolve import load_resolved
-from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 
 SMALL = (
     "effects.roller.subsurface.cells_x=8",

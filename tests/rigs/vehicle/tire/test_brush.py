@@ -8,14 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from contact_sim_pkg.rigs.vehicle.tire.brush.lattice import resample
-from contact_sim_pkg.rigs.vehicle.tire.brush.reference import (
+from contact_sim_lab.rigs.vehicle.brush_twin import (
     follow_bristles,
     hertz_brush,
     linear_start,
     parabolic_brush,
     steady_strip,
 )
+from contact_sim_pkg.rigs.vehicle.tire.brush.lattice import resample
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import (
     PatchGrid,
     RollingStep,

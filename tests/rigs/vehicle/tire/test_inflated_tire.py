@@ -9,11 +9,11 @@ from scipy.optimize import brentq
 from tests.rigs.vehicle.test_simulation import messages_of
 from tests.run.scenes import resolved
 
+from contact_sim_lab.twins.halfspace import dense_influence, pressure_at_approach
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, elastic_stiffness
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
-from contact_sim_pkg.reference.halfspace import dense_influence, pressure_at_approach
 from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of
 from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road, tire_table

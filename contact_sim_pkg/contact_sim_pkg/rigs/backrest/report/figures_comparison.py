@@ -13,7 +13,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from contact_sim_pkg.report.comparison.figures import Run
-from contact_sim_pkg.report.drawing import PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import MULTIPLES, PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.maps import Window, common_window
 from contact_sim_pkg.report.point_series import PointSnapshot
 from contact_sim_pkg.report.series import Snapshot
@@ -48,7 +48,7 @@ def domain_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
     columns = min(COLUMNS, len(found))
     rows = 2 * -(-len(found) // columns)
     height = float(np.clip(0.35 + window.aspect * 0.8 * WIDTH / columns, 1.2, 3.2))
-    figure, axes = new_figure(rows * height + 0.5, rows, columns, sharex=True, sharey=True)
+    figure, axes = new_figure(rows * height + 0.5, rows, columns, MULTIPLES, sharex=True, sharey=True)
     # Rows in pairs: first touch above largest force, for each run.
     panels = np.array(axes, dtype=object).reshape(rows // 2, 2, columns)
     for unused in panels.transpose(0, 2, 1).reshape(-1, 2)[len(found) :].flat:

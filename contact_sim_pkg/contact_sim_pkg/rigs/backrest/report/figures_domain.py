@@ -11,7 +11,17 @@ from matplotlib.colors import Normalize
 from matplotlib.image import AxesImage
 
 from contact_sim_pkg.pressure.closed_form.lame import LameFit, fit_patch
-from contact_sim_pkg.report.drawing import ACCENT, MUTED, PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import (
+    ACCENT,
+    MULTIPLES,
+    MUTED,
+    PRESSURE_COLOURS,
+    WIDTH,
+    WITH_BARS,
+    Picture,
+    new_figure,
+    picture,
+)
 from contact_sim_pkg.report.figures.maps import View, Window, common_window, draw_map, draw_outline, set_window
 from contact_sim_pkg.report.point_series import APART, SLIPS, STICKS, TOUCHES, PointSeries, PointSnapshot
 from contact_sim_pkg.report.series import EpisodeSeries, FieldSeries, FloatArray, PressureMap, Snapshot
@@ -54,7 +64,7 @@ def contact_domain(key: str, name: str, field: FieldSeries, points: PointSeries 
     # One window for both instants.
     window = common_window([shown.field for shown, _ in pairs])
     height = float(np.clip(0.75 + window.aspect * 0.31 * WIDTH, 2.4, 5.2))
-    figure, axes = new_figure(height, 1, 2)
+    figure, axes = new_figure(height, 1, 2, WITH_BARS)
     first = "first touch" if field.touch is not None else "start"
     for place, (shown, snapshot), label in zip(axes, pairs, (first, "largest force"), strict=True):
         _draw_with_scale(place, shown, snapshot, window)
@@ -144,7 +154,7 @@ def slap_stages(key: str, name: str, field: FieldSeries) -> Picture:
     window = common_window([each.field for each in stages])
     rows = -(-len(stages) // COLUMNS)
     height = float(np.clip(window.aspect * 0.2 * WIDTH, 0.5, 2.6)) + 0.34
-    figure, axes = new_figure(rows * height + 0.5, rows, COLUMNS, sharex=True, sharey=True)
+    figure, axes = new_figure(rows * height + 0.5, rows, COLUMNS, MULTIPLES, sharex=True, sharey=True)
     highest = max(float(each.field.pressure.max()) for each in stages) * 1e-3
     limits = Normalize(0.0, highest or 1.0)
     # Cells without pressure are blank.
@@ -190,9 +200,8 @@ def area_over_time(key: str, name: str, field: FieldSeries, slaps: EpisodeSeries
     if area is None:
         return None
     chosen = heaviest_slap(slaps)
-    figure, axes = new_figure(
-        2.7, 1, 1 if chosen is None else 2, **({} if chosen is None else {"width_ratios": [3, 2]})
-    )
+    widths = [1] if chosen is None else [3, 2]
+    figure, axes = new_figure(2.7, 1, len(widths), width_ratios=widths)
     axes[0].plot(*envelope(area.time, area.ratio), color=ACCENT, linewidth=0.9)
     axes[0].axhline(1.0, color=MUTED, linewidth=0.7)
     axes[0].set_xlabel("simulated time, s")

@@ -6,13 +6,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, SHADE, Picture, draw_series, new_figure, picture
-from contact_sim_pkg.report.figures.contact import force_unit, shade
+from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, SHADE, Margins, Picture, draw_series, new_figure, picture
+from contact_sim_pkg.report.figures.contact import force_numbers, force_unit, shade
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.series import ContactSeries, EpisodeSeries, FloatArray, Recording
 from contact_sim_pkg.report.signal.episodes import durations
 from contact_sim_pkg.report.signal.lift_off import lifted_intervals
-from contact_sim_pkg.report.summary import force_numbers
 from contact_sim_pkg.rigs.backrest.report.numbers import Shares, drive_period, state_shares
 
 STATE_COLOURS = {
@@ -118,7 +117,7 @@ def share_over_time(key: str, name: str, recording: Recording) -> Picture | None
     bands = [(label, values) for label, values in zip(STATE_COLOURS, shares[1:], strict=True) if values.any()]
     if len(bands) < 2:
         return None
-    figure, (axes,) = new_figure(2.4)
+    figure, (axes,) = new_figure(2.4, margins=Margins(right=0.85))
     # Stacked bands, the last state at the bottom.
     base: FloatArray = np.zeros(shares.apart.size)
     for label, values in reversed(bands):

@@ -13,7 +13,6 @@ from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.ranges import cushion_warnings
 from contact_sim_pkg.report.series import EpisodeSeries, FloatArray, Recording
 from contact_sim_pkg.report.signal.loops import period_of, vibration_period
-from contact_sim_pkg.report.tiles import Tile, number
 
 BACKREST = "backrest"
 """Name of the contact that these numbers belong to."""
@@ -72,30 +71,29 @@ def heaviest_slap(slaps: EpisodeSeries) -> int | None:
     return int(slaps.peak_force.argmax()) if slaps.peak_force.size else None
 
 
-def back_numbers(recording: Recording) -> dict[str, Any]:
-    """Where the mean map of a cushion carries: height of the centre of pressure over the lower edge
-    of the seat back, and the part of the load (0 .. 1) within 60 mm of the height of the lumbar
-    support. Load, area and largest pressure change little with a support. Empty without a cushion.
+class BackLoad(NamedTuple):
+    """Where the mean map of a cushion carries."""
+
+    centre_height: float
+    """[m] of the centre of pressure over the lower edge of the seat back"""
+    lumbar_share: float
+    """part of the load (0 .. 1) within 60 mm of the height of the lumbar support"""
+
+
+def back_load(recording: Recording) -> BackLoad | None:
+    """Load, area and largest pressure change little with a lumbar support, these do. None without a
+    cushion, or where it carries nothing.
     """
     keys = ((recording.scene.get("effects") or {}).get(BACKREST) or {}).get("cushion")
     field = recording.fields.get(BACKREST)
     if not keys or field is None:
-        return {}
+        return None
     average = field.average
     line = average.pressure.sum(axis=1)
     height = average.origin_x + average.cell_x * np.arange(line.size)
-    total = float(line.sum()) or np.nan
+    total = float(line.sum())
     lumbar = np.abs(height - float(keys["lumbar_height"])) < LUMBAR_REACH
-    return {"centre_height_m": float(line @ height) / total, "lumbar_share": float(line[lumbar].sum()) / total}
-
-
-def back_tiles(summary: dict[str, Any]) -> list[Tile]:
-    """Load at the lumbar support; none without a cushion, or where nothing touches."""
-    back = summary["contacts"].get(BACKREST, {})
-    if back.get("lumbar_share") is None:
-        return []
-    detail = f"of the load; centre of pressure {number(1e3 * back['centre_height_m'])} mm above the lower edge"
-    return [Tile("lumbar part of the back", number(100.0 * back["lumbar_share"]), "%", detail)]
+    return BackLoad(float(line @ height) / total, float(line[lumbar].sum()) / total) if total > 0.0 else None
 
 
 def backrest_warnings(recording: Recording) -> list[str]:

@@ -7,5 +7,6 @@ __all__ = ["BLOCK_REPORT"]
 BLOCK_REPORT = ContactReport(
     contact="block",
     sections=f"{__name__}.section:block_sections",
-    numbers=f"{__name__}.numbers:block_numbers",
+    metrics=f"{__name__}.metrics:block_metrics",
+    lead=("block-way",),
 )

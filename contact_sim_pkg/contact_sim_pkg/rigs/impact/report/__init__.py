@@ -16,7 +16,7 @@ IMPACT_REPORT = ContactReport(
         ),
     ),
     sections=f"{__name__}.section:impact_sections",
-    numbers=f"{__name__}.numbers:summary_numbers",
-    tiles=f"{__name__}.numbers:impact_tiles",
     warnings=f"{__name__}.series:impact_warnings",
+    metrics=f"{__name__}.metrics:impact_metrics",
+    lead=("impact-indentation",),
 )

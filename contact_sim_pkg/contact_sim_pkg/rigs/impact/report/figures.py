@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import trapezoid
 
-from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Margins, Picture, new_figure, picture
 from contact_sim_pkg.report.series import FloatArray, MotionSeries
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.rigs.impact.report.series import ImpactSeries
@@ -55,7 +55,7 @@ def force_over_time(impacts: ImpactSeries) -> Picture | None:
         return None
     course = impacts.courses[0]
     total = course.elastic_force + course.viscous_force
-    figure, (left, right) = new_figure(2.9, 1, 2)
+    figure, (left, right) = new_figure(3.1, 1, 2, Margins(top=0.52))
     time = course.time * 1e3
     amplitude = np.hypot(course.elastic_force, course.viscous_force)
     for values, colour, label, dash in (
@@ -150,7 +150,7 @@ def position_over_time(impacts: ImpactSeries) -> Picture | None:
     position = impacts.position
     if position is None:
         return None
-    figure, (left, right) = new_figure(2.4, 1, 2)
+    figure, (left, right) = new_figure(2.6, 1, 2, Margins(top=0.48))
     time = position.time * 1e3
     left.plot(time, position.surface_depth * 1e3, color=ACCENT, label="contact surface h_x")
     course = next((each for each in impacts.courses if each.number == position.number), None)

@@ -15,7 +15,8 @@ from contact_sim_pkg.rigs.impact.report.figures import (
     position_over_time,
 )
 from contact_sim_pkg.rigs.impact.report.figures_maps import stress_over_radius, wave_in_space_and_time
-from contact_sim_pkg.rigs.impact.report.figures_material import material_of_run, material_picture
+from contact_sim_pkg.rigs.impact.report.figures_material import material_picture
+from contact_sim_pkg.rigs.impact.report.material import material_of_run
 from contact_sim_pkg.rigs.impact.report.series import impacts_of
 
 

@@ -16,6 +16,9 @@ ROLLER_REPORT = ContactReport(
         ),
     ),
     sections=f"{__name__}.section:roller_sections",
-    numbers=f"{__name__}.numbers:summary_numbers",
     warnings=f"{__name__}.warnings:roller_warnings",
+    metrics=f"{__name__}.metrics:roller_metrics",
+    lead=("roller-contact",),
+    curves=f"{__name__}.comparison:roller_curves",
+    comparison=f"{__name__}.comparison:roller_comparison",
 )

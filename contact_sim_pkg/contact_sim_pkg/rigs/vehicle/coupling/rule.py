@@ -82,13 +82,13 @@ class Allowance(NamedTuple):
 
     def missed_force(self, law: ElasticLaw, approach: float, height: float, rate: float) -> float:
         """Error [N] of the force at an ``approach`` [m] by an error of the ``height`` [m], or of its
-        ``rate`` [m/s], which the loss sees.
+        ``rate`` [m/s], which the loss sees; at least that at rest, since a load may leap in a step.
         """
-        damping = self.force / self.load / self.speed if self.load > 0.0 else 0.0
-        elastic, dissipated = float(elastic_stiffness(law, approach)) * height, 0.0
-        if damping > 0.0:
-            dissipated = float(elastic_force(law, approach)) * damping * rate
-        return max(elastic, dissipated)
+        if self.load <= 0.0:
+            return 0.0
+        stiffness = max(float(elastic_stiffness(law, approach)), self.force / self.height)
+        load = max(float(elastic_force(law, approach)), self.load)
+        return max(stiffness * height, load * rate * self.force / self.load / self.speed)
 
 
 class MeasuredWay:

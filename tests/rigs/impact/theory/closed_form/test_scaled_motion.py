@@ -7,7 +7,7 @@ import numpy
 import pytest
 from scipy.integrate import solve_ivp
 
-from contact_sim_pkg.rigs.impact.reference import goloshchapov
+from contact_sim_lab.rigs.impact.twins import goloshchapov
 from contact_sim_pkg.rigs.impact.theory.closed_form.scaled_motion import scaled_course, scaled_impact
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 

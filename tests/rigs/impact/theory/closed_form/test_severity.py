@@ -3,7 +3,7 @@
 import numpy
 import pytest
 
-from contact_sim_pkg.rigs.impact.reference import goloshchapov
+from contact_sim_lab.rigs.impact.twins import goloshchapov
 from contact_sim_pkg.rigs.impact.theory.closed_form.scaled_motion import scaled_impact
 from contact_sim_pkg.rigs.impact.theory.closed_form.severity import (
     fold,

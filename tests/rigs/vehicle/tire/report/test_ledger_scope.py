@@ -9,7 +9,6 @@ from contact_sim_pkg.report.figures.bench import energy_balance
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.rig_reports import ledger_scope
 from contact_sim_pkg.report.summary import summarise_recording
-from contact_sim_pkg.report.tiles import tiles
 from contact_sim_pkg.run.offline import run_offline
 
 
@@ -33,11 +32,8 @@ def test_a_braked_wheel_names_its_friction_with_the_work_that_the_fields_sum_to(
     assert energy["dissipated_J"] < 0.5 * work  # which the ledger does not hold
 
 
-def test_tile_and_picture_say_the_same(braked):
+def test_the_picture_says_the_same(braked):
     recording = read_recording(braked)
-    (tile,) = (each for each in tiles(summarise_recording(recording)) if "energy" in each.label)
-    assert tile.label == "energy balance residual, vertical motion"
-    assert "outside: friction of the bristles (" in tile.detail
     with style():
         picture = energy_balance(recording.ledger, ledger_scope(recording))
     assert "balance of the vertical motion; outside it: friction of the bristles (" in picture.caption
@@ -47,4 +43,3 @@ def test_a_ledger_of_the_whole_rig_says_nothing_of_a_scope(tmp_path):
     run_offline(resolved("seat_ride", "duration=0.2"), tmp_path / "bag")
     summary = summarise_recording(read_recording(open_bag(tmp_path / "bag")))
     assert not {"of", "outside"} & set(summary["energy"])
-    assert [each.label for each in tiles(summary) if "energy" in each.label] == ["energy balance residual"]

@@ -13,11 +13,11 @@ from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.report import write_report
 from contact_sim_pkg.report.signal.lift_off import lifted_intervals
 from contact_sim_pkg.report.signal.peaks import filtered_signals, peak_rows
-from contact_sim_pkg.report.summary import summarise_recording
 from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import tire_reference
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_footprint import STAGES, chosen_stages
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, road_sections
-from contact_sim_pkg.rigs.vehicle.tire.report.tables import footprint_table, load_table
+from contact_sim_pkg.rigs.vehicle.tire.report.metrics import tire_metrics
+from contact_sim_pkg.rigs.vehicle.tire.report.tables import footprint_table
 
 HEAVY_TIME = known.HEAVY_BLOCK * known.BLOCK_LENGTH
 
@@ -62,20 +62,17 @@ def test_the_dynamic_load_coefficient_is_the_spread_over_the_standing_load(recor
     mean = 1.0 - share_lifted + share_heavy * (known.HEAVY - 1.0)
     square = 1.0 - share_lifted + share_heavy * (known.HEAVY**2 - 1.0)
 
-    numbers = summarise_recording(recording)["contacts"]["tire"]
+    metrics = {each.key: each for each in tire_metrics(recording)}
 
-    assert numbers["load_max_over_standing"] == pytest.approx(known.HEAVY)
-    assert numbers["dynamic_load_coefficient"] == pytest.approx((square - mean**2) ** 0.5)
+    assert metrics["tire.dlc"].value == pytest.approx((square - mean**2) ** 0.5)
+    assert metrics["tire.lift_off"].value == pytest.approx(100.0 * share_lifted)
+    assert metrics["tire.lift_off"].verdict == "outside"
 
 
-def test_lift_off_is_counted_with_its_instants_and_places(recording):
+def test_lift_off_is_found_with_its_instants(recording):
     contact = recording.contacts["tire"]
 
     np.testing.assert_allclose(lifted_intervals(contact), [[0.70, 0.73]])
-    rows = column(load_table(contact, recording.series["road"].travel, known.STANDING), "")
-    assert rows["share of the time without load"] == "3 %"
-    assert rows["lift-offs"] == "1"
-    assert rows["lift-off 1"] == "0.700 to 0.730 s, 7.000 to 7.300 m"
 
 
 def test_the_footprint_at_rest_is_the_ellipse_and_that_of_the_fields_is_no_more_than_a_cell_off(recording, reference):

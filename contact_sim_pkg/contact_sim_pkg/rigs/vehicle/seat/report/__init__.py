@@ -7,7 +7,9 @@ __all__ = ["SEAT_REPORT"]
 SEAT_REPORT = ContactReport(
     contact="seat",
     closing_sections=f"{__name__}.section:ride_sections",
-    numbers=f"{__name__}.occupant:summary_numbers",
-    tiles=f"{__name__}.ride:ride_tiles",
     warnings=f"{__name__}.ride:seat_warnings",
+    metrics=f"{__name__}.metrics:seat_metrics",
+    lead=("{contact}-map", "ride-transmissibility"),
+    curves=f"{__name__}.comparison:seat_curves",
+    comparison=f"{__name__}.comparison:seat_comparison",
 )

@@ -11,17 +11,13 @@ from numpy.typing import NDArray
 from contact_sim_pkg.report.drawing import INK, Picture, picture
 from contact_sim_pkg.report.signal.spectrum import HIGHEST_FREQUENCY, Transmissibility
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import apparent_mass, seat_to_head
-from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import (
-    TRUSTED_COHERENCE,
-    peak_sentence,
-    response_figure,
-    trusted_part,
-)
+from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import peak_sentence, response_figure
 from contact_sim_pkg.rigs.vehicle.seat.report.occupant import (
     OccupantSignals,
     apparent_mass_of,
     seat_to_head_of,
 )
+from contact_sim_pkg.rigs.vehicle.seat.report.response import TRUSTED_COHERENCE, trusted_part
 
 CLOSED = np.geomspace(0.25, HIGHEST_FREQUENCY, 300)
 """[Hz] of the closed form"""

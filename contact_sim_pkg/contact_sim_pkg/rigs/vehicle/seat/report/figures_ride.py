@@ -17,13 +17,9 @@ from contact_sim_pkg.report.signal.spectrum import (
     shortage,
     transmissibility,
 )
+from contact_sim_pkg.rigs.vehicle.seat.report.response import TRUSTED_COHERENCE, peak_of, trusted_part
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals
 
-TRUSTED_COHERENCE = 0.9
-DRIVEN_SHARE = 1e-3
-"""Share of the floor's largest density below which its leakage, not its motion, is measured."""
-PROMINENCE = 0.05
-"""Share of a peak by which the lines on either side of it must fall before one of them is not trusted."""
 FLOOR_OF_POWER = 1e-9
 """Share of the largest density below which a spectrum is rounding and not drawn."""
 
@@ -38,7 +34,7 @@ def seat_spectrum(signals: RideSignals) -> Picture:
     axes.loglog(seat.frequency[shown], _visible(seat)[shown], color=ACCENT, label="seat")
     axes.set_xlabel("frequency, Hz")
     axes.set_ylabel("PSD, (m/s²)²/Hz")
-    _frequency_axis(axes, floor.frequency)
+    frequency_axis(axes, floor.frequency)
     axes.legend(loc="best")
     caption = (
         f"Power spectral density of the vertical acceleration, Welch's method: {seat.segments} half-overlapping "
@@ -61,37 +57,6 @@ def seat_transmissibility(signals: RideSignals) -> Picture | None:
         "ride-transmissibility", figure, "Transmissibility from floor to seat: magnitude, phase, coherence",
         _transmissibility_caption(result, trusted),
     )  # fmt: skip
-
-
-def trusted_part(result: Transmissibility, source: NDArray[np.float64], sample_rate: float) -> NDArray[np.bool_] | None:
-    """Mask [frequencies] of a response where it is coherent and its ``source`` [m/s^2], sampled at
-    ``sample_rate`` [Hz], moves enough; None for a source at rest.
-    """
-    shown = band(result.frequency) & np.isfinite(result.magnitude)
-    if not shown.any():
-        return None
-    driven = power_density(source, sample_rate).density
-    found: NDArray[np.bool_] = (
-        shown & (result.coherence >= TRUSTED_COHERENCE) & (driven >= DRIVEN_SHARE * driven[shown].max())
-    )
-    return found
-
-
-def peak_of(result: Transmissibility, trusted: NDArray[np.bool_]) -> tuple[float, float] | None:
-    """Magnitude of the peak and its frequency [Hz]: the largest line of those ``trusted``
-    [frequencies], from which trusted neighbours fall by `PROMINENCE` on either side; None where the
-    peak may lie beside the trusted lines, or all are about equal.
-    """
-    if not trusted.any():
-        return None
-    place = int(np.flatnonzero(trusted)[result.magnitude[trusted].argmax()])
-    magnitude = float(result.magnitude[place])
-    for side in (slice(place, None), slice(place, None, -1)):
-        # Trusted lines without a gap.
-        run = result.magnitude[side][np.logical_and.accumulate(trusted[side])]
-        if run.min() > (1.0 - PROMINENCE) * magnitude:
-            return None
-    return magnitude, float(result.frequency[place])
 
 
 def peak_sentence(result: Transmissibility, trusted: NDArray[np.bool_]) -> str:
@@ -121,7 +86,7 @@ def response_figure(result: Transmissibility, trusted: NDArray[np.bool_], label:
     axes[2].set_ylabel("coherence")
     axes[2].set_ylim(0.0, 1.05)
     axes[2].set_xlabel("frequency, Hz")
-    _frequency_axis(axes[2], result.frequency)
+    frequency_axis(axes[2], result.frequency)
     return figure, list(axes)
 
 
@@ -141,7 +106,8 @@ def _visible(spectrum: Density) -> NDArray[np.float64]:
     return np.where(spectrum.density > smallest, spectrum.density, np.nan)
 
 
-def _frequency_axis(axes: Axes, frequency: NDArray[np.float64]) -> None:
+def frequency_axis(axes: Axes, frequency: NDArray[np.float64]) -> None:
+    """Ticks from the second ``frequency`` [frequencies] in [Hz] up to 80 Hz."""
     ticks = [tick for tick in (0.5, 1, 2, 5, 10, 20, 50, 80) if tick >= frequency[1]]
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.minorticks_off()

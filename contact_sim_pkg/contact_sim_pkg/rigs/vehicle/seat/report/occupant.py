@@ -1,14 +1,13 @@
-"""Responses of the occupant of a recording: apparent mass, seat-to-head transmissibility, H-point."""
+"""Responses of the occupant of a recording: apparent mass, seat-to-head transmissibility."""
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from contact_sim_pkg.report.series import FloatArray, Recording
 from contact_sim_pkg.report.signal.spectrum import Transmissibility, transmissibility
-from contact_sim_pkg.rigs.vehicle.seat.occupants import H_POINT, OccupantModel
-from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import peak_of, trusted_part
-from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals, vibration_numbers
+from contact_sim_pkg.rigs.vehicle.seat.occupants import OccupantModel
+from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals
 
 SEAT = "seat"
 
@@ -60,27 +59,3 @@ def apparent_mass_of(signals: OccupantSignals) -> Transmissibility:
 def seat_to_head_of(signals: OccupantSignals) -> Transmissibility | None:
     """Head over seat; None without a head."""
     return None if signals.head is None else transmissibility(signals.seat, signals.head, signals.sample_rate)
-
-
-def occupant_numbers(signals: OccupantSignals) -> dict[str, Any]:
-    """Section `occupant` of the summary: masses [kg], peaks, height of the H-point over the unloaded
-    cushion, mean over the time in contact.
-    """
-    found: dict[str, Any] = {"model": signals.name, "mass_kg": signals.model.mass}
-    touching = signals.force > 0.0
-    if touching.any():
-        found["h_point_over_cushion_m"] = H_POINT - float(signals.approach[touching].mean())
-    responses = (("apparent_mass", "_kg", apparent_mass_of(signals)), ("seat_to_head", "", seat_to_head_of(signals)))
-    for name, unit, result in responses:
-        trusted = None if result is None else trusted_part(result, signals.seat, signals.sample_rate)
-        if result is None or trusted is None or (peak := peak_of(result, trusted)) is None:
-            continue
-        found[f"{name}_peak{unit}"], found[f"{name}_peak_hz"] = peak
-    return found
-
-
-def summary_numbers(recording: Recording) -> dict[str, Any]:
-    """Sections `seat_vibration` and `occupant`; none without a seat."""
-    signals, occupant = ride_signals(recording.motion), occupant_signals(recording)
-    found = {} if signals is None else {"seat_vibration": vibration_numbers(signals)}
-    return found if occupant is None else {**found, "occupant": occupant_numbers(occupant)}

@@ -18,6 +18,7 @@ TIRE_REPORT = ContactReport(
         ),
     ),
     sections=f"{__name__}.section:tire_sections",
-    contact_numbers=f"{__name__}.numbers:contact_numbers",
     ledger=f"{__name__}.numbers:ledger_scope",
+    metrics=f"{__name__}.metrics:tire_metrics",
+    lead=("{contact}-map", "rolling-road"),
 )

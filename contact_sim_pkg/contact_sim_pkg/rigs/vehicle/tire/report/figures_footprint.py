@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
-from contact_sim_pkg.report.drawing import MUTED, PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import MULTIPLES, MUTED, PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.maps import common_window, draw_map, extension, robust_limits, set_window
 from contact_sim_pkg.report.series import FieldSeries, Snapshot
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import WheelTravel
@@ -40,7 +40,7 @@ def footprint_stages(key: str, name: str, field: FieldSeries, travel: WheelTrave
     window = common_window([each.field for each in stages])
     rows = -(-len(stages) // COLUMNS)
     height = float(np.clip(window.aspect * 0.2 * WIDTH, 0.5, 2.6)) + 0.34
-    figure, axes = new_figure(rows * height + 0.5, rows, COLUMNS, sharex=True, sharey=True)
+    figure, axes = new_figure(rows * height + 0.5, rows, COLUMNS, MULTIPLES, sharex=True, sharey=True)
     # One colour scale that a few peaks do not widen.
     pressures = np.concatenate([each.field.pressure.ravel() for each in stages]) * 1e-3
     limits = robust_limits(pressures, 0.02)

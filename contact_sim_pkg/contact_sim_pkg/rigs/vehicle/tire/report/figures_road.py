@@ -16,6 +16,7 @@ from contact_sim_pkg.report.drawing import (
     MUTED,
     PRESSURE_COLOURS,
     SHADE,
+    Margins,
     Picture,
     draw_series,
     new_figure,
@@ -86,7 +87,9 @@ def along_the_road(key: str, name: str, rolling: Rolling, section: RoadSection) 
     distance.
     """
     ratios = [3.0, *([1.6] if rolling.axle is not None else []), *([2.2] if rolling.field is not None else []), 2.0]
-    figure, axes = new_figure(0.5 + 0.7 * sum(ratios), len(ratios), sharex=True, height_ratios=ratios)
+    figure, axes = new_figure(
+        0.5 + 0.7 * sum(ratios), len(ratios), margins=Margins(right=0.8), sharex=True, height_ratios=ratios
+    )
     band = _draw_force(axes[0], rolling, section)
     if rolling.axle is not None:
         _draw_longitudinal(axes[1], rolling.axle, rolling.road, section)

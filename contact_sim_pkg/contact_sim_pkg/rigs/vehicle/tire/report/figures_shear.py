@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from contact_sim_pkg.records.messages import ContactShear
-from contact_sim_pkg.report.drawing import ACCENT, MUTED, SHEAR_COLOURS, WIDTH, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, MUTED, SHEAR_COLOURS, WIDTH, WITH_BARS, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.maps import Window, draw_map, loaded_window, set_window
 from contact_sim_pkg.report.series import FieldSeries, FloatArray, PressureMap
 from contact_sim_pkg.report.signal.decimate import envelope
@@ -110,7 +110,7 @@ def shear_maps(key: str, name: str, shear: ShearSeries) -> Picture:
     shown = shear.largest
     windows = [loaded_window(_loaded(each)) for each in shown]
     height = float(np.clip(windows[0].aspect * 0.36 * WIDTH, 1.2, 3.2)) + 0.75
-    figure, axes = new_figure(height * len(shown) + 0.2, len(shown), 2)
+    figure, axes = new_figure(height * len(shown) + 0.2, len(shown), 2, WITH_BARS)
     # One row of maps for each instant: stress, state.
     for row, (each, window) in enumerate(zip(shown, windows, strict=True)):
         _draw_shear(axes[2 * row], each, window)

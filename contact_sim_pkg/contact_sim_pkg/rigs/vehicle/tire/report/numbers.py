@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from contact_sim_pkg.records.report import LedgerScope
-from contact_sim_pkg.report.series import ContactSeries, Recording
-from contact_sim_pkg.report.tiles import number
+from contact_sim_pkg.report.rows import number
+from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.rigs.vehicle.lattice import plain_load
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
 
@@ -23,12 +23,6 @@ def standing_load_of(scene: dict[str, Any]) -> float | None:
     except (KeyError, TypeError):
         return None  # a scene that this version does not know
     return load if load > 0.0 else None
-
-
-def contact_numbers(recording: Recording) -> dict[str, Any]:
-    """Ratios of the load to that at rest; see `load_numbers`."""
-    contact = recording.contacts.get(TIRE)
-    return {} if contact is None else load_numbers(contact, standing_load_of(recording.scene))
 
 
 OUTSIDE = {
@@ -50,17 +44,3 @@ def ledger_scope(recording: Recording) -> LedgerScope:
     if shear is not None and "brush" in outside:
         outside["brush"] += f" ({number(float(shear.dissipated.sum()))} J in tire/shear)"
     return LedgerScope("vertical motion", tuple(outside.values()))
-
-
-def load_numbers(contact: ContactSeries, standing: float | None) -> dict[str, Any]:
-    """Ratios to the standing load [N], ready for JSON; empty without one.
-
-    `dynamic_load_coefficient` is the standard deviation of the normal force over the standing load.
-    """
-    if standing is None:
-        return {}
-    return {
-        "standing_load_N": standing,
-        "load_max_over_standing": float(contact.normal.max()) / standing,
-        "dynamic_load_coefficient": float(contact.normal.std()) / standing,
-    }

@@ -18,10 +18,10 @@ from contact_sim_pkg.rigs.vehicle.tire.report.figures_field import (
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_footprint import footprint_stages
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, along_the_road, road_sections
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_shear import friction_over_slip, friction_over_time, shear_maps
-from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
+from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
-from contact_sim_pkg.rigs.vehicle.tire.report.tables import footprint_table, load_table, peak_table
+from contact_sim_pkg.rigs.vehicle.tire.report.tables import footprint_table, peak_table
 
 KEY = "rolling"
 FRICTION_KEY = "friction"
@@ -50,8 +50,7 @@ def _rolling_section(recording: Recording) -> Section:
     if field is not None:
         pictures.append(footprint_stages(KEY, TIRE, field, travel))
     pictures += _under_load(field, reference)
-    tables = [load_table(contact, travel, standing_load_of(recording.scene))]
-    tables += [footprint_table(field, reference)] if field is not None else []
+    tables = [footprint_table(field, reference)] if field is not None else []
     tables += [peak_table(peak_rows(signals))] if signals else []
     return Section(KEY, "Rolling tire", pictures, tables)
 

@@ -3,21 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
-import numpy as np
-
-from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray
-from contact_sim_pkg.report.signal.lift_off import lifted_intervals
+from contact_sim_pkg.report.rows import number
+from contact_sim_pkg.report.series import FieldSeries, FloatArray
 from contact_sim_pkg.report.signal.peaks import PeakRow
 from contact_sim_pkg.report.tables import Table
-from contact_sim_pkg.report.tiles import number
 from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import TireReference
-from contact_sim_pkg.rigs.vehicle.tire.report.numbers import load_numbers
-from contact_sim_pkg.rigs.vehicle.tire.report.road_series import WheelTravel
-
-NAMED_LIFT_OFFS = 6
-"""Lift-offs that are listed one by one."""
 
 
 def footprint_table(field: FieldSeries, reference: TireReference | None) -> Table:
@@ -66,31 +57,6 @@ def _at_rest(reference: TireReference | None) -> list[float]:
     ]  # fmt: skip
 
 
-def load_table(contact: ContactSeries, travel: WheelTravel | None, standing: float | None) -> Table:
-    """Extremes of the load, dynamic load coefficient, lift-offs and their times; ``standing``: load
-    at rest [N].
-    """
-    numbers = load_numbers(contact, standing)
-    intervals = lifted_intervals(contact)
-    rows = [
-        ("standing load", _with("standing_load_N", numbers, " N")),
-        ("largest load over standing load", _with("load_max_over_standing", numbers)),
-        ("dynamic load coefficient σ(Fz)/Fz₀", _with("dynamic_load_coefficient", numbers)),
-        ("share of the time without load", f"{100.0 * float((contact.normal <= 0.0).mean()):.3g} %"),
-        ("lift-offs", str(len(intervals))),
-    ]
-    # Each lift-off of the first few.
-    rows += [
-        (f"lift-off {place + 1}", _when(start, end, travel))
-        for place, (start, end) in enumerate(intervals[:NAMED_LIFT_OFFS])
-    ]
-    left = len(intervals) - NAMED_LIFT_OFFS
-    caption = f"Samples every {contact.sample_period * 1e3:.3g} ms over the whole run. Lift-off: the normal force is 0."
-    if left > 0:
-        caption += f" {left} later lift-offs are not listed."
-    return Table(caption, ("load", ""), [row for row in rows if row[1]])
-
-
 def peak_table(peaks: list[PeakRow]) -> Table:
     """Peaks raw and filtered side by side, with their times."""
     rows = [
@@ -110,15 +76,3 @@ def text(value: float) -> str:
     infinity.
     """
     return number(value) if math.isfinite(value) else "–"
-
-
-def _with(key: str, numbers: dict[str, Any], unit: str = "") -> str:
-    return f"{numbers[key]:.4g}{unit}" if key in numbers else ""
-
-
-def _when(start: float, end: float, travel: WheelTravel | None) -> str:
-    span = f"{start:.3f} to {end:.3f} s"
-    if travel is None:
-        return span
-    first, last = travel.at(np.array([start, end]))
-    return f"{span}, {first:.3f} to {last:.3f} m"

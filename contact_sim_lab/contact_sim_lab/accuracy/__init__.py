@@ -1,0 +1,1 @@
+"""`bench accuracy RIG` and `--parts`: work and precision."""

@@ -1,0 +1,1 @@
+"""Commands of `bench` that the laboratory brings."""

@@ -1,0 +1,73 @@
+"""`bench hard --effects`: verdicts of effects beside what was expected before.
+
+A row is *right* where the verdict is the expected one; else *needless*, where an effect that is not
+needed is called so, *missed*, where one that is needed is not, or *other*, of which the numbers
+decide for example. Columns: `case`, `effect`, `expected`, `verdict`, `mark`, `change`, `since`,
+`cpu_s`.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from contact_sim_lab.hard.effect_cases import CASES, FIGURE, EffectCase
+from contact_sim_pkg.records.table import Section
+from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.studies.effects import verdicts
+from contact_sim_pkg.studies.effects.effects_study import EffectRow, study_of
+
+__all__ = ["failed", "mark_of", "sections", "study"]
+
+Row = dict[str, Any]
+ASKED = (verdicts.NEEDED, verdicts.OFF_NEEDED)
+MOST_WRONG = 0.15
+"""Of the cases."""
+
+
+def study(progress: Callable[[str], None], cases: Sequence[EffectCase] = CASES) -> list[Row]:
+    """A row for each case."""
+    rows = []
+    for number, case in enumerate(cases, 1):
+        progress(f"{number} of {len(cases)}: {case.name}: {case.effect} is expected to be {case.expected}")
+        began = time.process_time()
+        (found,) = study_of(load_resolved(case.scene, *case.values), lambda _line: None, case.effect).rows
+        rows.append(_row(case, found) | {"cpu_s": time.process_time() - began})
+    return rows
+
+
+def mark_of(expected: str, verdict: str) -> str:
+    """`right`, `needless`, `missed` or `other`."""
+    if verdict == expected:
+        return "right"
+    if verdict in ASKED:
+        return "needless"
+    return "missed" if expected in ASKED else "other"
+
+
+def failed(rows: Sequence[Row]) -> bool:
+    """Whether too many are wrong."""
+    return sum(1 for row in rows if row["mark"] != "right") > MOST_WRONG * len(rows)
+
+
+def sections(rows: Sequence[Row]) -> list[Section]:
+    """One line a case, and the counts."""
+    lines = [
+        {"case": row["case"], "effect": row["effect"], "expected": row["expected"], "verdict": row["said"], "": row["mark"],
+         "largest change": row["change"]}
+        for row in rows
+    ]  # fmt: skip
+    counts = ", ".join(
+        f"{mark} {sum(row['mark'] == mark for row in rows)}" for mark in ("right", "needless", "missed", "other")
+    )
+    return [Section("effects", lines, f"{counts} of {len(rows)}; {sum(row['cpu_s'] for row in rows):.0f} CPU s")]
+
+
+def _row(case: EffectCase, found: EffectRow) -> Row:
+    verdict = FIGURE if found.verdict.startswith("would change") else found.verdict
+    return {
+        "case": case.name, "effect": case.effect, "expected": case.expected, "verdict": verdict, "said": found.verdict,
+        "mark": mark_of(case.expected, verdict), "since": case.since,
+        "change": "-" if found.largest is None else f"{verdicts.shown(found.largest)}, {found.largest.column}",
+    }  # fmt: skip

@@ -1,0 +1,1 @@
+"""Records of the laboratory: a study, a goal, a hard case, a published figure."""

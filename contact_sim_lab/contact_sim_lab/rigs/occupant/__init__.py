@@ -1,0 +1,1 @@
+"""Accuracy study of the occupant."""

@@ -1,0 +1,56 @@
+"""`bench metrics`: the list of metrics of a bag, or mean and spread of repeated runs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from contact_sim_pkg.cli.output.tables import print_json
+
+
+@click.command("metrics")
+@click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path(path_type=Path))
+@click.option("--json", "form", flag_value="json", help="One JSON object on standard output.")
+@click.option("--csv", "form", flag_value="csv", help="A row a metric.")
+@click.option(
+    "--junit", "form", flag_value="junit", help="JUnit XML: outside its band is a failure, doubtful an error."
+)
+@click.option(
+    "--all", "whole", is_flag=True, help="Whole lists of all contacts, and the pressure mats with their zones."
+)
+@click.option(
+    "--axis", metavar="x|y|z|Wk|Wd|...", help="Of a bag without our topics: axis, or weighting, or both as y:Wd."
+)
+@click.option("--topic", metavar="NAME", help="Of a bag without our topics: the one to weight.")
+@click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
+def command(
+    bags: tuple[Path, ...], form: str | None, whole: bool, axis: str | None, topic: str | None, skip_bad: bool
+) -> None:
+    """Print the metrics of BAG with their bands and verdicts.
+
+    Of several bags, repeated runs of one scene, mean and spread; by ISO 10326-1 a SEAT needs runs within 5 % of
+    their mean. `bench compare` has two seats side by side.
+    """
+    from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags, suite_name
+    from contact_sim_pkg.report.metrics.views import csv_of, junit_of, lines_of, rows_of, verdict_line
+
+    for_foreign = None if axis is None and topic is None else (axis, topic)
+    found = metrics_of_bags(bags, whole=whole, chosen=for_foreign, skip_bad=skip_bad)
+    _notes(found.notes)
+    rows = rows_of(found.metrics)
+    if form == "json":
+        print_json({"bags": [str(each) for each in bags], "metrics": rows})
+    elif form == "csv":
+        click.echo(csv_of(found.metrics), nl=False)
+    elif form == "junit":
+        click.echo(junit_of(suite_name(bags), found.metrics), nl=False)
+    else:
+        for line in (*lines_of(rows), verdict_line(rows)):
+            click.echo(line)
+
+
+def _notes(notes: Sequence[str]) -> None:
+    for note in notes:
+        click.echo(note, err=True)

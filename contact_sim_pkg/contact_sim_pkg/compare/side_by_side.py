@@ -1,0 +1,218 @@
+"""Metrics of several runs side by side: how far each moved, and whether that is within a tolerance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.texts import values_of_text
+from contact_sim_pkg.files import FileRefusedError, open_regular_file
+from contact_sim_pkg.records.metric import OUTSIDE, Metric
+
+__all__ = ["Compared", "Curve", "Miss", "Side", "Tolerance", "misses", "read_tolerances", "side_by_side"]
+
+LARGEST_FILE = 100_000
+"""[bytes] of a file of tolerances"""
+KEYS = ("absolute", "relative", "from", "to")
+FloatArray = NDArray[np.float64]
+
+
+class Side(NamedTuple):
+    """One metric in every run."""
+
+    key: str
+    name: str
+    unit: str
+    values: tuple[float, ...]
+    """nan where a run lacks it"""
+    verdicts: tuple[str, ...]
+    broken: tuple[str, ...]
+    """assumptions that do not hold in a run"""
+
+    @property
+    def change(self) -> float:
+        """Last value less the first."""
+        return self.values[-1] - self.values[0]
+
+    @property
+    def relative(self) -> float:
+        """Change over the first value; infinite from 0, nan where a run lacks it."""
+        if not math.isfinite(self.change):
+            return math.nan
+        if self.values[0] == 0.0:
+            return 0.0 if self.change == 0.0 else math.inf
+        return self.change / abs(self.values[0])
+
+    @property
+    def moved(self) -> float:
+        """Largest difference of two runs over the largest magnitude, 0 to 2; -1 where a run lacks it."""
+        if not all(map(math.isfinite, self.values)):
+            return -1.0
+        size = max(map(abs, self.values))
+        return (max(self.values) - min(self.values)) / size if size else 0.0
+
+    @property
+    def verdict(self) -> str:
+        """`good`, or `good → OUTSIDE` where it changes."""
+        texts = [each.upper() if each == OUTSIDE else each for each in self.verdicts]
+        return texts[0] if len(set(texts)) == 1 else " → ".join(texts)
+
+
+class Curve(NamedTuple):
+    """A curve of a run, such as a transmissibility over frequency."""
+
+    unit_x: str
+    x: FloatArray
+    """[points] ascending"""
+    y: FloatArray
+    """[points], nan where it is not known"""
+
+
+class Compared(NamedTuple):
+    """A run as it is compared."""
+
+    name: str
+    metrics: Sequence[Metric]
+    curves: Mapping[str, Curve]
+
+
+class Tolerance(NamedTuple):
+    """Of one metric or curve: it may differ by `absolute` + `relative` times the reference."""
+
+    pattern: str
+    """key, with * for any part"""
+    absolute: float
+    relative: float
+    start: float
+    end: float
+    """of a curve, in its x"""
+
+
+class Miss(NamedTuple):
+    """A difference beyond its tolerance, or a metric that a run lacks."""
+
+    key: str
+    run: str
+    sentence: str
+
+
+def side_by_side(runs: Sequence[Compared]) -> list[Side]:
+    """Every metric that some run has, what moved most first."""
+    keys = dict.fromkeys(each.key for run in runs for each in run.metrics)
+    by_run = [{each.key: each for each in run.metrics} for run in runs]
+    found = [_side([metrics.get(key) for metrics in by_run]) for key in keys]
+    return sorted(found, key=lambda each: -each.moved)
+
+
+def _side(runs: Sequence[Metric | None]) -> Side:
+    first = next(each for each in runs if each is not None)
+    broken = dict.fromkeys(text for each in runs if each is not None for text in each.broken)
+    return Side(
+        first.key, first.name, first.unit, tuple(math.nan if each is None else each.value for each in runs),
+        tuple("absent" if each is None else each.verdict for each in runs), tuple(broken),
+    )  # fmt: skip
+
+
+def read_tolerances(path: Path) -> list[Tolerance]:
+    """The tolerances of a YAML file: `seat.factor: {absolute: 2}`, `tire.*: {relative: 0.05}`, of a curve with its
+    range, `seat.transmissibility: {relative: 0.1, from: 1, to: 20}`.
+
+    Raises:
+        BagError: the file is no such table. FileRefusedError: it cannot be read.
+    """
+    try:
+        with open_regular_file(path) as file:
+            text = file.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise FileRefusedError(path, "cannot be read; give a YAML file of tolerances") from error
+    if len(text) > LARGEST_FILE:
+        raise BagError(f"{path}: is larger than {LARGEST_FILE} bytes, so it is no file of tolerances")
+    given = values_of_text(text.decode("utf-8", "replace"), str(path))
+    if not isinstance(given, dict) or not given:
+        raise BagError(f"{path}: holds no tolerances; write lines such as `seat.factor: {{absolute: 2}}`")
+    return [_tolerance(path, str(key), values) for key, values in given.items()]
+
+
+def _tolerance(path: Path, key: str, values: object) -> Tolerance:
+    if not isinstance(values, dict) or not set(values) <= set(KEYS) or not set(values) & set(KEYS[:2]):
+        raise BagError(f"{path}: {key} needs absolute or relative, and takes {', '.join(KEYS)}; found {values!r:.60}")
+    numbers = {}
+    for name, default in zip(KEYS, (0.0, 0.0, -math.inf, math.inf), strict=True):
+        value = values.get(name, default)
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or math.isnan(value):
+            raise BagError(f"{path}: {key}.{name} is {value!r:.40}, it must be a number")
+        if name in KEYS[:2] and value < 0.0:
+            raise BagError(f"{path}: {key}.{name} is {value:g}, it must be 0 or more")
+        numbers[name] = float(value)
+    return Tolerance(key, *(numbers[name] for name in KEYS))
+
+
+def misses(runs: Sequence[Compared], tolerances: Sequence[Tolerance]) -> list[tuple[Tolerance, list[Miss]]]:
+    """What of each tolerance is missed by a run against the first one.
+
+    Raises:
+        BagError: a tolerance names nothing that the first run has.
+    """
+    return [(each, _missed(runs[0], runs[1:], each)) for each in tolerances]
+
+
+def _missed(reference: Compared, others: Sequence[Compared], tolerance: Tolerance) -> list[Miss]:
+    metrics = [each for each in reference.metrics if fnmatchcase(each.key, tolerance.pattern)]
+    curves = [key for key in reference.curves if fnmatchcase(key, tolerance.pattern)]
+    if not metrics and not curves:
+        known = ", ".join([*(each.key for each in reference.metrics), *reference.curves])
+        raise BagError(f"tolerance {tolerance.pattern}: {reference.name} has no such metric or curve; it has {known}")
+    found: list[Miss] = []
+    for run in others:
+        by_key = {each.key: each for each in run.metrics}
+        found += [miss for each in metrics if (miss := _of_metric(each, by_key.get(each.key), run.name, tolerance))]
+        found += [
+            miss for key in curves
+            if (miss := _of_curve(key, reference.curves[key], run.curves.get(key), run.name, tolerance))
+        ]  # fmt: skip
+    return found
+
+
+def _of_metric(first: Metric, other: Metric | None, run: str, tolerance: Tolerance) -> Miss | None:
+    if other is None or math.isnan(other.value) != math.isnan(first.value):
+        return Miss(first.key, run, f"{first.key} is not defined in both runs")
+    allowed = tolerance.absolute + tolerance.relative * abs(first.value)
+    difference = abs(other.value - first.value)
+    if math.isnan(difference) or difference <= allowed:
+        return None
+    value = f"{other.value:.5g} {first.unit}".rstrip()
+    sentence = f"{first.name} is {value}, {difference:.3g} from {first.value:.5g}; {allowed:.3g} allowed"
+    return Miss(first.key, run, sentence)
+
+
+def _of_curve(key: str, first: Curve, other: Curve | None, run: str, tolerance: Tolerance) -> Miss | None:
+    """The largest miss of a curve, on the points of the reference inside its range."""
+    if other is None:
+        return Miss(key, run, f"{key} is not in both runs")
+    inside = (
+        (first.x >= max(tolerance.start, other.x[0]))
+        & (first.x <= min(tolerance.end, other.x[-1]))
+        & np.isfinite(first.y)
+    )
+    if not inside.any():
+        return Miss(key, run, f"{key} has no common points in its range")
+    x, y = first.x[inside], first.y[inside]
+    known = np.isfinite(other.y)
+    values = np.interp(x, other.x[known], other.y[known]) if known.any() else np.full(x.size, np.inf)
+    beyond = np.abs(values - y) - (tolerance.absolute + tolerance.relative * np.abs(y))
+    place = int(beyond.argmax())
+    if beyond[place] <= 0.0:
+        return None
+    allowed = tolerance.absolute + tolerance.relative * abs(y[place])
+    return Miss(
+        key, run,
+        f"{key} is {values[place]:.4g} at {x[place]:.4g} {first.unit_x}, {abs(values[place] - y[place]):.3g} from {y[place]:.4g}; "
+        f"{allowed:.3g} allowed ({int((beyond > 0.0).sum())} of {x.size} points outside)",
+    )  # fmt: skip

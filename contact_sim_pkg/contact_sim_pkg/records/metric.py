@@ -1,0 +1,102 @@
+"""A number of a run as everything prints it: value and unit, its band, the verdict, what of its assumptions
+does not hold, how sure it is, where and when it was taken; and a figure that somebody published.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+__all__ = ["CLOSED_FORM", "GOOD", "LIMIT", "NO_BAND", "OUTSIDE", "USUAL", "Band", "Metric", "Published", "judged"]
+
+GOOD, USUAL, OUTSIDE, NO_BAND = "good", "usual", "outside", "no band"
+LIMIT, USUAL_RANGE, CLOSED_FORM = "limit", "usual", "closed form"
+
+
+class Band(NamedTuple):
+    """Values that a metric may have, in its unit."""
+
+    low: float
+    high: float
+    """-inf or inf where it is open"""
+    kind: str
+    """limit, usual or closed form"""
+    source: str
+    conditions: str = ""
+    """in words; empty where it holds always"""
+
+    def holds(self, value: float) -> bool:
+        """Whether a value lies in the band, its ends included."""
+        return self.low <= value <= self.high
+
+    @property
+    def text(self) -> str:
+        """`0.45 to 0.9`, `at most 100`, `at least 1`."""
+        if math.isinf(self.low):
+            return f"at most {self.high:.4g}"
+        if math.isinf(self.high):
+            return f"at least {self.low:.4g}"
+        return f"{self.low:.4g} to {self.high:.4g}"
+
+
+class Metric(NamedTuple):
+    """One number of a run."""
+
+    key: str
+    """stable name, `seat.a_w`"""
+    name: str
+    value: float
+    """in `unit`; nan where it is not defined"""
+    unit: str
+    verdict: str
+    """good, usual, outside or no band"""
+    band: Band | None
+    remark: str = ""
+    """what the verdict means in words, or why there is no band"""
+    broken: tuple[str, ...] = ()
+    """assumptions of the number that do not hold"""
+    spread: float = math.nan
+    """half the 95 % interval, in `unit`; nan where it is not known"""
+    size: int = 0
+    """segments, samples or events that it is taken from; 0: not counted"""
+    topic: str = ""
+    window: tuple[float, float] = (0.0, 0.0)
+    """[s] of the run"""
+
+
+def judged(value: float, band: Band | None) -> str:
+    """The verdict on a value: a limit or a closed form that holds is good, a usual range usual."""
+    if band is None or not math.isfinite(value):
+        return NO_BAND
+    if not band.holds(value):
+        return OUTSIDE
+    return USUAL if band.kind == USUAL_RANGE else GOOD
+
+
+@dataclass(frozen=True, kw_only=True)
+class Published:
+    """A quantity that somebody measured or computed, with its band. All values in ``unit``.
+
+    Attributes:
+        machine: what it is a quantity of: the heading that it stands under.
+        quantity: with its conditions (load, excitation, grid), so that it can be measured again.
+        unit: as printed.
+        value: as published, with its scatter.
+        band: lowest and highest value that agree with it.
+        source: author, title or standard, year; whether the figure is quoted from another source.
+        ours: computes the bench's value; some seconds at most.
+        fitted: whether a constant of the bench was chosen by it.
+        note: reason, where the bench leaves the band, and other remarks.
+    """
+
+    machine: str
+    quantity: str
+    unit: str
+    value: str
+    band: tuple[float, float]
+    source: str
+    ours: Callable[[], float]
+    fitted: bool = False
+    note: str = ""

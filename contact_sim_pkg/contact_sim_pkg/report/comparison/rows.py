@@ -1,0 +1,55 @@
+"""Metrics of several runs as rows for the terminal, JSON, CSV and JUnit."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from typing import Any
+from xml.etree import ElementTree
+
+from contact_sim_pkg.compare.side_by_side import Miss, Side, Tolerance
+from contact_sim_pkg.report.comparison.tables import metric_table
+from contact_sim_pkg.report.metrics.views import junit_text
+
+__all__ = ["csv_text", "junit_text_of", "rows_of", "table_rows"]
+
+
+def rows_of(names: Sequence[str], sides: Sequence[Side]) -> list[dict[str, Any]]:
+    """A row a metric, a value a run under its name."""
+    return [
+        {
+            "key": each.key, "name": each.name, "unit": each.unit, **dict(zip(names, each.values, strict=True)),
+            "change": each.change, "relative": each.relative, "verdict": each.verdict, "broken": "; ".join(each.broken),
+        }
+        for each in sides
+    ]  # fmt: skip
+
+
+def csv_text(names: Sequence[str], sides: Sequence[Side]) -> str:
+    """`rows_of` with a header."""
+    text = io.StringIO()
+    rows = rows_of(names, sides)
+    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def table_rows(names: Sequence[str], sides: Sequence[Side]) -> list[dict[str, str]]:
+    """The table of the page as rows for a terminal."""
+    table = metric_table(names, sides)
+    header = ("metric", *table.header[1:])
+    return [dict(zip(header, row, strict=True)) for row in table.rows]
+
+
+def junit_text_of(names: Sequence[str], missed: Sequence[tuple[Tolerance, list[Miss]]]) -> str:
+    """A test case a tolerance; the misses of the runs are its failure."""
+    cases = []
+    for tolerance, found in missed:
+        case = ElementTree.Element("testcase", classname="tolerances", name=tolerance.pattern)
+        if found:
+            text = "; ".join(f"{each.run}: {each.sentence}" for each in found)
+            ElementTree.SubElement(case, "failure", message=text)
+        cases.append(case)
+    return junit_text(" and ".join(names), cases)

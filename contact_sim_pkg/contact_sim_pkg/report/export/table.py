@@ -1,0 +1,204 @@
+"""A topic of a bag as columns: one row a sample with its time, each column with its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.records.definitions import HEADER, Field, parsed
+
+__all__ = ["Column", "Map", "Table", "stamp_of", "table_of"]
+
+PERIODS = ("sample_period", "period")
+"""Fields that hold the time between the samples of a message."""
+UNITS = {
+    "force": "N", "torque": "N m", "linear_acceleration": "m/s^2", "angular_velocity": "rad/s", "accel.linear": "m/s^2",
+    "accel.angular": "rad/s^2", "twist.linear": "m/s", "twist.angular": "rad/s",
+}  # fmt: skip
+"""Units of standard messages, which do not state them."""
+LONGEST_ROW = 16
+"""Elements of an array of a foreign message that become columns of their own."""
+
+
+class Column(NamedTuple):
+    """One column."""
+
+    name: str
+    unit: str
+    values: Any
+    """[rows]"""
+
+    @property
+    def header(self) -> str:
+        """`normal [N]`."""
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
+
+class Map(NamedTuple):
+    """An array of two sides in each message, such as a pressure field."""
+
+    name: str
+    unit: str
+    sides: tuple[str, str]
+    """fields of its rows and columns"""
+
+
+class Table(NamedTuple):
+    """A topic."""
+
+    topic: str
+    columns: list[Column]
+    maps: list[Map]
+
+
+class _Fields(NamedTuple):
+    """Fields of a type by what becomes of them."""
+
+    scalars: list[Field]
+    arrays: list[Field]
+    named: list[Field]
+    """arrays with a row for each name of another field"""
+    maps: list[Field]
+
+
+def table_of(bag: Bag, topic: str) -> Table:
+    """The table of a topic.
+
+    Samples of a block become rows, each with its own time; events and points of a message rows with
+    the time of the message; scalars of a message are repeated on its rows. Arrays of two sides
+    are `maps`.
+
+    Raises:
+        BagError: no such topic, or a message does not fit its definition.
+    """
+    row = bag.topic(topic)
+    try:
+        definition = parsed(row.type, row.definition.partition("\n====")[0])
+        nested = any("/" in field.type and field.type != HEADER for field in definition.fields)
+    except ValueError:
+        nested = True
+    if nested:
+        return _foreign(bag, row.name)
+    fields = _sorted(list(definition.fields))
+    return Table(row.name, _columns(bag, row.name, fields), [_map(field) for field in fields.maps])
+
+
+def _sorted(fields: list[Field]) -> _Fields:
+    texts = {field.name for field in fields if field.is_array and field.type == "string"}
+    sizes = {side for field in fields for side in field.shape}
+    plain = [field for field in fields if field.type != HEADER]
+    two = [field for field in plain if len(field.shape) == 2]
+    named = [field for field in two if field.shape[0] in texts]
+    arrays = [
+        field
+        for field in plain
+        if field.is_array and field not in two and not (field.name in texts and field.name in sizes)
+    ]
+    scalars = [field for field in plain if not field.is_array and field.name not in (*PERIODS, "samples")]
+    return _Fields(scalars, arrays, named, [field for field in two if field not in named])
+
+
+def _map(field: Field) -> Map:
+    return Map(field.name, field.unit, (field.shape[0], field.shape[1]))
+
+
+def _columns(bag: Bag, topic: str, fields: _Fields) -> list[Column]:
+    messages = (
+        [message for _, message in bag.decoded(topic)] if not fields.maps else [*_without_maps(bag, topic, fields)]
+    )
+    if not messages:
+        return []
+    times = np.array([stamp_of(message) for message in messages])
+    period = next((name for name in PERIODS if hasattr(messages[0], name)), "")
+    long = [field for field in fields.arrays if any(len(getattr(each, field.name)) for each in messages)]
+    counts = _counts(messages, long, fields.named)
+    rows = int(counts.sum())
+    number = np.arange(rows) - np.repeat(np.cumsum(counts) - counts, counts)
+    if period:
+        start = np.repeat(times, counts) + number * np.repeat(
+            [float(getattr(each, period)) for each in messages], counts
+        )
+        found = [Column("time", "s", start)]
+    else:
+        found = [Column("time", "s", np.repeat(times, counts))]
+        found += [Column("index", "", number)] if long or fields.named else []
+    for field in fields.scalars:
+        values = np.array([getattr(each, field.name) for each in messages])
+        found.append(Column(_own(field.name), field.unit, np.repeat(values, counts)))
+    for field in long:
+        found.append(
+            Column(_own(field.name), field.unit, _filled([getattr(each, field.name) for each in messages], counts))
+        )
+    for field in fields.named:
+        names = [str(each) for each in getattr(messages[0], field.shape[0])]
+        parts = [np.reshape(getattr(each, field.name), (len(names), -1)) for each in messages]
+        for place, name in enumerate(names):
+            found.append(Column(f"{field.name}.{name}", field.unit, _filled([part[place] for part in parts], counts)))
+    return found
+
+
+def stamp_of(message: Any) -> float:
+    """Stamp [s] of a message; 0 without a header."""
+    if not hasattr(message, "header"):
+        return 0.0
+    return float((message.header.stamp.sec * 10**9 + message.header.stamp.nanosec) / 1e9)
+
+
+def _own(name: str) -> str:
+    """`time` of a message beside its stamp."""
+    return "time_in_message" if name == "time" else name
+
+
+def _counts(messages: Sequence[Any], long: Sequence[Field], named: Sequence[Field]) -> NDArray[np.int64]:
+    """Rows of each message: its longest array, at least one where the type has none."""
+    if not long and not named:
+        return np.ones(len(messages), dtype=np.int64)
+    sizes = [[len(getattr(each, field.name)) for each in messages] for field in long]
+    sizes += [
+        [len(getattr(each, field.name)) // max(1, len(getattr(each, field.shape[0]))) for each in messages]
+        for field in named
+    ]
+    largest: NDArray[np.int64] = np.array(sizes, dtype=np.int64).max(axis=0)
+    return largest
+
+
+def _filled(parts: Sequence[Any], counts: NDArray[np.int64]) -> Any:
+    """Arrays of all messages in one column; nan, or an empty text, behind an array that is shorter than its
+    message's rows."""
+    if all(len(part) == count for part, count in zip(parts, counts, strict=True)):
+        return np.concatenate([np.asarray(part) for part in parts])
+    is_text = any(isinstance(value, str) for part in parts for value in part[:1])
+    column = np.full(int(counts.sum()), "" if is_text else np.nan, dtype=object if is_text else np.float64)
+    for start, part in zip(np.cumsum(counts) - counts, parts, strict=True):
+        column[start : start + len(part)] = part
+    return column
+
+
+def _without_maps(bag: Bag, topic: str, fields: _Fields) -> Iterator[Any]:
+    """Messages of a topic without their maps, which would not fit into memory together."""
+    for _, message in bag.decoded(topic):
+        for field in fields.maps:
+            setattr(message, field.name, ())
+        yield message
+
+
+def _foreign(bag: Bag, topic: str) -> Table:
+    """A topic of nested or foreign messages: a row a message, fields with dots, short arrays one column an element."""
+    columns = bag.columns(topic)
+    found = [Column("time", "s", columns["time"] if "time" in columns else columns["log_time"] * 1e-9)]
+    for name, values in columns.items():
+        if name in ("time", "log_time", "stamp") or isinstance(values, list):
+            continue
+        unit = next((unit for part, unit in UNITS.items() if f".{name}.".find(f".{part}.") >= 0), "")
+        if values.ndim == 1:
+            found.append(Column(name, unit, values))
+        elif values.ndim == 2 and values.shape[1] <= LONGEST_ROW:
+            found += [Column(f"{name}.{place}", unit, values[:, place]) for place in range(values.shape[1])]
+    if len(found) == 1:
+        raise BagError(f"{bag.path}: {topic} has no fields of numbers or texts to write into a table")
+    return Table(topic, found, [])

@@ -1,0 +1,128 @@
+"""Tables of topics as files: CSV, Parquet, and a CSV of frames for a map."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Callable, Iterator, Sequence
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.files import FileRefusedError, check_output, new_file, wrong_name
+from contact_sim_pkg.report.export.table import Map, Table, stamp_of, table_of
+
+__all__ = ["CSV", "PARQUET", "export"]
+
+CSV, PARQUET = "csv", "parquet"
+GRID = ("cell_x", "cell_y", "origin_x", "origin_y")
+"""Fields that place the cells of a map, written above its frames."""
+
+
+def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: bool = False) -> Iterator[Path]:
+    """Write a file a topic into the folder `out`, `tire_force.csv`, and one a map, `tire_patch_pressure.csv`.
+
+    Args:
+        bag: to read.
+        form: `CSV` or `PARQUET`; maps are CSV in both.
+        topics: all where it is empty.
+        out: folder, made where it does not exist.
+        overwrite: replace files that exist.
+
+    Yields:
+        Each file when it is written.
+
+    Raises:
+        BagError: no such topic, nothing recorded, or Parquet without pyarrow.
+        FileRefusedError: a file exists, or `out` is one.
+    """
+    if form == PARQUET and find_spec("pyarrow") is None:
+        raise BagError("--parquet needs pyarrow, which is not installed; pip install pyarrow, or --csv")
+    names = [bag.topic(each).name for each in topics] or [name for name in bag.topics if bag.count(name)]
+    if not names:
+        raise BagError(f"{bag.path} holds no message: there is nothing to export")
+    if reason := wrong_name(out):
+        raise FileRefusedError(out, reason)
+    if out.exists() and not out.is_dir():
+        raise FileRefusedError(out, "exists already and is a file; --out names a folder with a file a topic")
+    files = [out / f"{file_name(name)}.{form}" for name in names]
+    for file in files:
+        if out.exists():
+            check_output(file, [bag.path], overwrite=overwrite)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileRefusedError(out, f"cannot be made: {error.strerror}") from error
+    write = _write_parquet if form == PARQUET else _write_csv
+    for name, file in zip(names, files, strict=True):
+        table = table_of(bag, name)
+        if table.columns:
+            with new_file(file, [bag.path], overwrite=overwrite) as stream:
+                write(table, stream)
+            yield file
+        for each in table.maps:
+            place = out / f"{file_name(name)}_{each.name}.csv"
+            with new_file(place, [bag.path], overwrite=overwrite) as stream:
+                _write_map(bag, name, each, stream)
+            yield place
+
+
+def file_name(topic: str) -> str:
+    """`/tire/force` -> `tire_force`."""
+    return topic.strip("/").replace("/", "_")
+
+
+def _write_csv(table: Table, stream: IO[bytes]) -> None:
+    """A header with units and a row a sample; numbers in the fewest digits that give the same bits, empty where a
+    value is not defined."""
+    text = io.TextIOWrapper(stream, encoding="utf-8", newline="")
+    writer = csv.writer(text)
+    writer.writerow([column.header for column in table.columns])
+    writer.writerows(zip(*(_texts(column.values) for column in table.columns), strict=True))
+    text.flush()
+    text.detach()
+
+
+def _texts(values: Any) -> list[Any]:
+    column = np.asarray(values)
+    if column.dtype == np.float32:
+        # the shortest text of a float32 is not that of the same value as a double
+        return ["" if math.isnan(value) else str(value) for value in column]
+    if column.dtype.kind == "f":
+        return ["" if math.isnan(value) else value for value in column.tolist()]
+    return list(column.tolist())
+
+
+def _write_parquet(table: Table, stream: IO[bytes]) -> None:
+    pyarrow, parquet = import_module("pyarrow"), import_module("pyarrow.parquet")
+    fields = [
+        pyarrow.field(column.header, pyarrow.array(np.asarray(column.values)).type, metadata={"unit": column.unit})
+        for column in table.columns
+    ]
+    arrays = [pyarrow.array(np.asarray(column.values)) for column in table.columns]
+    parquet.write_table(pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields)), stream)
+
+
+def _write_map(bag: Bag, topic: str, field: Map, stream: IO[bytes]) -> None:
+    """Frames as a pressure mat writes them: what places the cells, then for each frame a line `frame, number, time`,
+    and its rows along x from the front of the file's first row, columns along y."""
+    write: Callable[[str], Any] = lambda line: stream.write(line.encode() + b"\n")  # noqa: E731
+    for number, (_, message) in enumerate(bag.decoded(topic)):
+        rows, cols = (_size(message, side) for side in field.sides)
+        if number == 0:
+            write(f"{field.name} [{field.unit}],rows,{rows},cols,{cols}")
+            write(",".join(f"{name} [m],{getattr(message, name)!r}" for name in GRID if hasattr(message, name)))
+        write(f"frame,{number},time [s],{stamp_of(message)!r},rows,{rows},cols,{cols}")
+        for row in np.reshape(getattr(message, field.name), (rows, cols)):
+            write(",".join(map(str, row)))
+
+
+def _size(message: Any, side: str) -> int:
+    value = getattr(message, side)
+    return int(value) if np.ndim(value) == 0 else len(value)

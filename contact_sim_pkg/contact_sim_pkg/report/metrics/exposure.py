@@ -1,0 +1,97 @@
+"""What a vibration does to a person: ISO 2631-1, ISO 2631-5, Directive 2002/44/EC."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.report.series import FloatArray
+from contact_sim_pkg.report.signal import confidence
+from contact_sim_pkg.report.signal import spine as spine_model
+from contact_sim_pkg.report.signal.metrics import RideMetrics, daily_dose
+
+__all__ = ["Exposed", "exposure_metrics"]
+
+RATIO_OF_MTVV = 1.5
+"""MTVV over a_w above which the running rms is to be read beside a_w (ISO 2631-1, 6.3.3)"""
+
+
+COMFORT = ("Wk", "Wd", "Wc", "Wj", "Wb")
+"""Weightings that the words of ISO 2631-1, annex C, are for."""
+HEALTH = ("Wk", "Wd")
+"""Weightings of Directive 2002/44/EC."""
+
+
+class Exposed(NamedTuple):
+    """What an axis is to the person."""
+
+    weighting: str = "Wk"
+    factor: float = 1.0
+    """of the axis, for health: 1.4 of x and y at the seat"""
+    vertical: bool = True
+    """at the seat, which ISO 2631-5 is for"""
+    decides: bool = True
+    """alone on A(8), no other axis being recorded"""
+    unit: str = "m/s²"
+
+
+VERTICAL = Exposed()
+
+
+def exposure_metrics(
+    make: Callable[..., Metric],
+    metrics: RideMetrics,
+    acceleration: FloatArray,
+    rate: float,
+    doubts: tuple[str, ...],
+    axis: Exposed = VERTICAL,
+) -> list[Metric]:
+    """Of one axis.
+
+    Args:
+        make: of `Maker`.
+        metrics: of the weighted signal.
+        acceleration: [samples] in [m/s^2], not weighted.
+        rate: [Hz].
+        doubts: assumptions that do not hold for any of them.
+        axis: what it is to the person.
+    """  # fmt: skip
+    count, duration = metrics.weighted.size, metrics.weighted.size / rate
+    peaky = (*doubts, *confidence.peaky(metrics.crest_factor))
+    spread = confidence.spread_of_rms(metrics.weighted, rate)
+    a_w, mtvv = metrics.weighted_rms, metrics.largest_running_rms
+    comfort = "weighted_rms" if axis.weighting in COMFORT else ""
+    found = [
+        make(
+            "a_w", f"a_w, {axis.weighting}", a_w, axis.unit, quantity=comfort, broken=peaky, spread=spread, count=count
+        )
+    ]
+    if axis.decides:
+        found.append(make("a_8", "A(8)", a_w, axis.unit, quantity="daily_exposure", broken=peaky, spread=spread, count=count,
+                          remark="eight hours of this ride, z alone"))  # fmt: skip
+    if axis.weighting in HEALTH:
+        dose = axis.factor * daily_dose(metrics.vibration_dose, duration)
+        said = f"{metrics.vibration_dose:.3g} in the run" + (f", times {axis.factor:g}" if axis.factor != 1.0 else "")
+        found.append(
+            make("dose", "VDV of 8 h", dose, "m/s^1.75", quantity="daily_dose", broken=doubts, count=count, remark=said)
+        )
+    found += [
+        make("mtvv", "MTVV, linear 1 s", mtvv, axis.unit, broken=doubts, count=count, remark=_beside(mtvv, a_w)),
+        make("crest", "crest factor", metrics.crest_factor, "", quantity="crest_factor", broken=doubts, count=count),
+    ]
+    if axis.vertical:
+        shocks = spine_model.dose(spine_model.spine_acceleration(acceleration, rate))
+        stress = spine_model.stress(spine_model.daily(shocks, duration))
+        said = f"S_d {stress:.3g} MPa; man of 82 kg, 240 days of 8 h a year from 20 to 64"
+        found.append(make("spine_risk", "R, ISO 2631-5", spine_model.risk(stress), "", quantity="spine_risk", broken=doubts,
+                          count=count, remark=said))  # fmt: skip
+    return found
+
+
+def _beside(mtvv: float, a_w: float) -> str:
+    """Whether the running rms is to be read beside a_w [m/s^2]."""
+    ratio = mtvv / a_w if a_w > 0.0 else math.nan
+    said = f"{ratio:.3g} a_w"
+    return f"{said}: above {RATIO_OF_MTVV:g} read it beside a_w (ISO 2631-1, 6.3.3)" if ratio > RATIO_OF_MTVV else said

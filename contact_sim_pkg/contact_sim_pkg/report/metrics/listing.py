@@ -1,0 +1,63 @@
+"""The metrics of a recording: the lists of its rigs, or that of a bag without a rig."""
+
+from __future__ import annotations
+
+from itertools import zip_longest
+
+from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.report.metrics.maker import Maker
+from contact_sim_pkg.report.metrics.mat import mat_metrics
+from contact_sim_pkg.report.rig_reports import reports_of
+from contact_sim_pkg.report.series import ContactSeries, Recording
+from contact_sim_pkg.report.signal.confidence import spread_of_mean
+
+__all__ = ["MOST", "all_metrics", "metrics_of"]
+
+MOST = 14
+"""Metrics in the list of a run."""
+
+
+def metrics_of(recording: Recording) -> list[Metric]:
+    """The list of a run, the most important first; where several contacts share it, the first ones of
+    each in turn.
+    """
+    lists = _named(_lists(recording))
+    if sum(map(len, lists)) <= MOST:
+        return [metric for each in lists for metric in each]
+    chosen = [metric for rank in zip_longest(*lists) for metric in rank if metric is not None][:MOST]
+    return [metric for each in lists for metric in each if metric in chosen]
+
+
+def all_metrics(recording: Recording) -> list[Metric]:
+    """The whole lists of all contacts, and the mat metrics of each pressure map."""
+    mats = [mat_metrics(name, field, recording.duration) for name, field in recording.fields.items()]
+    return [metric for each in _named([*_lists(recording), *mats]) for metric in each]
+
+
+def _named(lists: list[list[Metric]]) -> list[list[Metric]]:
+    """The lists, with the contact before each name where there are several."""
+    contacts = {metric.key.partition(".")[0] for each in lists for metric in each}
+    if len(contacts) < 2:
+        return lists
+    return [[each._replace(name=f"{each.key.partition('.')[0]}: {each.name}") for each in metrics] for metrics in lists]
+
+
+def _lists(recording: Recording) -> list[list[Metric]]:
+    found: list[list[Metric]] = [load(each.metrics)(recording) for each in reports_of(recording) if each.metrics]
+    listed = {metric.topic.partition("/")[0] for each in found for metric in each}
+    rest = [load_metrics(name, contact) for name, contact in recording.contacts.items() if name not in listed]
+    return [each for each in (*found, *rest) if each]
+
+
+def load_metrics(name: str, contact: ContactSeries) -> list[Metric]:
+    """Loads of a contact of which no rig knows more."""
+    window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
+    make = Maker(name, f"{name}/force", window).make
+    normal = contact.normal
+    spread = spread_of_mean(normal, 1.0 / contact.sample_period)
+    return [
+        make("load", "load, mean", normal.mean(), "N", spread=spread, count=normal.size),
+        make("load_largest", "load, largest", normal.max(), "N", count=normal.size),
+        make("lift_off", "time without load", 100.0 * (normal <= 0.0).mean(), "%", count=normal.size),
+    ]

@@ -1,0 +1,81 @@
+"""How a rig makes the metrics of its list."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
+from contact_sim_pkg.records.metric import CLOSED_FORM, Band, Metric, judged
+from contact_sim_pkg.report.energy import relative_residual
+from contact_sim_pkg.report.metrics.bands import Conditions, band_of
+from contact_sim_pkg.report.series import LedgerSeries
+
+__all__ = ["Maker", "at_most", "conditions_of", "energy_residual", "near"]
+
+
+class Maker(NamedTuple):
+    """Makes metrics of one topic over one window of a run."""
+
+    prefix: str
+    """of the keys: the contact"""
+    topic: str
+    window: tuple[float, float]
+    """[s]"""
+    conditions: Conditions = MappingProxyType({})
+    """what the run is, for the bands"""
+
+    def make(
+        self,
+        key: str,
+        name: str,
+        value: float,
+        unit: str = "",
+        *,
+        quantity: str = "",
+        band: Band | None = None,
+        remark: str = "",
+        broken: tuple[str, ...] = (),
+        spread: float = math.nan,
+        count: int = 0,
+        topic: str = "",
+    ) -> Metric:
+        """A metric: its band is ``band``, or that of a ``quantity`` of the data file in this run."""
+        words, reason = "", "" if band is not None else "no band"
+        if band is None and quantity:
+            found = band_of(quantity, self.conditions)
+            band, reason, words = found.band, found.reason, found.word(value)
+        said = "; ".join(filter(None, (words, reason if reason != "no band" else "", remark)))
+        return Metric(
+            f"{self.prefix}.{key}", name, float(value), unit, judged(value, band), band, said, broken, float(spread),
+            count, topic or self.topic, self.window,
+        )  # fmt: skip
+
+
+def near(value: float, share: float, source: str) -> Band:
+    """Band of a closed form: ``value`` and a ``share`` of it on either side."""
+    reach = abs(value) * share
+    return Band(value - reach, value + reach, CLOSED_FORM, source)
+
+
+def at_most(value: float, source: str) -> Band:
+    """Band of a closed form that bounds from above."""
+    return Band(-math.inf, value, CLOSED_FORM, source)
+
+
+def energy_residual(make: Callable[..., Metric], ledger: LedgerSeries, scene: Mapping[str, object]) -> Metric:
+    """Largest residual of the energy over its throughput, which the requested accuracy bounds."""
+    accuracy = scene.get("accuracy")
+    band = at_most(float(accuracy), "requested accuracy") if isinstance(accuracy, (int, float)) else None
+    return make("residual", "residual of the energy", relative_residual(ledger), "", band=band, topic="bench/energy",
+                count=ledger.time.size)  # fmt: skip
+
+
+def conditions_of(scene: Mapping[str, object]) -> dict[str, float | str]:
+    """Road and excitation of a scene by the names of the data file: `flat`, `class C`, `cleat`."""
+    road = scene.get("road")
+    if not isinstance(road, Mapping):
+        return {}
+    kind = str(road.get("kind"))
+    return {"road": f"class {road.get('roughness_class')}" if kind == "iso8608" else kind}

@@ -1,0 +1,82 @@
+"""Metrics of bags: one run, repeated runs, or a bag of anybody."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.reader import Bag, open_bag
+from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.report.metrics.foreign import foreign_metrics
+from contact_sim_pkg.report.metrics.listing import all_metrics, metrics_of
+from contact_sim_pkg.report.metrics.repeated import repeated
+from contact_sim_pkg.report.reading import SERIES_TYPES, read_recording, scenes_fit
+from contact_sim_pkg.report.series import Recording
+
+__all__ = ["FoundMetrics", "metrics_of_bags", "suite_name"]
+
+
+class FoundMetrics(NamedTuple):
+    """Metrics, and what is to be said of their bags."""
+
+    metrics: list[Metric]
+    notes: list[str]
+
+
+def metrics_of_bags(
+    paths: Sequence[Path],
+    *,
+    whole: bool = False,
+    chosen: tuple[str | None, str | None] | None = None,
+    skip_bad: bool = False,
+) -> FoundMetrics:
+    """Metrics of one bag, or mean and spread of repeated runs.
+
+    Args:
+        paths: of the bags, at least one.
+        whole: whole lists of all contacts, and mats.
+        chosen: axis or weighting, and topic, of a bag of anybody; None: taken where the bag is none of ours.
+        skip_bad: go on after damaged chunks.
+
+    Raises:
+        BagError: a bag cannot be read, holds nothing to measure, or two of them are one run.
+    """
+    bags = [open_bag(path, skip_bad=skip_bad) for path in paths]
+    notes = [note for bag in bags for note in bag.notes]
+    lists: list[list[Metric]] = []
+    scenes: list[dict[str, Any]] = []
+    for bag in bags:
+        if chosen is not None or not is_ours(bag):
+            found, said = foreign_metrics(bag, *(chosen or (None, None)))
+            lists.append(found)
+            notes += said
+            scenes.append({})
+        else:
+            recording = recording_of(bag)
+            lists.append(all_metrics(recording) if whole else metrics_of(recording))
+            scenes.append(recording.scene)
+    names = [suite_name([path]) for path in paths]
+    if len(bags) == 1:
+        return FoundMetrics(lists[0], notes)
+    return FoundMetrics(repeated(names, scenes, lists), notes)
+
+
+def recording_of(bag: Bag) -> Recording:
+    """The recording of a bag. Raises BagError also where its scene is none that this version knows."""
+    with scenes_fit([bag]):
+        recording = read_recording(bag)
+    if not recording.contacts and recording.motion is None:
+        raise BagError(f"{bag.path} holds no force and no motion of the bench: there is nothing to measure")
+    return recording
+
+
+def is_ours(bag: Bag) -> bool:
+    """Whether a bag holds series of the bench."""
+    return any(row.type in SERIES_TYPES for row in bag.topics.values())
+
+
+def suite_name(paths: Sequence[Path]) -> str:
+    """Names of the bags: their directories."""
+    return ", ".join((path.parent.name if path.suffix == ".mcap" else path.name) or str(path) for path in paths)

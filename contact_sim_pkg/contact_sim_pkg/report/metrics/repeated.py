@@ -1,0 +1,72 @@
+"""Repeated runs of one test: mean and spread of each metric, and whether they agree by ISO 10326-1."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.records.metric import Metric, judged
+
+__all__ = ["repeated"]
+
+LARGEST_DEVIATION = 0.05
+"""of a run's SEAT from the mean of the runs (ISO 10326-1)"""
+UNESSENTIAL = ("name", "description", "pace", "limits")
+
+
+def repeated(
+    names: Sequence[str], scenes: Sequence[Mapping[str, Any]], lists: Sequence[Sequence[Metric]]
+) -> list[Metric]:
+    """Mean of each metric that all runs have, with half the range of the runs as spread.
+
+    names, scenes, lists: of the runs, at least two; a bag of anybody has an empty scene.
+
+    Raises:
+        BagError: two runs are the same simulation, or no metric is in all of them.
+    """
+    refuse_equal(names, scenes)
+    by_key = [{each.key: each for each in metrics} for metrics in lists]
+    common = [key for key in by_key[0] if all(key in each for each in by_key)]
+    if not common:
+        raise BagError(f"{', '.join(names)} have no metric in common: repeated runs are of one scene")
+    return [_mean([each[key] for each in by_key], names) for key in common]
+
+
+def refuse_equal(names: Sequence[str], scenes: Sequence[Mapping[str, Any]]) -> None:
+    """BagError where two runs have equal scenes, seed included: they hold the same bits and show no spread."""
+    seen: dict[str, str] = {}
+    for name, scene in zip(names, scenes, strict=True):
+        if not scene:
+            continue
+        text = repr(sorted((key, repr(value)) for key, value in scene.items() if key not in UNESSENTIAL))
+        other = seen.setdefault(text, name)
+        if other != name or names.count(name) > 1:
+            raise BagError(
+                f"{other} and {name} are the same run (seed {scene.get('seed')}): their spread is 0 and says nothing; "
+                "repeat a run with another seed, or another part of a recording (vibration.start)"
+            )
+
+
+def _mean(runs: Sequence[Metric], names: Sequence[str]) -> Metric:
+    values = [each.value for each in runs]
+    mean = sum(values) / len(values)
+    worst = max(range(len(values)), key=lambda place: abs(values[place] - mean))
+    off = abs(values[worst] - mean) / abs(mean) if mean else 0.0
+    broken = list(dict.fromkeys(text for each in runs for text in each.broken))
+    if runs[0].unit == "%" and runs[0].name.startswith("SEAT"):
+        if off > LARGEST_DEVIATION:
+            broken.append(f"not valid by ISO 10326-1: {names[worst]} is {100.0 * off:.3g} % from the mean, above 5 %")
+        if len(runs) < 3:
+            broken.append(f"not valid by ISO 10326-1: {len(runs)} runs, 3 needed")
+    said = f"{len(runs)} runs, largest deviation {100.0 * off:.3g} %" if math.isfinite(mean) else f"{len(runs)} runs"
+    spread = 0.5 * (max(values) - min(values))
+    return runs[0]._replace(
+        value=mean,
+        verdict=judged(mean, runs[0].band),
+        spread=spread,
+        size=len(runs),
+        broken=tuple(broken),
+        remark=said,
+    )

@@ -1,0 +1,171 @@
+"""Metrics of a seat: what it passes on of the floor's vibration (ISO 2631-1, ISO 10326-1), what that is for
+the sitter's day, and how the cushion carries him.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from contact_sim_pkg.bag.texts import excitation_of_text
+from contact_sim_pkg.pressure.cushion import VALID_STRAIN
+from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.report.facts import EXCITATION_KEY
+from contact_sim_pkg.report.metrics.exposure import exposure_metrics
+from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of
+from contact_sim_pkg.report.rows import number
+from contact_sim_pkg.report.series import FieldSeries, Recording
+from contact_sim_pkg.report.signal import confidence
+from contact_sim_pkg.report.signal.metrics import ride_metrics, seat_factor
+from contact_sim_pkg.report.signal.spectrum import transmissibility
+from contact_sim_pkg.rigs.vehicle.seat.occupants import H_POINT
+from contact_sim_pkg.rigs.vehicle.seat.report.occupant import apparent_mass_of, occupant_signals, seat_to_head_of
+from contact_sim_pkg.rigs.vehicle.seat.report.response import peak_of, trusted_part
+from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals, ride_signals
+
+SEAT = "seat"
+
+
+def seat_metrics(recording: Recording) -> list[Metric]:
+    """The list of a seat; none without one."""
+    signals = ride_signals(recording.motion)
+    contact = recording.contacts.get(SEAT)
+    found = [] if signals is None else vibration_metrics(signals, recorded_faults(recording))
+    if contact is None:
+        return found
+    window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
+    make = Maker(SEAT, f"{SEAT}/force", window, conditions_of(recording.scene))
+    found += cushion_metrics(recording, make)
+    share = 100.0 * float((contact.normal <= 0.0).mean())
+    lifts = make.make(
+        "lift_off", "time without load", share, "%", band=at_most(0.0, "contact is kept"), count=contact.normal.size
+    )
+    return [*found, lifts, *occupant_metrics(recording, make.make)]
+
+
+def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = ()) -> list[Metric]:
+    """SEAT, exposure and the peak of the way from floor to seat; ``faults`` of the recording that drives the
+    floor hold for all of them."""
+    rate, length = signals.sample_rate, signals.time.size
+    floor, seat = (ride_metrics(each, rate) for each in (signals.floor, signals.seat))
+    window = float(signals.time[0]), float(signals.time[0]) + length / rate
+    make = Maker(SEAT, "bench/motion", window).make
+    doubts = (*confidence.short(length, rate), *confidence.slow(rate), *faults)
+    peaky = (*doubts, *confidence.peaky(seat.crest_factor))
+    factor = seat_factor(seat.weighted_rms, floor.weighted_rms)
+    spread = 100.0 * confidence.spread_of_ratio(seat.weighted, floor.weighted, rate)
+    found = [
+        make("factor", "SEAT", factor, "%", quantity="seat_factor", broken=peaky, spread=spread, count=length,
+             remark=f"floor {floor.weighted_rms:.3g} m/s²"),
+    ]  # fmt: skip
+    found += _way_to_seat(make, signals, doubts)
+    found += exposure_metrics(make, seat, signals.seat, rate, doubts)
+    dose = seat_factor(seat.vibration_dose, floor.vibration_dose)
+    return [*found, make("factor_dose", "SEAT by VDV", dose, "%", quantity="seat_factor", broken=doubts, count=length)]
+
+
+def _way_to_seat(make: Callable[..., Metric], signals: RideSignals, doubts: tuple[str, ...]) -> list[Metric]:
+    """Height and frequency of the peak of T(f) where it can be read."""
+    way = transmissibility(signals.floor, signals.seat, signals.sample_rate)
+    trusted = trusted_part(way, signals.floor, signals.sample_rate)
+    peak = None if trusted is None else peak_of(way, trusted)
+    if peak is None:
+        return []
+    place = int(np.argmin(np.abs(way.frequency - peak[1])))
+    # Bendat and Piersol, Random Data, table 9.6
+    coherence = float(way.coherence[place])
+    error = peak[0] * math.sqrt(max(1.0 - coherence, 0.0)) / (math.sqrt(2.0 * way.segments * coherence))
+    return [
+        make("peak", "T(f) at its peak", peak[0], "", quantity="seat_peak", broken=doubts, count=way.segments,
+             spread=confidence.TWO_SIDED * error, remark=f"coherence {coherence:.3g}"),
+        make("peak_frequency", "frequency of the peak", peak[1], "Hz", quantity="seat_peak_frequency", broken=doubts,
+             count=way.segments, spread=0.5 * float(way.frequency[1])),
+    ]  # fmt: skip
+
+
+def cushion_metrics(recording: Recording, maker: Maker) -> list[Metric]:
+    """How the cushion carries: pressures and area of its map, or how deep the sitter sinks."""
+    field, contact = recording.fields.get(SEAT), recording.contacts[SEAT]
+    if field is not None:
+        return map_metrics(SEAT, field, maker, "cushion")
+    keys = ((recording.scene.get("effects") or {}).get(SEAT) or {}).get("cushion")
+    deepest = 1e3 * float(contact.approach.max())
+    band = None if not keys else at_most(1e3 * VALID_STRAIN * float(keys["thickness"]), "range of the foam's law")
+    return [maker.make("sink", "deepest sink", deepest, "mm", band=band, count=contact.approach.size)]
+
+
+def occupant_metrics(recording: Recording, make: Callable[..., Metric]) -> list[Metric]:
+    """Height of the H-point, peaks of the apparent mass and of the way to the head where they can be read."""
+    signals = occupant_signals(recording)
+    if signals is None:
+        return []
+    found, touching = [], signals.force > 0.0
+    if touching.any():
+        height = 1e3 * (H_POINT - float(signals.approach[touching].mean()))
+        found.append(make("h_point", "H-point over the unloaded cushion", height, "mm", count=int(touching.sum())))
+    ways = (
+        ("apparent_mass", "apparent mass", "kg", apparent_mass_of(signals)),
+        ("to_head", "head over seat", "", seat_to_head_of(signals)),
+    )
+    for key, name, unit, way in ways:
+        trusted = None if way is None else trusted_part(way, signals.seat, signals.sample_rate)
+        peak = None if way is None or trusted is None else peak_of(way, trusted)
+        if way is not None and peak is not None:
+            found += [
+                make(
+                    key,
+                    f"{name} at its peak",
+                    peak[0],
+                    unit,
+                    count=way.segments,
+                    topic="bench/motion",
+                    remark=signals.name,
+                ),
+                make(
+                    f"{key}_frequency",
+                    f"frequency of that peak, {name}",
+                    peak[1],
+                    "Hz",
+                    count=way.segments,
+                    topic="bench/motion",
+                ),
+            ]
+    return found
+
+
+def map_metrics(contact: str, field: FieldSeries, maker: Maker, kind: str) -> list[Metric]:
+    """Pressures and area of the maps of a run, mean over those that carry; ``kind`` names their bands."""
+    carries = field.load > 0.0
+    if not carries.any():
+        return []
+    topic, count = f"{contact}/patch", int(carries.sum())
+    rows = (
+        ("mean_pressure", "mean pressure", 1e-3 * field.mean[carries], "kPa"),
+        ("peak_pressure", "peak pressure", 1e-3 * field.peak[carries], "kPa"),
+        ("area", "loaded area", 1e4 * field.area[carries], "cm²"),
+    )
+    return [
+        maker.make(key, name, values.mean(), unit, quantity=f"{kind}_{key}", count=count, topic=topic,
+                   remark=f"{number(values.min())} to {number(values.max())}")
+        for key, name, values, unit in rows
+    ]  # fmt: skip
+
+
+def recorded_faults(recording: Recording) -> tuple[str, ...]:
+    """What is wrong with the recording that drives the floor: samples at full scale, a low rate."""
+    described = excitation_of_text(recording.metadata.get(EXCITATION_KEY), f"excitation of {recording.name}")
+    return tuple(fault for values in described.values() for fault in faults_of(values))
+
+
+def faults_of(described: Mapping[str, Any]) -> tuple[str, ...]:
+    """Faults of one excitation by its description."""
+    axes, rate = described.get("axes"), described.get("rate_Hz", described.get("rate"))
+    upward = axes.get("z") if isinstance(axes, Mapping) else None
+    if described.get("kind") != "recorded" or not isinstance(upward, Mapping):
+        return ()
+    samples = float(described.get("samples") or described.get("duration_s", 0.0) * float(rate or 0.0))
+    share = float(upward.get("clipped_samples") or 0) / samples if samples > 0.0 else 0.0
+    return (*confidence.clipped(share), *(confidence.slow(float(rate)) if rate else ()))

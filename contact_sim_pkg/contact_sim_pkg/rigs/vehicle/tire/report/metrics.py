@@ -1,0 +1,206 @@
+"""Metrics of a rolling tire: how its load varies, how it stands, what it passes on along the road."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.report.metrics.maker import Maker, conditions_of, near
+from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray, PressureMap, Recording
+from contact_sim_pkg.report.signal.confidence import spread_of_mean
+from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import AxleSeries, axle_of
+from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
+from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
+from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
+
+SHORTEST = 8.0
+"""[s] of a ride over an uneven road that says something of its load: ten periods of the body at 1.2 Hz"""
+STANDING_RANGE = 0.1
+"""Share of the standing load by which the load may differ where the standing tire is meant."""
+STIFFNESS_RANGE = 0.2
+"""Share of the standing load over which the stiffness is a slope."""
+PATCH = 0.02
+"""[m] side of the square over which a peak pressure is averaged: a tread block, more than a cell"""
+LOWEST_RINGING = 15.0
+"""[Hz] below which the axle's force follows body and wheel"""
+RINGING_TIME = 0.3
+"""[s] behind the largest force along the road in which the belt rings"""
+HOP_BAND = (5.0, 20.0)
+"""[Hz] in which the wheel hops on the tire"""
+
+
+class _Ride(NamedTuple):
+    """What the list is made from."""
+
+    recording: Recording
+    contact: ContactSeries
+    standing: float | None
+    """[N]"""
+    make: Any
+    rough: bool
+    """whether the road is uneven all along, so that a mean needs time"""
+
+
+def tire_metrics(recording: Recording) -> list[Metric]:
+    """The list of a tire; none without one."""
+    contact = recording.contacts.get(TIRE)
+    if contact is None:
+        return []
+    window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
+    standing, conditions = standing_load_of(recording.scene), _conditions(recording)
+    ride = _Ride(
+        recording, contact, standing, Maker(TIRE, f"{TIRE}/force", window, conditions).make,
+        str(conditions.get("road", "")).startswith("class"),
+    )  # fmt: skip
+    field = recording.fields.get(TIRE)
+    stiffness = None if standing is None else _stiffness(contact, standing)
+    found = [*_load(ride), *_standing(ride, stiffness)]
+    if field is not None and standing is not None:
+        found += _footprint(ride, field, standing)
+    return [*found, *_along(ride)]
+
+
+def _conditions(recording: Recording) -> dict[str, float | str]:
+    """Standing load [kN], inflation [kPa], mean speed [m/s], road and ground, ring, belt, largest slip."""
+    found = conditions_of(recording.scene)
+    effects = (recording.scene.get("effects") or {}).get(TIRE) or {}
+    standing, road, shear = standing_load_of(recording.scene), road_of(recording), shear_of(recording)
+    if standing is not None:
+        found["load_kN"] = 1e-3 * standing
+    if effects.get("inflation"):
+        found["inflation_kPa"] = 1e-3 * float(effects["inflation"]["pressure"])
+    found["ground"] = "stones" if found.get("road") == "opencrg" else "even"
+    found["ring"] = "yes" if effects.get("rigid_ring") is not None else "no"
+    found["belt"] = "yes" if effects.get("sidewall_compliance") is not None else "no"
+    if road is not None and recording.duration > 0.0:
+        found["speed_m_s"] = float(road.travel.distance[-1] - road.travel.distance[0]) / recording.duration
+    if shear is not None:
+        found["largest_slip"] = float(np.hypot(shear.slip, np.tan(shear.slip_angle)).max())
+    return found
+
+
+def _load(ride: _Ride) -> Iterator[Metric]:
+    """Variation and mean of the load, time off the road."""
+    normal, rate, count = ride.contact.normal, 1.0 / ride.contact.sample_period, ride.contact.normal.size
+    doubts = _short(ride)
+    lifted = 100.0 * float((normal <= 0.0).mean())
+    lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
+    if ride.standing is not None:
+        coefficient = float(normal.std()) / ride.standing
+        yield ride.make(
+            "dlc", "dynamic load coefficient", coefficient, "", quantity="dynamic_load", broken=doubts, count=count
+        )
+    yield ride.make("lift_off", "time off the road", lifted, "%", quantity="lift_off", broken=doubts, count=count,
+                    remark=f"{lifts} times")  # fmt: skip
+    band = None if ride.standing is None else near(ride.standing, 0.05, "weight, mean over the run")
+    yield ride.make("load", "load, mean", normal.mean(), "N", band=band, broken=doubts, count=count,
+                    spread=spread_of_mean(normal, rate), remark=f"{normal.min():.4g} to {normal.max():.4g} N")  # fmt: skip
+
+
+def _short(ride: _Ride) -> tuple[str, ...]:
+    """That the ride is too short for its road; empty where it is not."""
+    duration = ride.contact.normal.size * ride.contact.sample_period
+    return (f"too short: {duration:.3g} s, {SHORTEST:g} s needed",) if ride.rough and duration < SHORTEST else ()
+
+
+def _standing(ride: _Ride, stiffness: float | None) -> Iterator[Metric]:
+    """Stiffness about the standing load, and the frequency at which the wheel hops on it."""
+    if stiffness is None:
+        return
+    yield ride.make("stiffness", "vertical stiffness", 1e-3 * stiffness, "kN/m", quantity="tire_stiffness",
+                    remark="slope of the contact within 20 % of the standing load")  # fmt: skip
+    tire, motion = ride.recording.scene["tire"], ride.recording.motion
+    wheel = None if motion is None else motion.acceleration.get("wheel_z")
+    if motion is None or wheel is None or not ride.rough:
+        return
+    masses = np.array([float(tire["wheel_mass"]), float(tire["body_mass"])])
+    spring = float(tire["suspension_stiffness"])
+    modes = np.linalg.eigvals(np.array([[stiffness + spring, -spring], [-spring, spring]]) / masses[:, None])
+    expected = math.sqrt(float(modes.real.max())) / (2.0 * math.pi)
+    found = _highest_line(wheel, 1.0 / motion.sample_period, *HOP_BAND)
+    yield ride.make("hop", "frequency of wheel hop", found, "Hz", topic="bench/motion", count=wheel.size, broken=_short(ride),
+                    band=near(expected, 0.15, "wheel on tire and suspension, no damping"))  # fmt: skip
+
+
+def _footprint(ride: _Ride, field: FieldSeries, standing: float) -> Iterator[Metric]:
+    """The footprint where the load is the standing one, the largest pressure, and that over a patch."""
+    about = np.abs(field.load - standing) <= STANDING_RANGE * standing
+    count, topic = int(about.sum()), f"{TIRE}/patch"
+    values = (
+        ("length", "footprint length", 1e3 * field.length, "mm"),
+        ("width", "footprint width", 1e3 * field.width, "mm"),
+        ("area", "footprint area", 1e4 * field.area, "cm²"),
+        ("mean_pressure", "mean pressure", 1e-3 * field.mean, "kPa"),
+    )
+    for key, name, column, unit in values if count else ():
+        yield ride.make(key, name, float(np.median(column[about])), unit, quantity=f"tire_{key}", topic=topic, count=count,
+                        remark="median about the standing load")  # fmt: skip
+    yield ride.make("peak_pressure", "peak pressure", 1e-3 * float(field.peak.max()), "kPa", quantity="tire_peak_pressure",
+                    topic=topic, count=field.time.size, remark=f"at {field.highest_time:.3f} s")  # fmt: skip
+    yield ride.make("patch_pressure", "peak over 20 by 20 mm", 1e-3 * peak_over(field.highest, PATCH), "kPa", topic=topic,
+                    remark="squares of a tread block")  # fmt: skip
+
+
+def peak_over(grid: PressureMap, side: float) -> float:
+    """Largest mean pressure [Pa] over squares of ``side`` [m], of whole cells."""
+    rows, cols = (
+        min(max(1, round(side / cell)), size)
+        for cell, size in zip((grid.cell_x, grid.cell_y), grid.pressure.shape, strict=True)
+    )
+    sums = np.pad(grid.pressure, ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
+    squares = sums[rows:, cols:] - sums[:-rows, cols:] - sums[rows:, :-cols] + sums[:-rows, :-cols]
+    return float(squares.max()) / (rows * cols)
+
+
+def _along(ride: _Ride) -> Iterator[Metric]:
+    """Rolling resistance, friction and what rings behind an obstacle."""
+    axle, shear = axle_of(ride.recording), shear_of(ride.recording)
+    topic = f"{TIRE}/axle"
+    if axle is not None:
+        load = float(ride.contact.normal.mean())
+        resistance = -float(axle.longitudinal.mean()) / load if load > 0.0 else math.nan
+        yield ride.make("resistance", "force along over load", resistance, "", quantity="tire_rolling_resistance", topic=topic,
+                        count=axle.time.size,
+                        remark=f"{axle.longitudinal.min():.4g} to {axle.longitudinal.max():.4g} N")  # fmt: skip
+    if shear is not None:
+        pressed = np.interp(shear.time, ride.contact.time, ride.contact.normal)
+        ratio = np.hypot(shear.force_x, shear.force_y) / np.maximum(pressed, 1.0)
+        place = int(ratio.argmax())
+        slip = math.hypot(shear.slip[place], math.tan(shear.slip_angle[place]))
+        yield ride.make("friction", "largest friction over load", ratio[place], "", quantity="tire_friction", topic=f"{TIRE}/shear",
+                        count=shear.time.size, remark=f"at a slip of {slip:.3g}")  # fmt: skip
+    ringing = None if axle is None or ride.rough else _ringing(axle)
+    if ringing is not None:
+        yield ride.make("ringing", "force along rings at", ringing, "Hz", quantity="tire_ringing", topic=topic)
+
+
+def _stiffness(contact: ContactSeries, standing: float) -> float | None:
+    """Slope [N/m] of load over approach within 20 % of the ``standing`` load [N]; None where the load stays away
+    from there, or does not vary."""
+    about = np.abs(contact.normal - standing) <= STIFFNESS_RANGE * standing
+    approach = contact.approach[about]
+    if approach.size < 3 or np.ptp(approach) <= 1e-6:
+        return None
+    return float(np.polyfit(approach - approach.mean(), contact.normal[about], 1)[0])
+
+
+def _ringing(axle: AxleSeries) -> float | None:
+    """Highest line [Hz] of the force along behind its largest value; None where the record ends before."""
+    start = int(np.abs(axle.longitudinal).argmax())
+    behind = axle.longitudinal[start : start + round(RINGING_TIME / axle.sample_period)]
+    if behind.size < round(0.5 * RINGING_TIME / axle.sample_period) or not behind.any():
+        return None
+    return _highest_line(behind, 1.0 / axle.sample_period, LOWEST_RINGING, 200.0)
+
+
+def _highest_line(values: FloatArray, rate: float, low: float, high: float) -> float:
+    """Frequency [Hz] of the highest line of ``values`` [samples] at a ``rate`` [Hz] between two frequencies [Hz]."""
+    points = max(values.size, 16384)
+    power = np.abs(np.fft.rfft((values - values.mean()) * np.hanning(values.size), points))
+    lines = np.fft.rfftfreq(points, 1.0 / rate)
+    inside = np.flatnonzero((lines >= low) & (lines <= high))
+    return float(lines[inside[power[inside].argmax()]])

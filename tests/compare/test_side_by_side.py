@@ -1,0 +1,80 @@
+"""Runs side by side: order, differences, tolerances of metrics and of curves."""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.compare.side_by_side import Compared, Curve, misses, read_tolerances, side_by_side
+from contact_sim_pkg.files import FileRefusedError
+from contact_sim_pkg.records.metric import Metric
+
+
+def metric(key, value, verdict="good"):
+    return Metric(key, key, value, "N", verdict, None)
+
+
+def run(name, shift=0.0, **values):
+    x = np.linspace(0.0, 10.0, 101)
+    return Compared(name, [metric(key, value) for key, value in values.items()], {"curve": Curve("Hz", x, x + shift)})
+
+
+def test_what_moved_most_stands_first():
+    sides = side_by_side([run("A", a=10.0, b=1.0, c=0.0), run("B", a=11.0, b=3.0, c=0.0, d=4.0)])
+    assert [side.key for side in sides] == ["b", "a", "c", "d"]
+    assert (sides[0].change, sides[0].relative) == (2.0, 2.0)
+    assert math.isnan(sides[-1].values[0])
+    assert sides[-1].verdict == "absent → good"
+
+
+@pytest.fixture
+def tolerances(tmp_path):
+    def read(text):
+        (tmp_path / "tolerances.yaml").write_text(text)
+        return read_tolerances(tmp_path / "tolerances.yaml")
+
+    return read
+
+
+def test_a_tolerance_is_absolute_plus_relative(tolerances):
+    first, second = run("A", a=100.0), run("B", a=106.0)
+    for text, count in (("a: {absolute: 6}", 0), ("a: {absolute: 5}", 1), ("a: {absolute: 1, relative: 0.05}", 0)):
+        ((_, found),) = misses([first, second], tolerances(text))
+        assert len(found) == count
+    ((_, (miss,)),) = misses([first, second], tolerances("a: {relative: 0.05}"))
+    assert miss.sentence == "a is 106 N, 6 from 100; 5 allowed"
+
+
+def test_a_curve_has_a_band_round_it_in_a_range(tolerances):
+    first, second = run("A", a=1.0), run("B", shift=0.3, a=1.0)
+    assert misses([first, second], tolerances("curve: {absolute: 0.31}"))[0][1] == []
+    assert misses([first, second], tolerances("curve: {relative: 0.1, from: 5, to: 8}"))[0][1] == []
+    (miss,) = misses([first, second], tolerances("curve: {relative: 0.1}"))[0][1]
+    assert "curve is 0.3 at 0 Hz, 0.3 from 0; 0 allowed (30 of 101 points outside)" in miss.sentence
+
+
+def test_one_line_may_hold_for_many_and_a_third_run_counts_too(tolerances):
+    runs = [run("A", ab=1.0, ac=2.0), run("B", ab=1.0, ac=2.0), run("C", ab=1.5, ac=2.0)]
+    ((_, found),) = misses(runs, tolerances("a*: {relative: 0.1}"))
+    assert [(each.run, each.key) for each in found] == [("C", "ab")]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a: 5", "needs absolute or relative"), ("a: {absolut: 5}", "needs absolute or relative"),
+        ("a: {absolute: -1}", "it must be 0 or more"), ("a: {absolute: many}", "must be a number"), ("", "is empty"),
+        ("[]", "holds no tolerances"),
+    ],
+)  # fmt: skip
+def test_a_file_of_something_else_is_refused(tolerances, text, words):
+    with pytest.raises(BagError, match=words):
+        tolerances(text)
+
+
+def test_a_tolerance_of_nothing_is_refused_with_what_there_is(tolerances, tmp_path):
+    with pytest.raises(BagError, match=r"tolerance q: A has no such metric or curve; it has a, curve"):
+        misses([run("A", a=1.0), run("B", a=1.0)], tolerances("q: {absolute: 1}"))
+    with pytest.raises(FileRefusedError, match="cannot be read"):
+        read_tolerances(tmp_path / "absent.yaml")

@@ -1,0 +1,153 @@
+"""Metrics of bags: ours, those of anybody, and repeated runs."""
+
+import math
+
+import numpy as np
+import pytest
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.records.metric import Band, Metric
+from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags
+from contact_sim_pkg.report.metrics.repeated import repeated
+from contact_sim_pkg.report.signal.metrics import ride_metrics
+from contact_sim_pkg.report.signal.weighting import WD
+
+STORE = get_typestore(Stores.ROS2_JAZZY)
+T = STORE.types
+RATE = 500.0
+
+
+def foreign_bag(folder, kind, values, rate=RATE, times=None, turning=None):
+    """A bag by rosbags with one topic of `kind`; values [samples, 3]."""
+    name = {
+        "imu": "sensor_msgs/msg/Imu",
+        "accel": "geometry_msgs/msg/AccelStamped",
+        "wrench": "geometry_msgs/msg/WrenchStamped",
+    }[kind]
+    times = np.arange(len(values)) / rate if times is None else times
+    vector, header = T["geometry_msgs/msg/Vector3"], T["std_msgs/msg/Header"]
+    zero = vector(0.0, 0.0, 0.0)
+    with Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connection = writer.add_connection(f"/sensor/{kind}", name, typestore=STORE)
+        for time, row, turn in zip(
+            times, values, np.zeros((len(values), 3)) if turning is None else turning, strict=True
+        ):
+            stamp = round(time * 1e9)
+            top = header(T["builtin_interfaces/msg/Time"](stamp // 10**9, stamp % 10**9), "sensor")
+            linear = vector(*map(float, row))
+            if kind == "imu":
+                attitude, none = T["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0), np.zeros(9)
+                message = T[name](top, attitude, none, vector(*map(float, turn)), none, linear, none)
+            elif kind == "accel":
+                message = T[name](top, T["geometry_msgs/msg/Accel"](linear, zero))
+            else:
+                message = T[name](top, T["geometry_msgs/msg/Wrench"](linear, zero))
+            writer.write(connection, stamp, STORE.serialize_cdr(message, name))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def shaken():
+    """40 s of noise on three axes, gravity on z."""
+    noise = np.random.default_rng(5).normal(size=(round(40 * RATE), 3)) * [0.3, 0.2, 0.8]
+    return noise + np.array([0.0, 0.0, 9.81])
+
+
+def by_key(paths, **chosen):
+    return {each.key: each for each in metrics_of_bags(paths, **chosen).metrics}
+
+
+@pytest.mark.parametrize("kind", ["imu", "accel"])
+def test_a_foreign_bag_has_the_same_a_w_as_the_signal(tmp_path, shaken, kind):
+    found = by_key([foreign_bag(tmp_path / "bag", kind, shaken)])
+    expected = ride_metrics(shaken[:, 2], RATE)
+    a_w = found[f"sensor_{kind}.z.a_w"]
+    assert a_w.value == pytest.approx(expected.weighted_rms, rel=1e-9)
+    assert "gravity inside: mean 9.81 m/s², removed" in a_w.broken
+    assert found[f"sensor_{kind}.x.a_w"].broken == ()
+    assert found[f"sensor_{kind}.a_8"].value == pytest.approx(expected.weighted_rms, rel=1e-9)
+
+
+def test_an_axis_and_a_weighting_are_chosen(tmp_path, shaken):
+    bag = foreign_bag(tmp_path / "bag", "imu", shaken)
+    assert set(by_key([bag], chosen=("x:Wc", None))) >= {"sensor_imu.a_w", "sensor_imu.crest"}
+    assert by_key([bag], chosen=("x:Wc", None))["sensor_imu.a_w"].name == "a_w, Wc"
+    assert by_key([bag], chosen=("Wj", None))["sensor_imu.a_w"].name == "a_w, Wj"
+    assert by_key([bag], chosen=("Wf", None))["sensor_imu.a_w"].band is None  # no words of comfort for motion sickness
+    with pytest.raises(
+        BagError, match=r"--axis Wq: is neither axis nor weighting; allowed are x, y, z, rx, ry, rz, Wk"
+    ):
+        metrics_of_bags([bag], chosen=("Wq", None))
+
+
+def test_a_rotation_is_weighted_by_we_and_has_no_band(tmp_path):
+    """rad/s of a sine of 1 Hz and 1 rad/s² rms: a_w is |We(1 Hz)| = 0.8798."""
+    time = np.arange(0.0, 60.0, 1.0 / RATE)
+    velocity = np.sqrt(2.0) / (2.0 * np.pi) * np.sin(2.0 * np.pi * time)
+    bag = foreign_bag(tmp_path / "bag", "imu", np.zeros((time.size, 3)), turning=np.stack([velocity] * 3, axis=1))
+    found = by_key([bag], chosen=("ry", None))["sensor_imu.a_w"]
+    assert found.value == pytest.approx(0.8798, rel=5e-3)  # with the start of the sine
+    assert (found.unit, found.band, found.name) == ("rad/s²", None, "a_w, We")
+
+
+def test_the_daily_dose_of_a_horizontal_axis_is_taken_1_4_times(tmp_path, shaken):
+    bag = foreign_bag(tmp_path / "bag", "accel", shaken)
+    along = ride_metrics(shaken[:, 0], RATE, WD)
+    expected = 1.4 * along.vibration_dose * (8.0 * 3600.0 / 40.0) ** 0.25
+    assert by_key([bag])["sensor_accel.x.dose"].value == pytest.approx(expected, rel=1e-9)
+
+
+def test_forces_of_a_wrench(tmp_path, shaken):
+    found = by_key([foreign_bag(tmp_path / "bag", "wrench", shaken)])
+    assert found["sensor_wrench.force"].value == pytest.approx(shaken[:, 2].mean())
+
+
+def test_a_signal_that_breaks_an_assumption_says_so(tmp_path, shaken):
+    def broken(name, values, **how):
+        found = by_key([foreign_bag(tmp_path / name, "imu", values, **how)], chosen=("z", None))
+        return " | ".join(found["sensor_imu.a_w"].broken)
+
+    assert "too short: 3 s, 34 s needed" in broken("short", shaken[: round(3 * RATE)])
+    slow = 9.81 + np.clip(5.0 * np.sin(np.arange(len(shaken)) / 40.0), -2.0, 2.0)
+    assert "clipped: " in broken("clipped", np.stack([slow * 0.0, slow * 0.0, slow], axis=1))
+    assert "wrong rate: 100 Hz carries nothing above 50 Hz" in broken("slow", shaken[:4000], rate=100.0)
+    shock = np.zeros((20_000, 3))
+    shock[500:510, 2] = 10.0
+    assert "crest factor 4" in broken("shock", shock)
+    times = np.arange(len(shaken)) / RATE
+    times[9000:] += 0.5
+    assert "wrong rate: 1 gaps in the stamps" in broken("gap", shaken, times=times)
+
+
+def test_a_bag_of_nothing_is_refused(tmp_path):
+    with Writer(tmp_path / "bag", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connection = writer.add_connection("/text", "std_msgs/msg/String", typestore=STORE)
+        writer.write(connection, 0, STORE.serialize_cdr(T["std_msgs/msg/String"]("x"), "std_msgs/msg/String"))
+    assert main(["metrics", str(tmp_path / "bag")]) == 2
+    with pytest.raises(BagError, match="there is nothing to weight"):
+        metrics_of_bags([tmp_path / "bag"])
+
+
+def test_equal_runs_are_refused(car):
+    with pytest.raises(BagError, match=r"are the same run \(seed None\): their spread is 0 and says nothing"):
+        metrics_of_bags([car.path.parent, car.path.parent])
+
+
+def runs(*values):
+    band = Band(-math.inf, 100.0, "limit", "")
+    return [[Metric("seat.factor", "SEAT", value, "%", "good", band)] for value in values]
+
+
+def test_three_runs_within_5_per_cent_are_a_test():
+    (mean,) = repeated(list("ABC"), [{"seed": each} for each in range(3)], runs(58.0, 60.0, 62.0))
+    assert (mean.value, mean.spread, mean.size, mean.broken) == (60.0, 2.0, 3, ())
+
+
+def test_runs_that_differ_more_or_are_too_few_are_not_valid():
+    (mean,) = repeated(list("ABC"), [{"seed": each} for each in range(3)], runs(54.0, 60.0, 66.0))
+    assert mean.broken == ("not valid by ISO 10326-1: A is 10 % from the mean, above 5 %",)
+    (mean,) = repeated(list("AB"), [{"seed": each} for each in range(2)], runs(60.0, 60.0))
+    assert mean.broken == ("not valid by ISO 10326-1: 2 runs, 3 needed",)

@@ -1,0 +1,80 @@
+"""The one list of metrics in all its forms."""
+
+import csv
+import io
+import json
+import math
+from xml.etree import ElementTree
+
+import pytest
+
+from contact_sim_pkg.records.metric import Band, Metric, judged
+from contact_sim_pkg.report.metrics.tiles import doubts_of, sources_of, tiles_of
+from contact_sim_pkg.report.metrics.views import csv_of, junit_of, lines_of, metric_of, row_of, rows_of, verdict_line
+
+LIMIT = Band(-math.inf, 100.0, "limit", "a standard")
+
+
+def metric(key, value, band=LIMIT, broken=(), spread=math.nan):
+    return Metric(
+        f"seat.{key}", key, value, "%", judged(value, band), band, "said", broken, spread, 7, "bench/motion", (0.0, 5.0)
+    )
+
+
+METRICS = [
+    metric("good", 57.25, spread=2.1), metric("bad", 131.0), metric("free", 3.0, band=None),
+    metric("doubtful", 50.0, broken=("too short: 3 s, 34 s needed",)), metric("undefined", math.nan),
+]  # fmt: skip
+
+
+def test_a_row_holds_everything_and_is_json():
+    rows = json.loads(json.dumps(rows_of(METRICS), allow_nan=False))
+    assert [metric_of(row)[:2] for row in rows] == [each[:2] for each in METRICS]
+    assert metric_of(rows[1]) == METRICS[1]._replace(spread=metric_of(rows[1]).spread)
+    assert rows[4]["value"] is None
+    assert (rows[1]["low"], rows[1]["high"], rows[1]["verdict"]) == (None, 100.0, "outside")
+
+
+def test_csv_has_a_row_a_metric_in_full_precision():
+    rows = list(csv.DictReader(io.StringIO(csv_of(METRICS))))
+    assert [row["key"] for row in rows] == [each.key for each in METRICS]
+    assert float(rows[0]["value"]) == 57.25
+    assert rows[3]["broken"] == "too short: 3 s, 34 s needed"
+
+
+def test_the_terminal_ends_with_what_is_outside_and_what_is_doubtful():
+    rows = rows_of(METRICS)
+    lines = lines_of(rows)
+    assert lines[0].split() == ["good", "57.2", "±", "2.1", "%", "good", "at", "most", "100;", "said"]
+    assert any(line.strip() == "! too short: 3 s, 34 s needed" for line in lines)
+    last = verdict_line(rows)
+    assert last.startswith(
+        "OUTSIDE: bad 131 % (at most 100) | DOUBTFUL: 1 of 5 metrics, too short: 3 s, 34 s needed | the rest "
+    )
+    assert verdict_line(rows_of(METRICS[:1])) == "nothing outside its band: 1 good"
+
+
+def test_junit_counts_failures_errors_and_what_is_skipped():
+    suite = ElementTree.fromstring(junit_of("bag", METRICS))
+    assert {key: suite.get(key) for key in ("tests", "failures", "errors", "skipped")} == {
+        "tests": "5", "failures": "1", "errors": "1", "skipped": "2",
+    }  # fmt: skip
+    (failure,) = suite.iter("failure")
+    assert "bad: 131 %" in failure.get("message")
+
+
+def test_tiles_say_the_same():
+    tiles = tiles_of(METRICS)
+    assert [(tile.value, tile.verdict) for tile in tiles[:2]] == [("57.2", "good"), ("131", "OUTSIDE")]
+    assert [tile.footnote for tile in tiles] == [1, 1, 0, 1, 1]
+    assert sources_of(METRICS) == ["a standard"]
+    assert doubts_of(METRICS) == ["too short: 3 s, 34 s needed (doubtful)"]
+    assert tiles[3].doubtful
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "text"), [(-math.inf, 9.0, "at most 9"), (1.0, math.inf, "at least 1"), (1.0, 2.0, "1 to 2")]
+)
+def test_bands_in_words(low, high, text):
+    assert Band(low, high, "usual", "").text == text
+    assert row_of(metric("x", 1.0, Band(low, high, "usual", "s")))["source"] == "s"

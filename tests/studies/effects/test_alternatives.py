@@ -1,0 +1,77 @@
+"""Scenes with one effect left out, or one more."""
+
+import pytest
+
+from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.studies.effects import absent, reduced
+from contact_sim_pkg.studies.effects.alternatives import effects_of, with_effect, without_effects
+
+
+def alternative(scene, name, *values, on=False):
+    resolved = load_resolved(scene, *values)
+    contact, effect = next(each for each in effects_of(resolved) if f"{each[0].name}.{each[1].name}" == name)
+    return without_effects(resolved, effect) if on else with_effect(resolved, contact, effect)
+
+
+def named(found, contact):
+    return [name for name, keys in found.scene.data["effects"][contact].items() if keys is not None]
+
+
+def test_with_an_effect_comes_what_it_needs():
+    found = alternative("car_full_bench", "tire.wheel_spin")
+    assert found.beside == ("brush", "sidewall_compliance")
+    assert set(named(found, "tire")) >= {"brush", "sidewall_compliance", "wheel_spin", "inflation"}
+    assert found.replaced == found.removed == ()
+
+
+def test_an_effect_takes_the_place_of_those_it_excludes():
+    found = alternative("seat_ride", "seat.general_dissipative")
+    assert found.replaced == ("normal_dissipative",)
+    assert set(named(found, "seat")) == {"cushion", "foam_hysteresis", "general_dissipative"}
+
+
+def test_what_needs_a_replaced_effect_goes_and_another_carries_the_load():
+    found = alternative("seat_ride", "seat.foam", "effects.seat.contact_field={}")
+    assert found.replaced == ("cushion",)
+    assert found.removed == ("contact_field",)
+    assert found.beside == ("normal_elastic",)
+
+
+def test_what_acts_through_an_effect_alone_goes_with_it():
+    assert alternative("tire_braking", "tire.brush", on=True).scene.slip is None
+    assert alternative("tire_braking", "tire.brush", on=True).beside == ("sidewall_compliance",)
+    assert "sliding" not in alternative("seat_slap", "backrest.friction", on=True).scene.data["backrest"]
+
+
+def test_all_that_can_act_together_keeps_what_is_on():
+    scene = load_resolved("seat_ride")
+    found = reduced.all_together(scene)
+    assert set(scene.data["effects"]["seat"]) | {"friction", "softening"} == set(found.data["effects"]["seat"])
+
+
+@pytest.mark.parametrize(
+    ("scene", "values", "effects"),
+    [
+        ("tire_bump", ("effects.tire.contact_field=null", "road={kind: cleat, position: 9, height: 0.01, length: 0.02}"),
+         {"contact_field"}),
+        ("tire_bump", ("effects.tire.contact_field=null", "road={kind: cleat, position: 9, height: 1.0e-9, length: 0.02}"), set()),
+        ("tire_bump", ("effects.tire.contact_field=null", "road={kind: bump, position: 9, height: 0.03, length: 6}"), set()),
+        ("tire_bump", ("effects.tire.contact_field=null", "road={kind: bump, position: 9, height: 0.08, length: 0.45}"),
+         {"contact_field"}),
+        ("tire_rough_road", ("effects.tire.contact_field=null",), {"contact_field"}),
+        ("tire_rough_road", ("effects.tire.contact_field=null", "road={kind: iso8608, roughness: 1.0e-15}"), set()),
+        ("impact_rubber_drop", ("impact.temperatures=[256.0]",), {"shift"}),
+        ("impact_rubber_drop", (), set()),
+        ("seat_ride", ("vibration={kind: sine, axis: x, frequency: 3, amplitude: 3}",), {"friction"}),
+        ("seat_ride", ("effects.seat.normal_dissipative=null",), set()),
+        ("seat_ride", ("effects.seat.normal_dissipative=null", "effects.seat.foam_hysteresis=null"),
+         {"normal_dissipative", "general_dissipative"}),
+        ("car_full_bench", (), set()),
+    ],
+)  # fmt: skip
+def test_the_data_of_a_scene_call_for_effects_that_are_off(scene, values, effects):
+    resolved = load_resolved(scene, *values)
+    assert {effect.name for _contact, effect, _reason in absent.absent_effects(resolved)} == effects
+    sentence = absent.sentence_of_absent(resolved)
+    assert all(name in sentence for name in effects)
+    assert bool(sentence) == bool(effects)
