@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+import scipy  # its parts are imported on use: they take 0.1 to 0.3 s
 from numpy.typing import NDArray
-from scipy.integrate import trapezoid
 
 SEGMENT_TIME = 4.0
 """[s] a segment of a long record: 0.25 Hz resolution, fine for a seat's resonance at 4 Hz (1 Hz
@@ -80,7 +80,7 @@ class CrossDensity(NamedTuple):
             # H1 estimate: noise of the target averages out
             ratio = cross / power_source
             coherence = np.abs(cross) ** 2 / (power_source * power_target)
-        moves = float(trapezoid(power_source, self.frequency)) >= AT_REST**2
+        moves = float(scipy.integrate.trapezoid(power_source, self.frequency)) >= AT_REST**2
         defined = (power_source > 0.0) & moves
         magnitude, phase, coherence = (
             np.where(defined, each, np.nan) for each in (np.abs(ratio), np.angle(ratio), coherence)
