@@ -47,7 +47,7 @@ setup(
     install_requires=[
         "click>=8.1,<9",
         "jinja2>=3.1,<4",
-        "matplotlib>=3.7,<4",
+        "matplotlib>=3.6,<4",
         "mcap>=1.5,<2",
         "mpmath>=1.3,<2",
         "numba>=0.61,<0.69",

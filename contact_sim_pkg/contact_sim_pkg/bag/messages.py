@@ -90,8 +90,9 @@ class _Codec:
         try:
             values = list(record)
             for place, kind in self._kinds:
-                if getattr(values[place], "dtype", None) != kind:
-                    values[place] = numpy.asarray(values[place]).astype(kind, "C", "same_kind")
+                array = values[place]
+                if not isinstance(array, numpy.ndarray) or array.dtype != kind:  # None equals the type of doubles
+                    values[place] = numpy.asarray(array).astype(kind, "C", "same_kind")
             sizes = self._sizes(values) if self._shaped else {}
             if self._columns:
                 self._refuse_uneven_columns(values)

@@ -136,7 +136,8 @@ def share_over_time(key: str, name: str, recording: Recording) -> Picture | None
     axes.set_xlim(shares.edges[0], shares.edges[-1])
     axes.set_xlabel("simulated time, s")
     axes.set_ylabel("share")
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.0, reverse=True)
+    handles, labels = axes.get_legend_handles_labels()
+    axes.legend(handles[::-1], labels[::-1], loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.0)
     return picture(
         f"{key}-share",
         figure,
