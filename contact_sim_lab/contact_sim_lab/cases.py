@@ -6,6 +6,7 @@ mapping of rig -> `RigStudies`.
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any, NamedTuple
@@ -15,6 +16,7 @@ from contact_sim_pkg.records.rig import load
 
 __all__ = ["GOALS", "HARD_CASES", "RigStudies", "modules_of_rigs", "objects", "rig_studies"]
 
+_log = logging.getLogger(__name__)
 _LAB = "contact_sim_lab"
 _RIGS = f"{_LAB}.rigs"
 
@@ -111,7 +113,11 @@ def rig_studies() -> dict[str, RigStudies]:
     brought: dict[str, RigStudies] = {}
     for plugin in plugins():
         for place in plugin.studies:
-            named: Mapping[str, RigStudies] = load(place)
+            try:
+                named: Mapping[str, RigStudies] = load(place)
+            except Exception as error:  # noqa: BLE001 - whatever the import of a stranger's module raises
+                _log.warning("studies of plug-in %s are left out: %s does not load (%s)", plugin, place, error)
+                continue
             brought |= {rig: studies for rig, studies in named.items() if rig not in _OURS}
     return {**_OURS, **brought}
 

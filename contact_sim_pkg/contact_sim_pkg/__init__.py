@@ -14,6 +14,9 @@ __all__ = ["__version__", "load_scene", "open_bag", "series"]
 __getattr__ = on_use(
     __name__,
     {
+        "BagError": "contact_sim_pkg.bag.errors:BagError",
+        "RunError": "contact_sim_pkg.run.errors:RunError",
+        "SceneError": "contact_sim_pkg.scene.errors:SceneError",
         "load_scene": "contact_sim_pkg.library:load_scene",
         "open_bag": "contact_sim_pkg.bag.reader:open_bag",
         "series": "contact_sim_pkg.library:series",

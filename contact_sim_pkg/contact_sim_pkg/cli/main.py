@@ -93,14 +93,16 @@ def _of_laboratory(name: str) -> click.Command:
 
 def _foreign() -> dict[str, str]:
     """Commands that plug-ins bring, ``module:name`` by name; ours are never replaced."""
-    from contact_sim_pkg.records.plugins import PluginError, plugins
+    from contact_sim_pkg.records.plugins import CURE, PluginError, plugins
 
     found: dict[str, str] = {}
+    origin: dict[str, object] = {}
     for plugin in plugins():
         for name, place in plugin.commands.items():
             if name in COMMANDS or name in LABORATORY or name in found:
-                other = "the bench's own" if name not in found else f"{found[name]}"
-                raise PluginError(f"two commands are named {name}: {other} and {place} of plug-in {plugin}")
+                other = f"that of plug-in {origin[name]}" if name in found else "the bench's own"
+                raise PluginError(f"two commands are named {name}: {other} and that of plug-in {plugin}; {CURE}")
+            origin[name] = plugin
             found[name] = place
     return found
 

@@ -23,6 +23,8 @@ __all__ = ["digest_of_packages", "package_of", "packages_in"]
 
 _IMPORT = re.compile(rb"^\s*(?:from|import) +([A-Za-z_]\w*)", re.MULTILINE)
 _OWN = __name__.partition(".")[0]
+LARGEST_FILE = 10_000_000
+"""[bytes] of a file that counts: a larger one is data that no kernel is made from."""
 _LIBRARIES = frozenset(
     {_OWN, "numba", "llvmlite", "numpy", "scipy", "rocket_fft", "mpmath", "matplotlib", "pandas", "click"}
 ) | frozenset(sys.stdlib_module_names)
@@ -54,8 +56,8 @@ def _packages_of_type(numba_type: Any) -> frozenset[str]:
 
 @cache
 def digest_of_packages(names: frozenset[str]) -> str:
-    """Checksum over all sources of packages and of what they import, as 64 hexadecimal digits. They
-    have been imported; libraries are left out.
+    """Checksum over all files of packages and of what they import by statements, as 64 hexadecimal
+    digits. They have been imported; libraries are left out.
     """
     digest = hashlib.sha256()
     found: set[str] = set()
@@ -68,18 +70,20 @@ def digest_of_packages(names: frozenset[str]) -> str:
         for place, text in _texts(name):
             digest.update(f"{name}/{place}\0".encode())
             digest.update(hashlib.sha256(text).digest())
-            imported = {package_of(each.decode()) for each in _IMPORT.findall(text)} - {""}
+            statements = _IMPORT.findall(text) if place.endswith(".py") or not place else []
+            imported = {package_of(each.decode()) for each in statements} - {""}
             ahead += sorted(each for each in imported if each in sys.modules)
     return digest.hexdigest()
 
 
 def _texts(name: str) -> Iterator[tuple[str, bytes]]:
-    """Sources of a package or of a single module: path below it, text."""
+    """Files of a package, its data included, or of a single module: path below it, content."""
     module = sys.modules.get(name)
     folders = [Path(folder) for folder in getattr(module, "__path__", ())]
     for folder in folders:
-        for path in sorted(folder.rglob("*.py")):
-            yield path.relative_to(folder).as_posix(), path.read_bytes()
+        for path in sorted(folder.rglob("*")):
+            if path.is_file() and "__pycache__" not in path.parts and path.stat().st_size <= LARGEST_FILE:
+                yield path.relative_to(folder).as_posix(), path.read_bytes()
     file = getattr(module, "__file__", None)
     if not folders and file:
         yield "", Path(file).read_bytes()

@@ -13,6 +13,8 @@ __all__ = ["CLOSED_FORM", "GOOD", "LIMIT", "NO_BAND", "OUTSIDE", "USUAL", "Band"
 
 GOOD, USUAL, OUTSIDE, NO_BAND = "good", "usual", "outside", "no band"
 LIMIT, USUAL_RANGE, CLOSED_FORM = "limit", "usual", "closed form"
+ROUNDING = 1e-9
+"""of an end of a band: forty cells of 3.75 mm are 150 mm"""
 
 
 class Band(NamedTuple):
@@ -28,8 +30,12 @@ class Band(NamedTuple):
     """in words; empty where it holds always"""
 
     def holds(self, value: float) -> bool:
-        """Whether a value lies in the band, its ends included."""
-        return self.low <= value <= self.high
+        """Whether a value lies in the band, its ends included, and what rounding adds to them."""
+        low, high = (
+            end if math.isinf(end) else end + sign * ROUNDING * abs(end)
+            for end, sign in ((self.low, -1.0), (self.high, 1.0))
+        )
+        return low <= value <= high
 
     @property
     def text(self) -> str:

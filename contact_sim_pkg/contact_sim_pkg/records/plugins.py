@@ -17,18 +17,20 @@ import os
 from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.metadata import Distribution, EntryPoint, distributions
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from contact_sim_pkg.files import RefusedError
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.rig import Rig, load
 
-__all__ = ["OFF", "VARIABLE", "Plugin", "PluginError", "plugins"]
+__all__ = ["CURE", "OFF", "VARIABLE", "Plugin", "PluginError", "plugins"]
 
 VARIABLE, OFF = "CONTACT_BENCH_PLUGINS", "off"
 GROUP = "contact_sim_pkg."
+CURE = f"rename one, or set {VARIABLE} to the plug-ins that are wanted, or to {OFF}"
 
 _log = logging.getLogger(__name__)
+Record = TypeVar("Record")
 
 
 class PluginError(RefusedError, ValueError):
@@ -67,6 +69,8 @@ def plugins() -> tuple[Plugin, ...]:
             made = _loaded(distribution, name, entries)
             if made is not None:
                 found[name] = made
+    for name in sorted((names or set()) - set(found)):
+        _log.warning("%s names %s: no package of that name, as pip lists it, brings anything", VARIABLE, name)
     return tuple(found[name] for name in sorted(found))
 
 
@@ -75,7 +79,7 @@ def _loaded(distribution: Distribution, name: str, entries: Iterable[EntryPoint]
     for entry in entries:
         try:
             _add(plugin, entry)
-        except Exception as error:  # noqa: BLE001 - whatever the import of a stranger's module raises
+        except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a stranger's module raises
             _log.warning(
                 "plug-in %s is left out: %s does not load (%s: %s)", plugin, entry.value, type(error).__name__, error
             )
@@ -88,12 +92,20 @@ def _add(plugin: Plugin, entry: EntryPoint) -> None:
     module, _, attribute = entry.value.partition(":")
     kind = entry.group.removeprefix(GROUP)
     if kind == "rigs":
-        plugin.rigs[module] = tuple(load(f"{module}:{attribute or 'RIGS'}"))
+        plugin.rigs[module] = _all_of(Rig, load(f"{module}:{attribute or 'RIGS'}"))
     elif kind == "effects":
         named: Mapping[str, Iterable[Effect]] = load(f"{module}:{attribute or 'EFFECTS'}")
         for contact, effects in named.items():
-            plugin.effects[contact] = (*plugin.effects.get(contact, ()), *effects)
+            plugin.effects[contact] = (*plugin.effects.get(contact, ()), *_all_of(Effect, effects))
     elif kind == "commands":
         plugin.commands[entry.name] = f"{module}:{attribute or 'command'}"
     elif kind == "studies":
         plugin.studies.append(f"{module}:{attribute or 'STUDIES'}")
+
+
+def _all_of(kind: type[Record], records: Iterable[Any]) -> tuple[Record, ...]:
+    found = tuple(records)
+    for each in found:
+        if not isinstance(each, kind):
+            raise TypeError(f"{each!r:.60} is no {kind.__name__}")
+    return found

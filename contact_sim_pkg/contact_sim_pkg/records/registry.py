@@ -5,6 +5,7 @@ Every part of the bench goes over this registry; none depends on which rig it is
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cache
@@ -13,7 +14,7 @@ from pathlib import Path
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
-from contact_sim_pkg.records.plugins import OFF, VARIABLE, Plugin, PluginError, plugins
+from contact_sim_pkg.records.plugins import CURE, Plugin, PluginError, plugins
 from contact_sim_pkg.records.report import ContactReport
 from contact_sim_pkg.records.rig import Rig, load
 from contact_sim_pkg.records.topic import COMMON, Topic, recorded_topic
@@ -23,8 +24,8 @@ __all__ = [
     "shipped_scenes",
 ]  # fmt: skip
 
+_log = logging.getLogger(__name__)
 _PACKAGES = "contact_sim_pkg.rigs:PACKAGES"
-CURE = f"rename one, or set {VARIABLE} to the plug-ins that are wanted, or to {OFF}"
 
 
 @cache
@@ -44,6 +45,10 @@ def rigs() -> dict[str, Rig]:
             extended.setdefault(contact, _extended(contact))
         found[rig.name] = replace(rig, contacts=tuple(extended[contact] for contact in rig.contacts))
         origin[rig.name] = bringer
+    there = {contact.name for rig in found.values() for contact in rig.contacts}
+    for plugin in plugins():
+        for name in sorted(set(plugin.effects) - there):
+            _log.warning("plug-in %s brings effects to %s, which no rig has; they are left out", plugin, name)
     return found
 
 

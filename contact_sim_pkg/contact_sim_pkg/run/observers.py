@@ -6,7 +6,7 @@ names its observer (`records.effect.Effect.observer`); that is how a plug-in add
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Protocol
 
@@ -14,6 +14,7 @@ from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.registry import contacts, rigs
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.run.block_simulation import BlockResult, BlockSimulation, InputBlock
+from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["Observer", "observed"]
@@ -26,13 +27,16 @@ class Observer(Protocol):
         """Compile or load its kernels, if it has any: a run compiles nothing."""
 
     def observe(self, outputs: Sequence[Output]) -> Iterable[Output]:
-        """Outputs of its own, from all outputs of a block; stamps [ns] as theirs."""
+        """Outputs of its own, on the topic that its effect announces, from all outputs of a block, which it
+        must not write to; stamps [ns] as theirs.
+        """
 
 
 class _Observed:
     """A simulation and those who look at it; all else is the simulation's."""
 
-    def __init__(self, simulation: BlockSimulation, observers: Sequence[Observer]) -> None:
+    def __init__(self, simulation: BlockSimulation, observers: Mapping[str, tuple[Observer, str]]) -> None:
+        """``observers``: of an effect by its dotted name, with the topic that it announces."""
         self._simulation, self._observers = simulation, observers
 
     def __getattr__(self, name: str) -> Any:
@@ -41,13 +45,27 @@ class _Observed:
     def prepare(self) -> None:
         """Of all."""
         self._simulation.prepare()
-        for observer in self._observers:
+        for observer, _topic in self._observers.values():
             observer.prepare()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
-        """The block of the simulation, with what was seen in it."""
+        """The block of the simulation, with what was seen in it.
+
+        Raises RunError, which names the effect, where one fails or publishes what it did not announce.
+        """
         result = self._simulation.advance(block, inputs)
-        seen = [output for observer in self._observers for output in observer.observe(result.outputs)]
+        seen: list[Output] = []
+        for effect, (observer, topic) in self._observers.items():
+            try:
+                found = list(observer.observe(result.outputs))
+            except Exception as error:
+                raise RunError(f"{effect} failed in block {block}: {type(error).__name__}: {error}") from error
+            for output in found:
+                if output.topic != topic:
+                    raise RunError(
+                        f"{effect} publishes {output.topic} in block {block}; it announces {topic or 'no topic'}"
+                    )
+            seen += found
         return replace(result, outputs=[*result.outputs, *seen])
 
 
@@ -55,12 +73,14 @@ def observed(scene: ResolvedScene, simulation: BlockSimulation) -> BlockSimulati
     """The simulation of a resolved scene with the observers that the scene calls for; the simulation
     itself where it calls for none.
     """
-    called = [
-        load(effect.observer)(scene)
+    called = {
+        f"effects.{contact.name}.{effect.name}": (
+            load(effect.observer)(scene), f"{contact.name}/{effect.publishes}" if effect.publishes else ""
+        )
         for contact in rigs()[scene.rig].contacts
         for effect in contacts()[contact.name].effects
         if effect.observer and (scene.data["effects"].get(contact.name) or {}).get(effect.name) is not None
-    ]
+    }  # fmt: skip
     found: Any = _Observed(simulation, called) if called else simulation
     simulated: BlockSimulation = found
     return simulated

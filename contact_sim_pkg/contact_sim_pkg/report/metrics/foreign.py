@@ -70,6 +70,8 @@ def foreign_metrics(bag: Bag, axis: str | None = None, topic: str | None = None)
         metrics, said = _accelerations(bag, row, wanted)
         found += metrics
         notes.append(said)
+    if len(rows) > 1:  # lists of equal names
+        found = [each._replace(name=f"/{each.topic}: {each.name}") for each in found]
     return found, notes
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from contact_sim_pkg.bag.errors import BagError
@@ -14,6 +14,9 @@ __all__ = ["repeated"]
 LARGEST_DEVIATION = 0.05
 """of a run's SEAT from the mean of the runs (ISO 10326-1)"""
 UNESSENTIAL = ("name", "description", "pace", "limits")
+REPEATED = ("seed", "vibration.start", "road.start")
+"""Keys in which repeated runs of one scene differ."""
+MOST_NAMED = 3
 
 
 def repeated(
@@ -24,29 +27,62 @@ def repeated(
     names, scenes, lists: of the runs, at least two; a bag of anybody has an empty scene.
 
     Raises:
-        BagError: two runs are the same simulation, or no metric is in all of them.
+        BagError: two runs are the same simulation or of different scenes, or no metric is in all of them.
     """
     refuse_equal(names, scenes)
     by_key = [{each.key: each for each in metrics} for metrics in lists]
     common = [key for key in by_key[0] if all(key in each for each in by_key)]
     if not common:
         raise BagError(f"{', '.join(names)} have no metric in common: repeated runs are of one scene")
+    _refuse_equal_numbers(names, by_key, common)
     return [_mean([each[key] for each in by_key], names) for key in common]
 
 
 def refuse_equal(names: Sequence[str], scenes: Sequence[Mapping[str, Any]]) -> None:
-    """BagError where two runs have equal scenes, seed included: they hold the same bits and show no spread."""
+    """BagError where two runs have equal scenes, seed included: they hold the same bits and show no spread; and where
+    runs are of different scenes.
+    """
     seen: dict[str, str] = {}
+    first: dict[str, str] | None = None
     for name, scene in zip(names, scenes, strict=True):
         if not scene:
             continue
-        text = repr(sorted((key, repr(value)) for key, value in scene.items() if key not in UNESSENTIAL))
-        other = seen.setdefault(text, name)
+        keys = {key: value for key, value in _leaves(scene) if key.partition(".")[0] not in UNESSENTIAL}
+        other = seen.setdefault(repr(sorted(keys.items())), name)
         if other != name or names.count(name) > 1:
+            raise _same_run(other, name)
+        common = {key: value for key, value in keys.items() if key not in REPEATED}
+        first = common if first is None else first
+        differing = sorted(key for key in {*first, *common} if first.get(key) != common.get(key))
+        if differing:
             raise BagError(
-                f"{other} and {name} are the same run (seed {scene.get('seed')}): their spread is 0 and says nothing; "
-                "repeat a run with another seed, or another part of a recording (vibration.start)"
+                f"{names[0]} and {name} are runs of different scenes ({', '.join(differing[:MOST_NAMED])}): a mean over them "
+                "says nothing; `bench compare` puts them side by side"
             )
+
+
+def _refuse_equal_numbers(names: Sequence[str], runs: Sequence[Mapping[str, Metric]], common: Sequence[str]) -> None:
+    """BagError where two runs have the same numbers: their seed acts on nothing."""
+    seen: dict[tuple[str, ...], str] = {}
+    for name, metrics in zip(names, runs, strict=True):
+        numbers = tuple(f"{metrics[key].value:.9e}" for key in common)
+        if seen.setdefault(numbers, name) != name:
+            raise _same_run(seen[numbers], name)
+
+
+def _same_run(one: str, other: str) -> BagError:
+    return BagError(
+        f"{one} and {other} are the same run: their spread is 0 and says nothing; repeat a run with another seed where "
+        "its road or vibration is random, else with another part of a recording (vibration.start)"
+    )
+
+
+def _leaves(data: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str]]:
+    for key, value in data.items():
+        if isinstance(value, Mapping):
+            yield from _leaves(value, f"{above}{key}.")
+        else:
+            yield f"{above}{key}", repr(value)
 
 
 def _mean(runs: Sequence[Metric], names: Sequence[str]) -> Metric:
