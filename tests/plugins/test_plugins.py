@@ -115,6 +115,22 @@ def test_a_bag_of_it_is_refused_by_name_where_it_is_missing(example):
     assert "there is no such scene" in example("run", "bouncer_drop", "--offline", plugins=OFF, status=2)
 
 
+def test_a_bag_of_another_version_of_it_is_read(example):
+    """What it then computes may differ; the scene is resolved with the version that is there."""
+    shutil.copytree(example.work / "bag", example.work / "older")
+    program = (
+        "from contact_sim_pkg.bag.reader import open_bag; from contact_sim_pkg.scene.resolve import read_resolved;"
+        "text = open_bag('older').metadata['scene'].replace('bouncer_rig 0.1.0', 'bouncer_rig 0.0.9');"
+        "assert '0.0.9' in text; print(read_resolved(text).data['plugins'])"
+    )
+    kept = {name: value for name, value in ENVIRONMENT.items() if name != VARIABLE}
+    environment = {**kept, "PYTHONPATH": f"{example.beside}:{ENVIRONMENT['PYTHONPATH']}"}
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=example.work, env=environment, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "bouncer_rig 0.1.0\n"
+
+
 def test_its_errors_are_our_sentences(example):
     text = example("run", "bouncer_drop", "--offline", "--set", "foot.mass=-1", status=2)
     assert "foot.mass" in text

@@ -214,6 +214,15 @@ def drop_inputs(data: dict[str, Any], effect: Effect) -> None:
         found.pop(key, None)
 
 
+def leaves_of(data: Mapping[str, Any], above: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """Path and value of each key of a scene's plain data that is no section, or an empty one."""
+    for key, value in data.items():
+        if isinstance(value, dict) and value:
+            yield from leaves_of(value, (*above, str(key)))
+        else:
+            yield (*above, str(key)), value
+
+
 def sha256_of(path: Path) -> str:
     """Checksum of the content, as 64 hexadecimal digits."""
     digest = hashlib.sha256()

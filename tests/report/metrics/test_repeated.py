@@ -32,6 +32,14 @@ def test_runs_of_two_seats_are_not_pooled():
         repeated(["a", "b"], [SCENE, thin], [[metric(1.0)], [metric(1.2)]])
 
 
+def test_an_effect_without_keys_makes_another_scene():
+    one, two = (
+        {**SCENE, "effects": {"seat": each}} for each in ({"softening": {}, "foam": {"k": 1}}, {"foam": {"k": 1}})
+    )
+    with pytest.raises(BagError, match=r"different scenes \(effects.seat.softening\)"):
+        repeated(["a", "b"], [one, two], [[metric(1.0)], [metric(1.2)]])
+
+
 def test_a_band_holds_its_ends_beside_rounding():
     band = Band(110.0, 150.0, "usual", "car tires")
     assert band.holds(40 * 3.75000000000000075)

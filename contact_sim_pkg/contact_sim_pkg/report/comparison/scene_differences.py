@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.report.rows import scene_value
+from contact_sim_pkg.scene.resolved_scene import leaves_of
 
 UNIMPORTANT = ("description",)
 LAST = ("duration", "block_length", "seed", "pace", "accuracy", "integrator", "outputs", "limits", "name")
@@ -26,17 +27,11 @@ def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
     """Values that are not the same in all scenes, in the order of the first scene that has them;
     how it is run comes last.
     """
-    flat = [dict(_leaves(scene)) for scene in scenes]
-    keys = dict.fromkeys(key for each in flat for key in each if key)  # a bag without a scene has the empty key
+    flat = [{key: "on" if value == {} else value for key, value in leaves_of(scene)} for scene in scenes]
+    keys = dict.fromkeys(key for each in flat for key in each)
     found = []
     for key in sorted(keys, key=lambda key: LAST.index(key[0]) + 1 if key[0] in LAST else 0):
         values = tuple(scene_value(each[key], key) if each.get(key) is not None else ABSENT for each in flat)
         if len(set(values)) > 1 and key[0] not in UNIMPORTANT:
             found.append(Difference(".".join(key), values))
     return found
-
-
-def _leaves(value: Any, location: tuple[str, ...] = ()) -> list[tuple[tuple[str, ...], Any]]:
-    if isinstance(value, dict) and value:
-        return [leaf for key, item in value.items() for leaf in _leaves(item, (*location, str(key)))]
-    return [(location, "on" if value == {} else value)] if location else []

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.records.metric import Metric, judged
+from contact_sim_pkg.scene.resolved_scene import leaves_of
 
 __all__ = ["repeated"]
 
@@ -47,7 +48,7 @@ def refuse_equal(names: Sequence[str], scenes: Sequence[Mapping[str, Any]]) -> N
     for name, scene in zip(names, scenes, strict=True):
         if not scene:
             continue
-        keys = {key: value for key, value in _leaves(scene) if key.partition(".")[0] not in UNESSENTIAL}
+        keys = {".".join(key): repr(value) for key, value in leaves_of(scene) if key[0] not in UNESSENTIAL}
         other = seen.setdefault(repr(sorted(keys.items())), name)
         if other != name or names.count(name) > 1:
             raise _same_run(other, name)
@@ -75,14 +76,6 @@ def _same_run(one: str, other: str) -> BagError:
         f"{one} and {other} are the same run: their spread is 0 and says nothing; repeat a run with another seed where "
         "its road or vibration is random, else with another part of a recording (vibration.start)"
     )
-
-
-def _leaves(data: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str]]:
-    for key, value in data.items():
-        if isinstance(value, Mapping):
-            yield from _leaves(value, f"{above}{key}.")
-        else:
-            yield f"{above}{key}", repr(value)
 
 
 def _mean(runs: Sequence[Metric], names: Sequence[str]) -> Metric:
