@@ -33,6 +33,12 @@ class EffectRow(NamedTuple):
     changes: tuple[Change, ...]  # largest first; empty where nothing was measured, or is judged
     other: float | None  # [ms] of CPU per simulated second of the scene without it, or with it
     why: str  # what calls for it, what is different beside it, or why nothing was measured
+    added: tuple[str, ...] = ()  # effects that come with one that is off: its changes are theirs too
+
+    @property
+    def name(self) -> str:
+        """Name of the effect and of those that come with it."""
+        return f"{self.effect.name} with {' and '.join(self.added)}" if self.added else self.effect.name
 
     @property
     def largest(self) -> Change | None:
@@ -123,9 +129,9 @@ def _row_off(base: Base, contact: Contact, effect: Effect, notify: Notify) -> Ef
         return EffectRow(contact, effect, False, verdicts.UNAVAILABLE, (), None, f"with it {_reason(error)}")
     called_for = "" if other.replaced or other.removed else effect.called_for(base.scene)
     verdict = verdicts.verdict_off(changes, base.request, called_for)
-    if observes(contact, effect) and not any(each.size > 0.0 for each in changes):
-        verdict = "would observe"
-    return EffectRow(contact, effect, False, verdict, changes, cost, called_for or _different(other))
+    if observes(contact, effect) and (other.beside or not any(each.size > 0.0 for each in changes)):
+        verdict = verdicts.WOULD_OBSERVE
+    return EffectRow(contact, effect, False, verdict, changes, cost, called_for or _different(other), other.beside)
 
 
 def _different(other: Alternative) -> str:
