@@ -78,8 +78,9 @@ def study(scene_name: str, notify: Notify, values: Sequence[str] = ()) -> Study:
     return study_of(load_resolved(scene_name, *values), notify)
 
 
-def study_of(scene: ResolvedScene, notify: Notify, only: str = "") -> Study:
-    """Study of a resolved scene, or of ``only`` one effect of it, ``CONTACT.EFFECT``.
+def study_of(scene: ResolvedScene, notify: Notify, only: str = "", *, off: bool = True) -> Study:
+    """Study of a resolved scene, or of ``only`` one effect of it, ``CONTACT.EFFECT``; of those that
+    are ``off`` where these are of interest.
 
     Raises RunError where its run ends.
     """
@@ -91,9 +92,9 @@ def study_of(scene: ResolvedScene, notify: Notify, only: str = "") -> Study:
         notify(f"  {each.span.shown * length:g} to {each.span.end * length:g} s: {each.reason}")
     rows = []
     for contact, effect in effects_of(scene):
-        if only not in ("", f"{contact.name}.{effect.name}"):
-            continue
         on = is_on(scene, contact, effect)
+        if only not in ("", f"{contact.name}.{effect.name}") or not (on or off):
+            continue
         notify(f"{contact.name}: {'without' if on else 'with'} {effect.name}")
         rows.append(_row_on(base, contact, effect, notify) if on else _row_off(base, contact, effect, notify))
     return Study(base, tuple(rows))

@@ -27,7 +27,7 @@ def answer(study: Study) -> str:
     )
     found = [f"{title}: {', '.join(each(study, row) for row in rows)}" for title, rows, each in groups if rows]
     on = sum(bool(rows) for _title, rows, _each in groups[:2])
-    if not groups[2][1]:
+    if not groups[2][1] and not all(row.on for row in study.rows):
         found.insert(on, "none that is off is needed")
     if not on and not groups[4][1]:
         found.insert(0, "every effect that acts is needed")
