@@ -63,3 +63,9 @@ def test_rounding_is_no_change():
     found = verdicts.changes_of(judged, {}, {})
     assert verdicts.verdict_off(found, REQUEST, "slip") == "would change nothing"
     assert verdicts.shown(found[0]) == "nothing"
+
+
+def test_a_change_is_shown_in_per_cent():
+    assert verdicts.shown(change(2.3449)) == "force 234 %"
+    assert verdicts.shown(change(0.997)) == "force 100 %"
+    assert verdicts.shown(change(0.0123, kind="peak")) == "peak pressure 1.2 %"

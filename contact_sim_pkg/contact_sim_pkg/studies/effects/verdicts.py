@@ -113,4 +113,5 @@ def shown(change: Change) -> str:
     if not change.size > 0.0:
         return "nothing"
     words = {"peak": "peak pressure", "area": "contact area"}
-    return f"{words.get(change.kind, change.kind)} {100.0 * change.size:.2g} %"
+    percent = 100.0 * change.size
+    return f"{words.get(change.kind, change.kind)} {percent:{'.0f' if percent >= 10.0 else '.2g'}} %"
