@@ -28,7 +28,7 @@ def _friction(scene: ResolvedScene) -> str:
 
 def _fore_aft(scene: ResolvedScene) -> float:
     """Fore-aft acceleration [m/s^2] of the floor: amplitude, rms of noise, peak of a recording. None
-    in a recording that cannot be read: the run refuses it.
+    in a recording that cannot be read: the run refuses it, or has its blocks from a bag.
     """
     vibration = scene.vibration
     if vibration is None:
@@ -36,10 +36,11 @@ def _fore_aft(scene: ResolvedScene) -> float:
     if vibration.kind == "recorded":
         from contact_sim_pkg.excitation.errors import ExcitationError
         from contact_sim_pkg.run.sources import make_vibration
+        from contact_sim_pkg.scene.errors import SceneError
 
         try:
             axes = make_vibration(scene).describe()["axes"]
-        except ExcitationError:
+        except (ExcitationError, SceneError):
             return 0.0
         return float(axes["x"]["peak_m_per_s2"]) if "x" in axes else 0.0
     if vibration.axis != "x":
