@@ -45,16 +45,21 @@ class Converter:
 
     def __init__(self, present: Collection[str], scene: Mapping[str, Any] | None = None) -> None:
         """Take the topics of the bench that the run has, and its resolved scene as plain data, which may follow."""
+        self._latest: dict[str, Any] = {}  # by source, what the next markers are made from
+        self.offer(present)
+        self.take_scene(scene or {})
+
+    def offer(self, present: Collection[str]) -> None:
+        """The topics of the bench that the run has, from now on."""
         self.topics = standard_topics(present)
         self._wrenches = {topic: contact for contact, topic in wrench_topics(present).items()}
         self._contacts = tuple(dict.fromkeys(name.partition("/")[0] for name in present if _is_of_contact(name)))
-        self._latest: dict[str, Any] = {}  # by source, what the next markers are made from
-        self.take_scene(scene or {})
+        self._markers: Markers | None = None
 
     def take_scene(self, scene: Mapping[str, Any]) -> None:
         """The places of a scene, from now on."""
         self._places: Places = places_of(scene)
-        self._markers: Markers | None = None
+        self._markers = None
 
     def convert(
         self, source: str, stamp: int, record: Any, wanted: Collection[str], samples: Collection[int] = (0,)
