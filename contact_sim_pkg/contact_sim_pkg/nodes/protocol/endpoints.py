@@ -190,3 +190,14 @@ def describe_endpoint(info: TopicEndpointInfo) -> str:
     if UNKNOWN in info.node_name:
         return "a node whose name is not known"
     return f"{info.node_namespace.rstrip('/')}/{info.node_name}"
+
+
+def why_not_served(offered: QoSProfile, wanted: QoSProfile) -> str:
+    """Why a subscription cannot be served; empty where it can. (The deadlines in the graph are
+    not those requested.)
+    """
+    if wanted.reliability == ReliabilityPolicy.RELIABLE and offered.reliability == ReliabilityPolicy.BEST_EFFORT:
+        return "it asks for reliable delivery, the topic was recorded as best effort"
+    if wanted.durability == DurabilityPolicy.TRANSIENT_LOCAL and offered.durability == DurabilityPolicy.VOLATILE:
+        return "it asks for a transient-local topic, the topic was recorded as volatile"
+    return ""
