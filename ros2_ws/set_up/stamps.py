@@ -24,7 +24,7 @@ def environment_key(underlay: Underlay) -> str:
 
 def workspace_key(environment: str) -> str:
     """Hash of all that the build depends on. Python sources are linked, not copied: they are not in it."""
-    roots = [*(PROJECT / package for package in PACKAGES), *sorted(ABSENT.iterdir())]
+    roots = [*(PROJECT / package for package in PACKAGES), *sorted(ABSENT.glob("*"))]
     files = [root / name for root in roots for name in _PACKAGING if (root / name).exists()]
     files += [path for root in roots for path in sorted(root.glob("msg/*.msg"))]
     # Of what is linked one by one, the names matter and not the content.

@@ -50,7 +50,7 @@ def absent_packages(environ: Mapping[str, str]) -> list[Path]:
     sourced = environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     prefixes = [ENVIRONMENT, *(Path(entry) for entry in sourced if entry)]
     return [
-        package for package in sorted(ABSENT.iterdir())
+        package for package in sorted(ABSENT.glob("*"))
         if not any((prefix / "share" / package.name).is_dir() for prefix in prefixes)
     ]  # fmt: skip
 

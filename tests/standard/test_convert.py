@@ -35,7 +35,9 @@ def test_a_run_has_the_topics_that_its_own_can_be_shown_as():
 def test_only_what_is_wanted_is_made():
     converter = Converter(CAR, SCENE)
     assert made(converter, "tire/patch", hertz_patch()) == []
-    assert [each.topic for each in made(converter, "tire/patch", hertz_patch(), "view/tire/area", "/tf")] == ["view/tire/area"]
+    assert [each.topic for each in made(converter, "tire/patch", hertz_patch(), "view/tire/area", "/tf")] == [
+        "view/tire/area"
+    ]
 
 
 def test_scalars_are_the_fields_of_their_message_at_the_shown_samples():
@@ -72,7 +74,9 @@ def markers(converter):
 
 def test_an_arrow_begins_at_the_centre_of_pressure_of_its_wrench():
     converter = Converter(CAR, SCENE)
-    made(converter, "tire/wrench", wrench_of((100.0, 0.0, 4000.0), (0.01 * 4000.0, -0.02 * 4000.0, 0.0)), "view/markers")
+    made(
+        converter, "tire/wrench", wrench_of((100.0, 0.0, 4000.0), (0.01 * 4000.0, -0.02 * 4000.0, 0.0)), "view/markers"
+    )
     _, arrows = markers(converter)
     tail, tip = arrows["tire_contact"].points
     assert (tail.x, tail.y, tail.z) == pytest.approx((0.02, 0.01, 0.0))
@@ -85,7 +89,9 @@ def test_an_arrow_begins_at_the_centre_of_pressure_of_its_wrench():
 def test_the_line_of_the_road_holds_its_highest_bump():
     height = numpy.zeros((400, 5), numpy.float32)
     height[137, 2], height[20, 0] = 0.05, 0.9  # in the middle of the track, and beside it
-    road = RoadPatch(block=4, travel_start=0.0, travel_end=0.1, first_row=-100, cell_x=0.005, cell_y=0.01, height=height)
+    road = RoadPatch(
+        block=4, travel_start=0.0, travel_end=0.1, first_row=-100, cell_x=0.005, cell_y=0.01, height=height
+    )
     converter = Converter(CAR, SCENE)
     made(converter, "road/patch", road, "view/markers")
     line = markers(converter)[0]["road"]
@@ -101,7 +107,9 @@ def test_the_markers_show_the_tire_in_its_size_and_stay_the_same_objects():
     shown = markers(converter)[0]
     size = shown["tire"].scale  # 205/55 R16: 16 inches and twice 55 % of 205 mm
     assert (size.x, size.y, size.z) == pytest.approx((0.6319, 0.6319, 0.205))
-    assert all(one is other for one, other in zip(first, [m for g in markers(converter) for m in g.values()], strict=True))
+    assert all(
+        one is other for one, other in zip(first, [m for g in markers(converter) for m in g.values()], strict=True)
+    )
     assert set(shown) == {"tire", "seat", "occupant"}
     identifiers = [(marker.ns, marker.id) for marker in first]
     assert len(set(identifiers)) == len(identifiers)
@@ -109,7 +117,12 @@ def test_the_markers_show_the_tire_in_its_size_and_stay_the_same_objects():
 
 def test_every_message_can_be_read_as_its_topic_states():
     converter = Converter(CAR, SCENE)
-    records = {"tire/patch": hertz_patch(), "seat/patch": hertz_patch(), "tire/axle": axle_of(), "bench/motion": motion_of(BODIES)}
+    records = {
+        "tire/patch": hertz_patch(),
+        "seat/patch": hertz_patch(),
+        "tire/axle": axle_of(),
+        "bench/motion": motion_of(BODIES),
+    }
     seen = set()
     for source, record in records.items():
         for each in made(converter, source, record, *converter.topics):

@@ -43,7 +43,7 @@ def stamp_of(message):
 
 @pytest.mark.parametrize("contact", ["tire", "seat"])
 def test_the_sum_of_each_image_times_the_area_of_a_cell_is_the_recorded_load(recorded, shown, contact):
-    patches = {time: patch for time, patch in recorded.decoded(f"{contact}/patch")}
+    patches = dict(recorded.decoded(f"{contact}/patch"))
     images = shown[f"/view/{contact}/pressure"]
     assert len(images) == 6  # 0.3 s at 20 Hz
     for time, image in images:

@@ -71,7 +71,9 @@ def of_foxglove(layout):
             topic, *fields = path["value"].split(".")
             plots.append((topic, fields))
         topics += [*panel.get("topics", {}), *([panel["imageMode"]["imageTopic"]] if panel.get("imageMode") else [])]
-        colours += [(name, each["colorField"]) for name, each in panel.get("topics", {}).items() if "colorField" in each]
+        colours += [
+            (name, each["colorField"]) for name, each in panel.get("topics", {}).items() if "colorField" in each
+        ]
         frames += [panel["followTf"]] if "followTf" in panel else []
         frames += [layer["frameId"] for layer in panel.get("layers", {}).values()]
     return plots, topics, colours, frames
@@ -93,7 +95,9 @@ def test_the_plotjuggler_layout_names_what_is_there(exported):
     root = ElementTree.parse(CONFIG / "bench_plotjuggler.xml").getroot()
     curves = [curve.get("name") for curve in root.iter("curve")]
     assert len(curves) > 10
-    joints = {f"/view/joints/{name}/position" for name in exported.first["/view/joints"].name}  # its own words for joints
+    joints = {
+        f"/view/joints/{name}/position" for name in exported.first["/view/joints"].name
+    }  # its own words for joints
     for curve in curves:
         topic = max((name for name in exported.types if curve.startswith(f"{name}/")), key=len, default="")
         assert curve in joints or exported.holds(topic, curve.removeprefix(topic).strip("/").split("/")), curve
@@ -131,8 +135,10 @@ def test_the_frames_of_all_messages_are_in_the_tree(exported):
 
 def test_the_documented_commands_name_the_shipped_files():
     text = (PACKAGE.parent / "docs" / "view.md").read_text()
-    for name in ("bench.rviz", "bench_foxglove.json", "bench_plotjuggler.xml"):
-        assert len([line for line in text.splitlines() if name in line and not line.startswith("|")]) >= 1, name
+    commands = "".join(re.findall(r"```bash\n(.*?)```", text, re.DOTALL)).splitlines()
+    for tool, name in (("rviz2", "rviz"), ("docker run", "foxglove.json"), ("plotjuggler", "plotjuggler.xml")):
+        (file,) = CONFIG.glob(f"bench*{name}")
+        assert len([line for line in commands if line.startswith(tool) and f"$CONFIG/{file.name}" in line]) == 1
 
 
 def test_stamps_of_a_topic_rise(exported_car):

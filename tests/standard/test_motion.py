@@ -12,6 +12,7 @@ from contact_sim_pkg.standard.places import BACKREST_TURN, Places
 G = 9.81  # [m/s^2]
 CAR = ("wheel_z", "body_z", "seat_frame_z", "occupant1_z", "occupant_x")
 STAMP = 3_000_000_000
+STILL = Places()
 
 
 def place_of(transform):
@@ -24,7 +25,7 @@ def turn_of(transform):
     return Rotation.from_quat([turn.x, turn.y, turn.z, turn.w])
 
 
-def tree_of(motion, places=Places(), contacts=(), sample=0):
+def tree_of(motion, places=STILL, contacts=(), sample=0):
     tree = frames_of(motion, sample, STAMP, places, contacts).transforms
     assert {each.header.stamp.sec for each in tree} == {3}
     return {each.child_frame_id: each for each in tree}
@@ -59,7 +60,16 @@ def test_there_is_no_accelerometer_on_a_body_that_the_run_has_not():
 
 
 def test_coordinates_are_the_components_of_their_body():
-    names = ("block_x", "block_z", "block_pitch", "roller_tilt", "roller_yaw", "box_rotation_x", "box_rotation_z", "mode")
+    names = (
+        "block_x",
+        "block_z",
+        "block_pitch",
+        "roller_tilt",
+        "roller_yaw",
+        "box_rotation_x",
+        "box_rotation_z",
+        "mode",
+    )
     found = bodies_of(names, numpy.arange(1.0, 9.0))
     assert {name: (body.along.tolist(), body.about.tolist()) for name, body in found.items()} == {
         "block": ([1.0, 0.0, 2.0], [0.0, 3.0, 0.0]),

@@ -45,7 +45,13 @@ def test_an_image_is_seen_from_above_with_the_front_on_top_and_the_left_on_the_l
 
 def test_an_image_states_its_layout_stamp_and_frame():
     image = read(image_of(hertz_patch(), STAMP, "tire_contact"))
-    assert (image.height, image.width, image.encoding, image.is_bigendian, image.step) == (ROWS, COLS, "32FC1", 0, 4 * COLS)
+    assert (image.height, image.width, image.encoding, image.is_bigendian, image.step) == (
+        ROWS,
+        COLS,
+        "32FC1",
+        0,
+        4 * COLS,
+    )
     assert (image.header.stamp.sec, image.header.stamp.nanosec) == (12, 345_678_901)
     assert image.header.frame_id == "tire_contact"
     assert len(image.data) == image.step * image.height

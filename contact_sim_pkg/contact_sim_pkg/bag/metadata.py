@@ -83,7 +83,9 @@ def wall_time_of(texts: Mapping[str, str]) -> int:
     """
     text = texts.get(WALL_TIME, "0")
     if not text.isascii() or not text.isdigit() or not int(text) < 2**63:
-        raise BagError(f"the texts of the bag give {WALL_TIME} as {text!r:.40}; it is a number of nanoseconds since 1970")
+        raise BagError(
+            f"the texts of the bag give {WALL_TIME} as {text!r:.40}; it is a number of nanoseconds since 1970"
+        )
     return int(text)
 
 

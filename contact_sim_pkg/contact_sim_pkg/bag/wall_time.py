@@ -44,7 +44,9 @@ def began_at(bag: Bag, given: str = "") -> int:
         moment = moment if moment.tzinfo else moment.replace(tzinfo=timezone.utc)
         began = int(moment.replace(microsecond=0).timestamp()) * SECOND + moment.microsecond * 1000
     except (ValueError, OverflowError) as error:
-        raise BagError(f"--begin {given!r:.60} is no date and time ({error}); give one such as 2026-05-04T10:30:00Z") from None
+        raise BagError(
+            f"--begin {given!r:.60} is no date and time ({error}); give one such as 2026-05-04T10:30:00Z"
+        ) from None
     if began < 0:
         raise BagError(f"--begin {given} lies before 1970; give a later date")
     return began

@@ -92,7 +92,9 @@ class BenchViewNode(LifecycleBenchNode):
             self.get_logger().warning(f"{topic.name} is left out: {error}")
             self._without.add(topic.name)
             return
-        self._offered[topic.name] = self.create_publisher(kind, topic.name, profile_of(topic.row), event_callbacks=events)
+        self._offered[topic.name] = self.create_publisher(
+            kind, topic.name, profile_of(topic.row), event_callbacks=events
+        )
 
     def _on_matched(self, name: str, status: object) -> None:
         """A reader has come or gone."""

@@ -43,7 +43,9 @@ def export_standard(
     names = {name: bag.topic(name).name for name in TOPICS if name in bag and bag.count(name)}
     converter = Converter(names, scene_of_text(bag.scene, f"the scene of {bag.path}"))
     if not converter.topics:
-        raise BagError(f"{bag.path} has no topic that a standard message shows; it has {', '.join(bag.topics) or 'none'}")
+        raise BagError(
+            f"{bag.path} has no topic that a standard message shows; it has {', '.join(bag.topics) or 'none'}"
+        )
     copied = [names[name] for name in wrench_topics(names).values()]
     refuse_wrong_name(directory)
     topics = [*(_recorded(topic) for topic in converter.topics.values()), *(bag.topics[name] for name in copied)]
@@ -115,5 +117,10 @@ def _record(bag: Bag, source: str, message: BagMessage) -> Any:
 
 def _recorded(topic: StandardTopic) -> RecordedTopic:
     return RecordedTopic(
-        topic.name, full_name(topic.name), topic.type, definition(topic.type), type_hash(topic.type), offered_qos(topic.row)
+        topic.name,
+        full_name(topic.name),
+        topic.type,
+        definition(topic.type),
+        type_hash(topic.type),
+        offered_qos(topic.row),
     )

@@ -6,6 +6,7 @@ The messages are made once and changed: new ones would cost four times as much.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import pairwise
 
 import numpy
 from rosbags.typesys.stores.ros2_jazzy import builtin_interfaces__msg__Duration as Duration
@@ -38,14 +39,15 @@ class Markers:
         """Make the markers of the bodies and contacts that the run has."""
         self._made: list[Marker] = []
         self._arrows = {
-            contact: self._add("force", f"{contact}_contact", Marker.ARROW, (0.02, 0.05, 0.06), RED) for contact in contacts
+            contact: self._add("force", f"{contact}_contact", Marker.ARROW, (0.02, 0.05, 0.06), RED)
+            for contact in contacts
         }
         for arrow in self._arrows.values():
             arrow.points = [Point(x=0.0, y=0.0, z=0.0), Point(x=0.0, y=0.0, z=0.0)]
         for body in bodies:
             self._add_body(body, places)
         self._road: Marker | None = None
-        self._message = MarkerArray(markers=self._made)
+        self._message = MarkerArray(markers=self._made)  # type: ignore[arg-type]  # rosbags names the Marker of Dashing
 
     def take_force(self, contact: str, wrench: WrenchStamped) -> None:
         """The arrow of a contact: its force on the upper body, from the centre of pressure of the wrench.
@@ -67,7 +69,7 @@ class Markers:
         edges = numpy.linspace(0, len(heights), min(ROAD_POINTS, len(heights)) + 1).astype(int)
         self._road.points = [
             Point(x=float((patch.first_row + place) * patch.cell_x), y=0.0, z=float(heights[place]))
-            for first, last in zip(edges[:-1], edges[1:], strict=True)
+            for first, last in pairwise(edges)
             for place in [first + int(heights[first:last].argmax())]
         ]
 

@@ -19,7 +19,18 @@ from rosbags.typesys.stores.ros2_jazzy import std_msgs__msg__Header as Header
 
 from contact_sim_pkg.bag.encoding import SECOND
 
-__all__ = ["Header", "Quaternion", "Time", "Vector3", "definition", "encoded", "header", "rotation", "type_hash", "vector"]
+__all__ = [
+    "Header",
+    "Quaternion",
+    "Time",
+    "Vector3",
+    "definition",
+    "encoded",
+    "header",
+    "rotation",
+    "type_hash",
+    "vector",
+]
 
 BASE = "base_link"
 """Frame that moves with the rig along the road, at road height 0 (REP 105)."""

@@ -21,9 +21,13 @@ HIGHEST_RATE = 1e5
 @click.argument("bag", type=click.Path(path_type=Path))
 @click.option("--csv", "form", flag_value="csv", help="Comma-separated text, any spreadsheet.")
 @click.option("--parquet", "form", flag_value="parquet", help="Apache Parquet; needs pyarrow.")
-@click.option("--ros-std", "form", flag_value=STANDARD, help="A bag of standard messages: Image, PointCloud2, Imu, TF ...")
+@click.option(
+    "--ros-std", "form", flag_value=STANDARD, help="A bag of standard messages: Image, PointCloud2, Imu, TF ..."
+)
 @click.option("--wall-time", is_flag=True, help="A bag whose log times are wall time; alone, or with --ros-std.")
-@click.option("--begin", default="", metavar="TIME", help="Wall time of simulated time 0; by default from the bag's file.")
+@click.option(
+    "--begin", default="", metavar="TIME", help="Wall time of simulated time 0; by default from the bag's file."
+)
 @click.option("--rate", type=click.FloatRange(0.001, HIGHEST_RATE), metavar="HZ",
               help="Of --ros-std: messages of a topic a second at most, 20.")  # fmt: skip
 @click.option("--topic", "topics", multiple=True, metavar="NAME", help="Only this one; may be given several times.")
@@ -74,7 +78,9 @@ def _refuse_options_that_do_not_fit(
     }
     for option in (option for option, is_wrong in wrong.items() if is_wrong):
         needs = {"--begin": "--wall-time", "--rate": "--ros-std"}.get(option, "")
-        raise click.UsageError(f"{option} needs {needs}." if needs else f"{option} and {_named(form)} exclude each other.")
+        raise click.UsageError(
+            f"{option} needs {needs}." if needs else f"{option} and {_named(form)} exclude each other."
+        )
 
 
 def _new_bag(
