@@ -6,12 +6,17 @@ from mcap.reader import make_reader
 from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 from ruamel.yaml import YAML
+from tests.standard.records import axle_of
 
-from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.errors import BagError, MessageError
+from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.wall_time import began_at, export_wall_time, wall_time_texts
+from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.standard.convert import sample_stamps
 from contact_sim_pkg.standard.export import export_standard
+from contact_sim_pkg.standard.places import places_of
 
 JAZZY = get_typestore(Stores.ROS2_JAZZY)
 BEGAN = 1_777_890_600_250_000_000  # 2026-05-04T10:30:00.250Z
@@ -103,6 +108,36 @@ def test_a_bag_with_nothing_to_show_is_refused(bare, tmp_path):
     empty.topics = {}
     with pytest.raises(BagError, match="no topic that a standard message shows"):
         export_standard(empty, tmp_path / "std")
+
+
+def test_the_namespace_of_a_bag_is_kept_but_not_on_tf(recorded, tmp_path):
+    names = ["tire/patch", "tire/wrench", "bench/motion"]
+    with BagWriter(tmp_path / "rig1", recorded_topics(names, lambda name: f"/rig1/{name}"), reserve_bytes=0) as writer:
+        for name in names:
+            for message in recorded.messages(name):
+                writer.write(name, message.log_time, message.data)
+    export_standard(open_bag(tmp_path / "rig1"), tmp_path / "std")
+    assert {"/rig1/view/tire/pressure", "/rig1/tire/wrench", "/tf"} <= set(read(tmp_path / "std"))
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {"effects": 5},
+        {"effects": {"tire": {"inflation": {"size": 3}}}},
+        {"travel": {"points": "no"}},
+        {"travel": {"speed": "x"}},
+    ],
+)
+def test_a_scene_that_is_none_is_one_sentence(scene):
+    with pytest.raises(BagError, match="does not say where its bodies are"):
+        places_of(scene)
+
+
+@pytest.mark.parametrize("period", [0.0, -1.0, float("nan"), 1e9])
+def test_samples_at_no_distance_are_one_sentence(period):
+    with pytest.raises(MessageError, match=r"samples .* s apart"):
+        sample_stamps(axle_of()._replace(sample_period=period), 0)
 
 
 def summary_of(path):

@@ -14,7 +14,6 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import decode, stamp_of
 from contact_sim_pkg.bag.texts import scene_of_text
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.parameters import declare
 from contact_sim_pkg.nodes.processes.process import run
@@ -117,7 +116,7 @@ class BenchViewNode(LifecycleBenchNode):
         """Where the bodies are; a scene that cannot be read leaves them at the origin."""
         try:
             self._converter.take_scene(scene_of_text(decode(String, data).data, "the scene of the run"))
-        except (BagError, ExcitationError, KeyError, TypeError, ValueError) as error:
+        except BagError as error:
             self.get_logger().warning(f"frames rest at the origin, the scene cannot be used: {error}")
         self._knows_scene = True
 

@@ -12,6 +12,7 @@ from rosbags.typesys.stores.ros2_jazzy import geometry_msgs__msg__WrenchStamped 
 from rosbags.typesys.stores.ros2_jazzy import std_msgs__msg__Float64 as Float64
 
 from contact_sim_pkg.bag.encoding import SECOND
+from contact_sim_pkg.bag.errors import MessageError
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.records import messages as records
 from contact_sim_pkg.records.definitions import PACKAGE
@@ -30,6 +31,7 @@ SERIES = {f"{PACKAGE}/msg/{name}": field for name, field in (
     ("ContactForce", "normal"), ("AxleForce", "vertical"), ("BodyMotion", "position"),
 )}  # fmt: skip
 """Types with all samples of a block, and a field as long as these."""
+LONGEST_PERIOD = 1e3  # [s]
 
 
 class Shown(NamedTuple):
@@ -136,10 +138,14 @@ def has_samples(source: str) -> bool:
 
 
 def sample_stamps(record: Any, stamp: int) -> range:
-    """Stamps [ns] of the samples of a message, the first of which is given."""
-    values = getattr(record, SERIES[f"{PACKAGE}/msg/{type(record).__name__}"])
+    """Stamps [ns] of the samples of a message, the first of which is given; MessageError for samples at no distance."""
+    samples = getattr(record, SERIES[f"{PACKAGE}/msg/{type(record).__name__}"]).shape[-1]
+    if not 1e-9 <= record.sample_period <= LONGEST_PERIOD:
+        raise MessageError(
+            f"a {type(record).__name__} has samples {record.sample_period} s apart; allowed are 1e-9 to {LONGEST_PERIOD:g} s"
+        )
     period = round(record.sample_period * SECOND)
-    return range(stamp, stamp + values.shape[-1] * period, period)
+    return range(stamp, stamp + samples * period, period)
 
 
 def record_type(source: str) -> Any:

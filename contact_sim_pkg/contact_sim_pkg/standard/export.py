@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.encoding import SECOND
-from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.errors import BagError, MessageError
 from contact_sim_pkg.bag.messages import decode, record_of
 from contact_sim_pkg.bag.metadata import RecordedTopic
 from contact_sim_pkg.bag.names import refuse_wrong_name
@@ -33,7 +33,7 @@ def export_standard(
     """Write the standard messages of a bag into a new one; wrenches of contacts, which are standard, are copied.
 
     Args:
-        bag: to read, of any namespace.
+        bag: to read; its namespace is kept.
         directory: of the new bag, which must not exist.
         rate: messages of a topic a simulated second at most, [Hz].
         texts: to keep in the bag.
@@ -46,9 +46,13 @@ def export_standard(
         raise BagError(
             f"{bag.path} has no topic that a standard message shows; it has {', '.join(bag.topics) or 'none'}"
         )
+    namespace = next(full.removesuffix(name).strip("/") for name, full in names.items())
     copied = [names[name] for name in wrench_topics(names).values()]
     refuse_wrong_name(directory)
-    topics = [*(_recorded(topic) for topic in converter.topics.values()), *(bag.topics[name] for name in copied)]
+    topics = [
+        *(_recorded(topic, namespace) for topic in converter.topics.values()),
+        *(bag.topics[name] for name in copied),
+    ]
     with BagWriter(directory, topics, {SOURCE_KEY: bag.path.parent.name, **(texts or {})}) as writer:
         shown = _Shown(bag, converter, {full: name for name, full in names.items()}, copied, rate)
         for each in shown.in_order():
@@ -110,15 +114,18 @@ class _Shown:
 def _record(bag: Bag, source: str, message: BagMessage) -> Any:
     """By the bag's own definition; of a standard type, which has but one, by ours."""
     kind = record_type(source)
-    if TOPICS[source].type.startswith(PACKAGE):
+    if not TOPICS[source].type.startswith(PACKAGE):
+        return decode(kind, message.data)
+    try:
         return record_of(kind, bag.decode(message))
-    return decode(kind, message.data)
+    except AttributeError as error:
+        raise MessageError(f"{bag.path}: {message.topic} was recorded by another definition: {error}") from None
 
 
-def _recorded(topic: StandardTopic) -> RecordedTopic:
+def _recorded(topic: StandardTopic, namespace: str) -> RecordedTopic:
     return RecordedTopic(
         topic.name,
-        full_name(topic.name),
+        full_name(topic.name, namespace),
         topic.type,
         definition(topic.type),
         type_hash(topic.type),

@@ -17,7 +17,8 @@ from rosbags.typesys.stores.ros2_jazzy import geometry_msgs__msg__Quaternion as 
 from rosbags.typesys.stores.ros2_jazzy import geometry_msgs__msg__Vector3 as Vector3
 from rosbags.typesys.stores.ros2_jazzy import std_msgs__msg__Header as Header
 
-from contact_sim_pkg.bag.encoding import SECOND
+from contact_sim_pkg.bag.encoding import LAST_STAMP, SECOND
+from contact_sim_pkg.bag.errors import MessageError
 
 __all__ = [
     "Header",
@@ -59,7 +60,9 @@ def type_hash(type_name: str) -> str:
 
 
 def header(stamp: int, frame: str) -> Header:
-    """A header with a stamp [ns]."""
+    """A header with a stamp [ns]; MessageError outside of 0 to 2^31 s."""
+    if not 0 <= stamp <= LAST_STAMP:
+        raise MessageError(f"a stamp of {stamp} ns cannot be sent; allowed: 0 to {LAST_STAMP} ns")
     return Header(stamp=Time(sec=stamp // SECOND, nanosec=stamp % SECOND), frame_id=frame)
 
 

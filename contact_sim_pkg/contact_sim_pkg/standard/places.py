@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.rigs.vehicle.tire.size import read_size
 from contact_sim_pkg.run.sources import make_travel
@@ -65,9 +67,18 @@ class Places(NamedTuple):
 
 
 def places_of(scene: Mapping[str, Any]) -> Places:
-    """The places of a resolved scene, as plain data; without a scene all bodies rest at the origin."""
-    if not scene:
-        return Places()
+    """The places of a resolved scene, as plain data; without a scene all bodies rest at the origin.
+
+    Raises BagError where the data are no scene.
+    """
+    try:
+        return _places_of(scene) if scene else Places()
+    except (AttributeError, ExcitationError, KeyError, TypeError, ValueError) as error:
+        reason = f"{type(error).__name__}: {error}"
+        raise BagError(f"the scene does not say where its bodies are ({reason:.200}); is it a resolved one?") from None
+
+
+def _places_of(scene: Mapping[str, Any]) -> Places:
     resolved = ResolvedScene(dict(scene))
     travel = None if resolved.travel is None else make_travel(resolved)
     effects = (scene.get("effects") or {}).get("tire")
