@@ -50,7 +50,7 @@ setup(
         "matplotlib>=3.6,<4",
         "mcap>=1.5,<2",
         "mpmath>=1.3,<2",
-        "numba>=0.61,<0.69",
+        "numba>=0.66,<0.69",
         "numpy>=1.26,<3",
         "pydantic>=2.6,<3",
         "rich>=13,<16",

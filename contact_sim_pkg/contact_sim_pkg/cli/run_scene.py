@@ -21,6 +21,7 @@ from contact_sim_pkg.cli.output.outcome import describe, print_outcome, state_of
 from contact_sim_pkg.cli.output.progress import RunDisplay
 from contact_sim_pkg.cli.output.tables import print_json
 from contact_sim_pkg.cli.scene_options import SceneOptions
+from contact_sim_pkg.requirements import is_met
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -264,8 +265,9 @@ def _run_on_nodes(
     import rclpy  # noqa: F401  # refused here, with the cure, where ROS is not there
     from contact_msgs_defs.msg import BenchProgress  # noqa: F401
 
-    if find_spec("numba") is None:  # which only the simulator's process imports
-        raise ModuleNotFoundError("No module named 'numba'", name="numba")
+    for name in ("numba", "rocket-fft"):  # which only the simulator's process imports
+        if find_spec(name.replace("-", "_")) is None or not is_met(name):
+            raise ModuleNotFoundError(f"No module named {name!r} of a version that fits", name=name)
     from contact_sim_pkg.nodes.processes.supervisor import Supervisor
 
     supervisor = Supervisor(scene, directory, from_bag=from_bag, clock=clock)
