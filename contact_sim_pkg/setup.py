@@ -8,6 +8,7 @@ from setuptools import find_packages, setup
 
 PACKAGE = "contact_sim_pkg"
 HERE = Path(__file__).resolve().parent
+SITE = "https://contact-bench.example"
 NODES = ("road_profile", "vibration", "contact_simulator", "bag_logger", "bag_replay")
 
 
@@ -21,10 +22,31 @@ setup(
     name=PACKAGE,
     version=version(),
     description="Contact forces and pressure fields of simulated rigs, as ROS 2 topics and bags",
+    long_description=(HERE / "README.md").read_text(encoding="utf-8"),
+    long_description_content_type="text/markdown",
+    url=SITE,
+    project_urls={
+        "Documentation": f"{SITE}/docs",
+        "Source": f"{SITE}/repository",
+        "Issues": f"{SITE}/issues",
+        "Changelog": f"{SITE}/changelog",
+    },
+    keywords=["contact mechanics", "tire", "seat", "pressure field", "vibro-impact", "friction", "ROS 2"],
+    classifiers=[
+        "Development Status :: 4 - Beta",
+        "Environment :: Console",
+        "Intended Audience :: Science/Research",
+        "License :: OSI Approved :: Apache Software License",
+        "Operating System :: POSIX :: Linux",
+        *(f"Programming Language :: Python :: 3.{minor}" for minor in range(10, 14)),
+        "Topic :: Scientific/Engineering :: Physics",
+        "Typing :: Typed",
+    ],
     author="Contact Bench maintainers",
     maintainer="Contact Bench maintainers",
     maintainer_email="maintainers@contact-bench.example",
     license="Apache-2.0",
+    license_files=["LICENSE"],
     python_requires=">=3.10,<3.14",
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
     package_data={
