@@ -33,6 +33,6 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
     ],
     install_requires=[f"contact_sim_pkg=={version()}", "mpmath>=1.3,<2"],
-    extras_require={"test": ["hypothesis>=6.150", "pytest>=8.3"]},
+    extras_require={"test": ["hypothesis>=6.150", "pytest>=9"]},
     zip_safe=False,
 )

@@ -84,7 +84,7 @@ setup(
     ],
     extras_require={
         "parquet": ["pyarrow>=15"],
-        "test": ["hypothesis>=6.150", "mcap-ros2-support>=0.5", "packaging>=24", "pytest>=8.3", "pytest-xdist>=3.6"],
+        "test": ["hypothesis>=6.150", "mcap-ros2-support>=0.5", "packaging>=24", "pytest>=9", "pytest-xdist>=3.6"],
     },
     entry_points={
         "console_scripts": [

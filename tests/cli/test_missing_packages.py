@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from tests.bench_process import ENVIRONMENT, LONGEST, PACKAGE
+from tests.bench_process import ENVIRONMENT, LONGEST, PACKAGE, needs_ros
 
 from contact_sim_pkg.requirements import package_sentence
 
@@ -71,6 +71,18 @@ def test_a_node_after_plain_pip_names_what_it_lacks(tmp_path, node):
     assert said == (
         f"{node}: rclpy cannot be imported; source ros2_ws/setup.bash, or run with --offline, which needs no ROS\n"
     )
+
+
+@needs_ros
+@pytest.mark.parametrize(
+    ("node", "package"), [("contact_simulator", "numba"), ("bag_logger", "rosbags"), ("vibration", "pydantic")]
+)
+def test_a_node_where_ros_is_names_a_package_that_is_missing(tmp_path, node, package):
+    (tmp_path / "sitecustomize.py").write_text(ABSENT.format(name=package))
+    *_, sentence, venv, pip = run(tmp_path, START, node, "--ros-args", "-p", "scene:=seat_ride").splitlines()
+    assert sentence.startswith(f"{node}: {package}")
+    assert venv.strip().startswith("python3 -m venv --system-site-packages ")
+    assert re.fullmatch(rf"  pip install '{package}[<>=].+'", pip)
 
 
 @pytest.mark.parametrize("content", ["BaseModel = object\n", "from pydantic_core import nothing_of_that_name\n"])
