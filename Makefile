@@ -18,7 +18,7 @@ PARALLEL = -p xdist -n auto --maxprocesses 4
 # Ends a recipe: prints how long it took and hands the status on.
 REPORT_TIME = status=$$?; echo "make $@: $$SECONDS s in all"; exit $$status
 
-.PHONY: help setup run check test lint bench hard bounds mutants measures compare-field compare-dynamics clean
+.PHONY: help setup run check test lint lower-bounds bench hard bounds mutants measures compare-field compare-dynamics clean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -41,6 +41,15 @@ test:  ## run all the tests: beside each other, then those that start nodes and 
 
 lint:  ## check style, format and types
 	@$(ENTER) && ruff check && ruff format --check && mypy
+
+LOWEST := .lower-bounds
+LOWEST_TESTS := tests/records tests/scene/test_load.py tests/scene/test_resolve.py tests/bag tests/laws tests/compiled/test_jit.py \
+  tests/compiled/test_call_graph.py tests/report/test_report.py tests/report/comparison tests/report/metrics tests/run/test_offline.py
+
+lower-bounds:  ## run tests with the oldest versions that setup.py allows, without ROS, in an environment of their own
+	@SECONDS=0; $(SET_UP) && .ros2/bin/python -m venv $(LOWEST) && \
+	.ros2/bin/uv pip install -q --python $(LOWEST)/bin/python --resolution lowest-direct -r contact_sim_pkg/setup.py --extra test && \
+	$(TEST_ENVIRONMENT) $(LOWEST)/bin/python -m pytest -W ignore::DeprecationWarning $(LOWEST_TESTS) $(PYTEST_OPTIONS); $(REPORT_TIME)
 
 bench:  ## measure start-up, real-time factor and error against their goals, and error beside time
 	@SECONDS=0; $(ENTER) && bench goals && echo && bench accuracy tire_bump; $(REPORT_TIME)
@@ -67,5 +76,5 @@ compare-dynamics:  ## run the same impacts, slides and rests with MuJoCo and PyB
 	@SECONDS=0; $(ENTER) && python -m comparisons.dynamics $(COMPARE_OPTIONS); $(REPORT_TIME)
 
 clean:  ## remove the environments, the build and the caches of the tools; bags stay
-	rm -rf .ros2 .compare-field .compare-dynamics ros2_ws/build ros2_ws/install ros2_ws/log .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .ros2 .lower-bounds .compare-field .compare-dynamics ros2_ws/build ros2_ws/install ros2_ws/log .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -23,6 +23,8 @@ setup(
     maintainer="Contact Bench maintainers",
     maintainer_email="maintainers@contact-bench.example",
     license="Apache-2.0",
+    license_files=["LICENSE"],
+    url="https://contact-bench.example",
     python_requires=">=3.10,<3.14",
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
     package_data={PACKAGE: ["py.typed"]},
@@ -31,5 +33,6 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
     ],
     install_requires=[f"contact_sim_pkg=={version()}", "mpmath>=1.3,<2"],
+    extras_require={"test": ["hypothesis>=6.150", "pytest>=9"]},
     zip_safe=False,
 )

@@ -8,6 +8,7 @@ from setuptools import find_packages, setup
 
 PACKAGE = "contact_sim_pkg"
 HERE = Path(__file__).resolve().parent
+SITE = "https://contact-bench.example"
 NODES = ("road_profile", "vibration", "contact_simulator", "bag_logger", "bag_replay", "bench_view")
 
 
@@ -21,10 +22,31 @@ setup(
     name=PACKAGE,
     version=version(),
     description="Contact forces and pressure fields of simulated rigs, as ROS 2 topics and bags",
+    long_description=(HERE / "README.md").read_text(encoding="utf-8"),
+    long_description_content_type="text/markdown",
+    url=SITE,
+    project_urls={
+        "Documentation": f"{SITE}/docs",
+        "Source": f"{SITE}/repository",
+        "Issues": f"{SITE}/issues",
+        "Changelog": f"{SITE}/changelog",
+    },
+    keywords=["contact mechanics", "tire", "seat", "pressure field", "vibro-impact", "friction", "ROS 2"],
+    classifiers=[
+        "Development Status :: 4 - Beta",
+        "Environment :: Console",
+        "Intended Audience :: Science/Research",
+        "License :: OSI Approved :: Apache Software License",
+        "Operating System :: POSIX :: Linux",
+        *(f"Programming Language :: Python :: 3.{minor}" for minor in range(10, 14)),
+        "Topic :: Scientific/Engineering :: Physics",
+        "Typing :: Typed",
+    ],
     author="Contact Bench maintainers",
     maintainer="Contact Bench maintainers",
     maintainer_email="maintainers@contact-bench.example",
     license="Apache-2.0",
+    license_files=["LICENSE"],
     python_requires=">=3.10,<3.14",
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
     package_data={
@@ -50,7 +72,7 @@ setup(
         "matplotlib>=3.6,<4",
         "mcap>=1.5,<2",
         "mpmath>=1.3,<2",
-        "numba>=0.61,<0.69",
+        "numba>=0.66,<0.69",
         "numpy>=1.26,<3",
         "pydantic>=2.6,<3",
         "rich>=13,<16",
@@ -62,7 +84,7 @@ setup(
     ],
     extras_require={
         "parquet": ["pyarrow>=15"],
-        "test": ["hypothesis", "mcap-ros2-support", "pytest", "pytest-xdist"],
+        "test": ["hypothesis>=6.150", "mcap-ros2-support>=0.5", "packaging>=24", "pytest>=9", "pytest-xdist>=3.6"],
     },
     entry_points={
         "console_scripts": [

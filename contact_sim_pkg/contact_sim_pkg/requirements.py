@@ -5,38 +5,79 @@ from __future__ import annotations
 import re
 from importlib.metadata import PackageNotFoundError, requires, version
 from itertools import zip_longest
+from pathlib import Path
 
-__all__ = ["package_sentence"]
+__all__ = ["is_met", "package_sentence"]
 
 ROS = ("rclpy", "contact_msgs_defs", "rcl_interfaces", "std_msgs", "std_srvs", "diagnostic_msgs", "rosgraph_msgs")
 OF_ANOTHER_VERSION = (AttributeError, TypeError, NameError, RuntimeError)  # what its use may end in
+ENVIRONMENT = "python3 -m venv --system-site-packages ~/contact_bench_env && . ~/contact_bench_env/bin/activate"
 _REQUIREMENT = re.compile(r"(?P<name>[\w.-]+)(?P<bounds>[^;]*)(?P<marker>;.*)?")
 
 
 def package_sentence(error: BaseException) -> str:
     """What is missing and the cure, where an error comes from a package that is not there or not of
-    a version that the bench needs; empty for any other error.
+    a version that the bench needs; empty for any other error. The cure stands in two lines below.
     """
     if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in ROS:
         return f"{error.name} cannot be imported; source ros2_ws/setup.bash, or run with --offline, which needs no ROS"
     foreign = not type(error).__module__.startswith("contact_sim_pkg")
     if unmet := _unmet() if isinstance(error, (ImportError, *OF_ANOTHER_VERSION)) and foreign else []:
         found = ", ".join(f"{name} is {here or 'missing'}, {bounds} is needed" for name, here, bounds in unmet)
-        return f"{found}; pip install {' '.join(repr(name + bounds) for name, _, bounds in unmet)}"
+        return _with_cure(found, [name + bounds for name, _, bounds in unmet])
     if isinstance(error, ImportError) and error.name and not error.name.startswith("contact_sim_pkg"):
-        return f"{error.name} cannot be imported ({error}); pip install ./contact_sim_pkg installs what the bench needs"
+        wanted = [name + bounds for name, bounds in _needed() if _is_package_of(name, error.name)]
+        return _with_cure(f"{error.name} cannot be imported ({error})", wanted or ["./contact_sim_pkg"])
     return ""
+
+
+def is_met(package: str) -> bool:
+    """Whether a package is installed in a version that the bench needs."""
+    return all(name != package for name, _, _ in _unmet())
+
+
+def _with_cure(fault: str, wanted: list[str]) -> str:
+    """The sentence, and below it the two lines that install what is wanted beside the packages of
+    the system, which the system's own pip refuses to touch.
+    """
+    installed = " ".join(each if each.startswith("./") else repr(each) for each in wanted)
+    return f"{fault}; install it in an environment of your own:\n  {ENVIRONMENT}\n  pip install {installed}"
+
+
+def _is_package_of(name: str, module: str) -> bool:
+    """Whether a package, such as `ruamel.yaml`, is the one that a module, such as `ruamel`, belongs
+    to.
+    """
+    package, wanted = (re.sub(r"[-_.]+", "-", each).lower() for each in (name, module))
+    return f"{package}-".startswith(f"{wanted.partition('-')[0]}-") or package == wanted
+
+
+def _needed() -> list[tuple[str, str]]:
+    """Name and bounds of every package that the bench needs: from what is installed, or from
+    `setup.py` in a checkout on the search path; none where there is neither.
+    """
+    try:
+        stated = requires("contact_sim_pkg") or []
+    except PackageNotFoundError:
+        stated = _in_setup(Path(__file__).parents[1] / "setup.py")
+    matches = [match for text in stated if (match := _REQUIREMENT.fullmatch(text))]
+    return [(each["name"], each["bounds"].strip()) for each in matches if not each["marker"]]
+
+
+def _in_setup(path: Path) -> list[str]:
+    """The list `install_requires` of a setup.py, empty where there is no such file."""
+    try:
+        listed = re.search(r"install_requires=\[(.*?)\]", path.read_text(encoding="utf-8"), re.DOTALL)
+    except OSError:
+        return []
+    return re.findall(r'"(.+?)"', listed.group(1)) if listed else []
 
 
 def _unmet() -> list[tuple[str, str, str]]:
     """Name, version installed (empty: none) and versions needed of each package that is not as it
-    is needed; none where the bench itself is not installed.
+    is needed.
     """
-    try:
-        needed = [match for text in requires("contact_sim_pkg") or [] if (match := _REQUIREMENT.fullmatch(text))]
-    except PackageNotFoundError:
-        return []
-    rows = [(each["name"], _version(each["name"]), each["bounds"].strip()) for each in needed if not each["marker"]]
+    rows = [(name, _version(name), bounds) for name, bounds in _needed()]
     return [row for row in rows if not row[1] or not _is_within(row[1], row[2])]
 
 

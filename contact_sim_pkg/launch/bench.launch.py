@@ -2,91 +2,99 @@
 
     ros2 launch contact_sim_pkg bench.launch.py scene:=seat_ride duration:=10.0 pace:=max
 
-A refused scene or bag, and a node that ends badly, end the launch with status 1 (launch has no other)
-and a sentence, which the bag keeps. `bench run` does the same where launch is not installed, and shows progress.
+The arguments are the options of `bench run`, less two: `offline`, which is without nodes, and `json`, for the output
+of launch is its log. A refused scene, bag or option, and a node that ends badly, end the launch with status 1 (launch
+has no other) and a sentence, which the bag keeps. `bench run` does the same where launch is not installed, and shows
+progress.
 """
 
 import atexit
 from collections.abc import Callable
 from pathlib import Path
 
-from launch.actions import DeclareLaunchArgument, LogInfo, OpaqueFunction, SetEnvironmentVariable
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, LogInfo, OpaqueFunction, SetEnvironmentVariable
 from launch.events.process import ProcessExited
 from launch.substitutions import EnvironmentVariable, LaunchConfiguration
 from launch_ros.actions import Node
 
-from contact_sim_pkg.bag.mcap.unfinished import leave_metadata
-from contact_sim_pkg.bag.names import new_directory
-from contact_sim_pkg.nodes.processes.children import how_ended
-from contact_sim_pkg.nodes.processes.environment import plugin_environment
+from contact_sim_pkg.cli.launched import LaunchedRun, arguments_of, options_of
+from contact_sim_pkg.cli.run import command, refuse_without_bag
+from contact_sim_pkg.cli.run_scene import prepare
+from contact_sim_pkg.cli.scene_options import SceneOptions
+from contact_sim_pkg.nodes.processes.environment import LAUNCHED_ENVIRONMENT, plugin_environment
 from contact_sim_pkg.nodes.processes.run_folder import RunFolder
 from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
-from contact_sim_pkg.nodes.processes.scene_file import read_reason, write_reason, write_scene
-from contact_sim_pkg.scene.load import load_scene
-from contact_sim_pkg.scene.overrides import set_duration, set_pace
-from contact_sim_pkg.scene.resolve import resolve
-from launch import LaunchContext, LaunchDescription
+from contact_sim_pkg.nodes.processes.scene_file import write_scene
+from contact_sim_pkg.nodes.processes.stop_requests import NODES_SECONDS, STOP_SECONDS
+from contact_sim_pkg.python_process import python_command
+from launch import Action, LaunchContext, LaunchDescription
 
-ARGUMENTS = {
-    "scene": ("car_full_bench", "name of a shipped scene, or path of a scene file"),
-    "duration": ("", "simulated time in s; empty: that of the scene"),
-    "pace": ("", "realtime, max or a factor; empty: that of the scene"),
-    "record": ("true", "write a bag"),
-    "publish_clock": ("true", "simulated time on /clock, unless another node publishes it"),
-    "bag": ("", "directory of the bag, which must not exist; empty: bags/SCENE_TIME_RANDOM"),
-    "use_sim_time": ("false", "clock of the nodes; stamps are simulated time, pacing is the steady clock in any case"),
-    "namespace": ("", "namespace of all nodes and topics"),
-}
-SWITCHES = ("record", "publish_clock", "use_sim_time")
-DISCOVERY = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+ARGUMENTS = arguments_of(command, without=("offline", "json"))
+FIRST_SCENE = "car_full_bench"  # where neither a scene nor a bag is given
+RENAMED = {"bag": "out", "record": "no_record", "publish_clock": "clock"}
 
 
 def start_nodes(context: LaunchContext) -> list[Node]:
     """Resolve the scene once, and start the nodes that it needs; the first one that ends badly ends all."""
     given = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}
-    changes = [make(given[name]) for name, make in (("duration", set_duration), ("pace", set_pace)) if given[name]]
-    scene = resolve(load_scene(given["scene"], changes))
-    record, clock, sim_time = (given[name].lower() == "true" for name in SWITCHES)
-    bag = Path(given["bag"]) if given["bag"] else None
-    directory = new_directory(bag, str(scene.data["name"])) if record else None
+    for old, new in RENAMED.items():
+        if old in context.launch_configurations:
+            raise ValueError(f"{old}:= is now {new}:=, as in `bench run`")
+    if not given["scene"] and not given["from_bag"]:
+        given["scene"] = FIRST_SCENE
+    values = options_of(command, given)
+    refuse_without_bag(**{name: values[name] for name in ("no_record", "out", "strict", "check")})
+    options = SceneOptions(**{name: values[name] for name in SceneOptions.__dataclass_fields__})
+    run = prepare(
+        options, out=values["out"], from_bag=values["from_bag"],
+        record=not values["no_record"], allow_long=values["allow_long"],
+    )  # fmt: skip
     folder = RunFolder()
     atexit.register(folder.remove)  # not at the shutdown: the logger reads there why its run has ended
-    path = write_scene(scene, folder.path)
+    path = write_scene(run.scene, folder.path)
+    nodes = planned_nodes(run.scene, path, run.directory, values["from_bag"], clock=values["clock"])
+    ended = LaunchedRun(path, run.directory, [node.name for node in nodes])
     return [
         Node(
             package="contact_sim_pkg",
             executable=node.name,
             name=node.name,
             namespace=given["namespace"],
-            parameters=[{**node.parameters, "use_sim_time": sim_time}],
+            parameters=[{**node.parameters, "use_sim_time": given["use_sim_time"].lower() == "true"}],
             output="screen",
-            additional_env=plugin_environment(scene),
-            on_exit=end_of(node.name, path, directory),
+            additional_env=plugin_environment(run.scene),
+            on_exit=end_of(node.name, ended, run.directory, check=values["check"], strict=values["strict"]),
+            # as `bench run` ends them: the last one is killed 1.7 s after the first signal
+            sigterm_timeout=str(NODES_SECONDS),
+            sigkill_timeout=str(STOP_SECONDS - NODES_SECONDS),
         )
-        for node in planned_nodes(scene, path, directory, clock=clock)
+        for node in nodes
     ]
 
 
-def end_of(node: str, scene: Path, bag: Path | None) -> Callable[[ProcessExited, LaunchContext], list[LogInfo]]:
-    """What is done at the end of a node. No node is started again: its state is gone, and the bits would differ.
+def end_of(
+    node: str, run: LaunchedRun, bag: Path | None, *, check: bool = False, strict: bool = False
+) -> Callable[[ProcessExited, LaunchContext], list[Action]]:
+    """What is done at the end of a node, and of the last one. No node is started again: its state is gone, and the bits
+    would differ.
 
     An exception is what makes launch end the other nodes and return another status than 0; a Shutdown would return 0.
     """
 
-    def on_exit(event: ProcessExited, context: LaunchContext) -> list[LogInfo]:
-        sentence = how_ended(node, event.returncode)
-        ended_by_launch = (
-            context.is_shutdown and event.returncode < 0
-        )  # a signal, before the node had learnt to catch it
-        failed = event.returncode != 0 and not ended_by_launch
-        if failed:
-            write_reason(scene, sentence)  # the logger, which ends last, keeps it
-        hint = ""
-        if node == "bag_logger" and bag is not None:
-            hint = leave_metadata(bag, {"ended": "failed", "failure": read_reason(str(scene)) or sentence})
-        if failed:
-            raise RuntimeError("; ".join(filter(None, [sentence, "the run has failed", hint])))
-        return [LogInfo(msg=hint)] if hint else []
+    def verdict(*_: object) -> None:
+        if strict:
+            run.refuse_inaccurate()
+
+    def on_exit(event: ProcessExited, context: LaunchContext) -> list[Action]:
+        hint = run.on_end(node, event.returncode, is_shutdown=context.is_shutdown)
+        if hint:
+            return [LogInfo(msg=hint)]
+        if run.finished and check:
+            command = python_command("contact_sim_pkg.cli.main", "accuracy", str(bag))
+            return [ExecuteProcess(cmd=command, output="screen", on_exit=verdict)]
+        if run.finished:
+            verdict()
+        return []
 
     return on_exit
 
@@ -95,12 +103,12 @@ def generate_launch_description() -> LaunchDescription:
     """Description for `ros2 launch`."""
     declared = [
         DeclareLaunchArgument(
-            name,
-            default_value=value,
-            description=text,
-            choices=["true", "false", "True", "False"] if name in SWITCHES else None,
+            name, default_value=each.default, description=each.text, choices=each.choices and list(each.choices)
         )
-        for name, (value, text) in ARGUMENTS.items()
+        for name, each in ARGUMENTS.items()
     ]
-    local = SetEnvironmentVariable(DISCOVERY, EnvironmentVariable(DISCOVERY, default_value="LOCALHOST"))
-    return LaunchDescription([*declared, local, OpaqueFunction(function=start_nodes)])
+    kept = [
+        SetEnvironmentVariable(name, EnvironmentVariable(name, default_value=value))
+        for name, value in LAUNCHED_ENVIRONMENT.items()
+    ]
+    return LaunchDescription([*declared, *kept, OpaqueFunction(function=start_nodes)])

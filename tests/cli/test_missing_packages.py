@@ -1,10 +1,11 @@
 """A package that is missing, or of another version than needed: one sentence with the cure, status 2, no traceback."""
 
+import re
 import subprocess
 import sys
 
 import pytest
-from tests.bench_process import ENVIRONMENT, LONGEST
+from tests.bench_process import ENVIRONMENT, LONGEST, PACKAGE, needs_ros
 
 from contact_sim_pkg.requirements import package_sentence
 
@@ -54,8 +55,13 @@ def test_a_command_names_a_package_that_is_missing(tmp_path, package, arguments,
         pytest.importorskip("rclpy")
     (tmp_path / "sitecustomize.py").write_text(ABSENT.format(name=package))
     said = run(tmp_path, RUN, *arguments)
-    assert sentence in said.splitlines()[-1]
-    assert "pip install ./contact_sim_pkg" in said or package in ("rclpy", "contact_msgs_defs")
+    if package in ("rclpy", "contact_msgs_defs"):
+        assert sentence in said.splitlines()[-1]
+    else:
+        *_, last, venv, pip = said.splitlines()
+        assert sentence in last
+        assert venv.strip().startswith("python3 -m venv --system-site-packages ")
+        assert re.fullmatch(rf"  pip install '{package}[<>=].+'", pip), "its bounds, and nothing else"
 
 
 @pytest.mark.parametrize("node", NODES)
@@ -67,13 +73,28 @@ def test_a_node_after_plain_pip_names_what_it_lacks(tmp_path, node):
     )
 
 
+@needs_ros
+@pytest.mark.parametrize(
+    ("node", "package"), [("contact_simulator", "numba"), ("bag_logger", "rosbags"), ("vibration", "pydantic")]
+)
+def test_a_node_where_ros_is_names_a_package_that_is_missing(tmp_path, node, package):
+    (tmp_path / "sitecustomize.py").write_text(ABSENT.format(name=package))
+    *_, sentence, venv, pip = run(tmp_path, START, node, "--ros-args", "-p", "scene:=seat_ride").splitlines()
+    assert sentence.startswith(f"{node}: {package}")
+    assert venv.strip().startswith("python3 -m venv --system-site-packages ")
+    assert re.fullmatch(rf"  pip install '{package}[<>=].+'", pip)
+
+
 @pytest.mark.parametrize("content", ["BaseModel = object\n", "from pydantic_core import nothing_of_that_name\n"])
 def test_an_old_pydantic_is_named_with_the_versions_that_do(tmp_path, content):
     (tmp_path / "pydantic.py").write_text(content)
     (tmp_path / "pydantic-1.10.2.dist-info").mkdir()
     (tmp_path / "pydantic-1.10.2.dist-info" / "METADATA").write_text("Name: pydantic\nVersion: 1.10.2\n")
-    sentence = "pydantic is 1.10.2, <3,>=2.6 is needed; pip install 'pydantic<3,>=2.6'"
-    assert run(tmp_path, RUN, *SHORT, "--offline") == f"bench: {sentence}\n"
+    for program, arguments, name in ((RUN, (*SHORT, "--offline"), "bench"), (RUN, ("list",), "bench")):
+        sentence, venv, pip = run(tmp_path, program, *arguments).splitlines()
+        assert sentence.startswith(f"{name}: pydantic is 1.10.2, <3,>=2.6 is needed; ")
+        assert venv.strip().startswith("python3 -m venv --system-site-packages ")
+        assert pip == "  pip install 'pydantic<3,>=2.6'"
 
 
 @pytest.mark.parametrize(
@@ -103,3 +124,40 @@ def test_versions_are_compared_by_their_numbers(monkeypatch, version, fits):
     monkeypatch.setattr(requirements, "requires", lambda _: ["pydantic<3,>=2.6", "pytest; extra == 'test'"])
     monkeypatch.setattr(requirements, "version", lambda _: version)
     assert (package_sentence(TypeError("g")) == "") == fits
+
+
+def test_every_bound_of_setup_py_is_stated_and_what_lies_below_is_named(monkeypatch):
+    """Each package in turn is of the release before its lower bound, at it, or missing."""
+    from contact_sim_pkg import requirements
+
+    stated = requirements._in_setup(PACKAGE / "setup.py")
+    assert len(stated) > 10
+    lowest = {}
+    for text in stated:
+        name, low, high = re.fullmatch(r"([\w.-]+)>=([\d.]+),<([\d.]+)", text).groups()
+        assert [int(part) for part in low.split(".")] < [int(part) for part in high.split(".")]
+        lowest[name] = low
+    monkeypatch.setattr(requirements, "requires", lambda _: stated)
+    for name, low in lowest.items():
+        *major, last = low.split(".")
+        below = ".".join([*major, str(int(last) - 1), "9"]) if last != "0" else "0.0.1"
+        for found in (low, below, ""):
+            versions = {**lowest, name: found}
+            monkeypatch.setattr(requirements, "_version", versions.__getitem__)
+            sentence = package_sentence(AttributeError("something"))
+            expected = f"{name} is {found or 'missing'}, >={low}"
+            assert sentence.startswith(expected) == (found != low), (name, found)
+            assert requirements.is_met(name) == (found == low)
+
+
+def test_a_checkout_without_metadata_knows_the_bounds_too(monkeypatch):
+    from contact_sim_pkg import requirements
+
+    def absent(_):
+        raise requirements.PackageNotFoundError
+
+    monkeypatch.setattr(requirements, "requires", absent)
+    assert dict(requirements._needed())["pydantic"] == ">=2.6,<3"
+    assert package_sentence(AttributeError("something")) == ""
+    monkeypatch.setattr(requirements, "_version", lambda name: "1.10.14" if name == "pydantic" else "999")
+    assert "pydantic is 1.10.14, >=2.6,<3 is needed" in package_sentence(AttributeError("something"))

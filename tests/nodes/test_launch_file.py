@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import re
 import runpy
 import signal
 import subprocess
@@ -10,15 +11,21 @@ import types
 from pathlib import Path
 from types import SimpleNamespace
 
+import click
 import pytest
 from ruamel.yaml import YAML
-from tests.bench_process import ENVIRONMENT, LONGEST, PACKAGE, Nodes, needs_ros, resolved, wait_until
+from tests.bench_process import ENVIRONMENT, LONGEST, PACKAGE, Nodes, bench, needs_ros, resolved, wait_until
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.cli.launched import LaunchedRun, options_of
+from contact_sim_pkg.cli.replay import command as replay_command
+from contact_sim_pkg.cli.run import command as run_command
 from contact_sim_pkg.nodes.processes.scene_file import read_reason
+from contact_sim_pkg.run.offline import run_offline
 
 FILE = PACKAGE / "launch" / "bench.launch.py"
+REPLAY = FILE.with_name("replay.launch.py")
 MODULES = ("", ".actions", ".event_handlers", ".events", ".events.process", ".substitutions")
 LAUNCH = """
 import sys
@@ -47,18 +54,65 @@ class Made:
 
 
 @pytest.fixture
-def launch_file(monkeypatch):
+def launch_file(monkeypatch, request):
     """Names of the launch file, run with a stand-in for launch."""
     for name in (*(f"launch{part}" for part in MODULES), "launch_ros", "launch_ros.actions"):
         module = types.ModuleType(name)
         module.__getattr__ = lambda _: Made
         monkeypatch.setitem(sys.modules, name, module)
-    return SimpleNamespace(**runpy.run_path(str(FILE)))
+    return SimpleNamespace(**runpy.run_path(str(request.param if hasattr(request, "param") else FILE)))
 
 
 def context(launch_file, *, is_shutdown=False, **given):
-    defaults = {name: value for name, (value, _) in launch_file.ARGUMENTS.items()}
-    return SimpleNamespace(is_shutdown=is_shutdown, given={**defaults, **given})
+    defaults = {name: each.default for name, each in launch_file.ARGUMENTS.items()}
+    return SimpleNamespace(is_shutdown=is_shutdown, given={**defaults, **given}, launch_configurations=given)
+
+
+@pytest.mark.parametrize(
+    ("launch_file", "command", "without"), [(FILE, "run", {"offline", "json"}), (REPLAY, "replay", set())],
+    indirect=["launch_file"],
+)  # fmt: skip
+def test_every_option_of_the_command_is_an_argument_of_the_launch(launch_file, command, without):
+    shown = bench(command, "--help").stdout
+    options = set(re.findall(r"^ +(?:-\w, )?--([a-z-]+)", shown, re.MULTILINE)) - {"help"}
+    assert len(options) > 6
+    names = {option.replace("-", "_") for option in options} - without
+    called_with = {"run": "scene", "replay": "bag"}[command]
+    assert set(launch_file.ARGUMENTS) == names | {called_with, "namespace", "use_sim_time"}
+
+
+def test_options_are_read_as_the_command_line_reads_them():
+    made = options_of(
+        run_command,
+        {"scene": "seat_ride", "set": "seat.cushion=null title='two words'", "clock": "False", "strict": "True",
+         "duration": "3", "road": "", "check": "false"},
+    )  # fmt: skip
+    assert made["assignments"] == ("seat.cushion=null", "title=two words")
+    assert (made["scene"], made["clock"], made["strict"], made["check"]) == ("seat_ride", False, True, False)
+    assert (made["duration"], made["road"]) == ("3", None)
+    with pytest.raises(ValueError, match="'fast' is not a valid float"):
+        options_of(replay_command, {"bag": "somewhere", "rate": "fast"})
+    with pytest.raises(ValueError, match="Missing argument 'BAG'"):
+        options_of(replay_command, {"bag": ""})
+
+
+@pytest.mark.parametrize("launch_file", [REPLAY], indirect=True)
+def test_the_launch_of_a_replay_hands_parameters_and_full_names_on(launch_file, tmp_path):
+    run_offline(resolved("seat_ride", "duration=0.05"), tmp_path / "bag")
+    given = {"bag": str(tmp_path / "bag"), "rate": "2", "topics": "seat/force seat/patch", "loop": "true"}
+    (node,) = launch_file.start_node(context(launch_file, remap="seat/force:=left/force", namespace="rig1", **given))
+    parameters = node.named["parameters"][0]
+    assert (parameters["bag"], parameters["rate"]) == (given["bag"], 2.0)
+    assert (parameters["topics"], parameters["loop"]) == ("seat/force,seat/patch", True)
+    assert (parameters["clock"], parameters["start_message"]) == (False, 0)
+    assert node.named["remappings"] == [("/seat/force", "left/force")]
+    assert node.named["namespace"] == "rig1"
+    with pytest.raises(BagError, match="tire/force"):
+        launch_file.start_node(context(launch_file, remap="tire/force:=left/force", **given))
+    ended = SimpleNamespace(returncode=2)
+    with pytest.raises(RuntimeError, match="bag_replay ended with status 2"):
+        launch_file.on_exit(ended, context(launch_file))
+    assert launch_file.on_exit(ended, context(launch_file, is_shutdown=True)) is None
 
 
 def test_the_arguments_are_declared_and_reach_the_nodes_of_the_plan(launch_file, tmp_path):
@@ -67,8 +121,8 @@ def test_the_arguments_are_declared_and_reach_the_nodes_of_the_plan(launch_file,
     asked = context(
         launch_file,
         scene="seat_ride",
-        bag=str(tmp_path / "bag"),
-        publish_clock="false",
+        out=str(tmp_path / "bag"),
+        clock="false",
         use_sim_time="True",
         namespace="rig1",
     )
@@ -83,8 +137,12 @@ def test_the_arguments_are_declared_and_reach_the_nodes_of_the_plan(launch_file,
 
 def test_a_bag_that_exists_is_refused_before_a_node_is_started(launch_file, tmp_path):
     with pytest.raises(BagError, match="exists already"):
+        launch_file.start_nodes(context(launch_file, scene="seat_ride", out=str(tmp_path)))
+    launch_file.start_nodes(context(launch_file, scene="seat_ride", no_record="true"))
+    with pytest.raises(click.UsageError, match="--no-record writes none"):
+        launch_file.start_nodes(context(launch_file, scene="seat_ride", no_record="true", check="true"))
+    with pytest.raises(ValueError, match="bag:= is now out:="):
         launch_file.start_nodes(context(launch_file, scene="seat_ride", bag=str(tmp_path)))
-    launch_file.start_nodes(context(launch_file, scene="seat_ride", bag=str(tmp_path), record="false"))
 
 
 NAMED = {1: "ended with status 1", 3: "ended with status 3", -9: "was ended by SIGKILL"}
@@ -92,23 +150,51 @@ NAMED = {1: "ended with status 1", 3: "ended with status 3", -9: "was ended by S
 
 @pytest.mark.fault("F2")
 @pytest.mark.parametrize(
-    ("status", "is_shutdown", "fails"),
-    [(0, False, False), (1, False, True), (3, True, True), (-9, False, True), (-2, True, False), (0, True, False)],
+    ("node", "status", "is_shutdown", "fails"),
+    [
+        ("vibration", 0, False, False),
+        ("vibration", 1, False, True),
+        ("vibration", 3, True, True),
+        ("vibration", -9, False, True),
+        ("vibration", -2, True, False),
+        ("vibration", 0, True, False),
+        ("vibration", -9, True, False),  # did not end, and lost nothing
+        ("bag_logger", -9, True, True),
+    ],
 )
-def test_a_node_that_ends_badly_is_an_error_of_the_launch(launch_file, tmp_path, status, is_shutdown, fails):
+def test_a_node_that_ends_badly_is_an_error_of_the_launch(launch_file, tmp_path, node, status, is_shutdown, fails):
     """The first one of a run is the reason that its bag keeps."""
     scene = tmp_path / "scene.resolved.yaml"
-    on_exit = launch_file.end_of("vibration", scene, tmp_path / "bag")
+    run = LaunchedRun(scene, tmp_path / "bag", [node, "contact_simulator"])
+    on_exit = launch_file.end_of(node, run, tmp_path / "bag")
     ended = SimpleNamespace(returncode=status)
     if fails:
-        with pytest.raises(RuntimeError, match=f"vibration {NAMED[status]}; the run has failed"):
+        with pytest.raises(RuntimeError, match=f"{node} {NAMED[status]}; the run has failed"):
             on_exit(ended, context(launch_file))
         with pytest.raises(RuntimeError):
-            launch_file.end_of("contact_simulator", scene, None)(ended, context(launch_file))
-        assert read_reason(str(scene)) == f"vibration {NAMED[status]}"
+            launch_file.end_of("contact_simulator", run, None)(SimpleNamespace(returncode=1), context(launch_file))
+        assert read_reason(str(scene)) == f"{node} {NAMED[status]}"
     else:
         assert on_exit(ended, context(launch_file, is_shutdown=is_shutdown)) == []
         assert read_reason(str(scene)) == ""
+    assert not run.finished
+
+
+def test_a_run_that_all_nodes_have_finished_is_checked_and_judged(launch_file, tmp_path, monkeypatch):
+    run = LaunchedRun(tmp_path / "scene.resolved.yaml", tmp_path / "bag", ["vibration", "contact_simulator"])
+    ended = SimpleNamespace(returncode=0)
+    assert launch_file.end_of("vibration", run, tmp_path, check=True)(ended, context(launch_file)) == []
+    (check,) = launch_file.end_of("contact_simulator", run, tmp_path, check=True, strict=True)(
+        ended, context(launch_file)
+    )
+    assert check.named["cmd"][-2:] == ["accuracy", str(tmp_path)]
+    monkeypatch.setattr("contact_sim_pkg.cli.launched.open_bag", lambda _: None)
+    numbers = {"requested": 1e-2, "estimated": {"tire": {"force": 2e-2}}, "not_below": {}}
+    monkeypatch.setattr("contact_sim_pkg.report.summary.summarise", lambda _: {"accuracy": numbers})
+    with pytest.raises(RuntimeError, match=r"above the requested accuracy: tire force 2\.?0?e-2"):
+        check.named["on_exit"](ended, context(launch_file))
+    numbers["estimated"]["tire"]["force"] = 1e-3
+    check.named["on_exit"](ended, context(launch_file))
 
 
 @pytest.mark.fault("F2")
@@ -124,8 +210,9 @@ def test_the_bag_names_a_killed_node_where_launch_has_started_them(launch_file, 
         nodes.wait_until(lambda: file.exists() and file.stat().st_size > 30_000)
         started[victim].process.kill()
         status = started[victim].process.wait()
+        run = LaunchedRun(scene, nodes.bag, started)
         with pytest.raises(RuntimeError, match=f"{victim} was ended by SIGKILL; the run has failed") as raised:
-            launch_file.end_of(victim, scene, nodes.bag)(SimpleNamespace(returncode=status), context(launch_file))
+            launch_file.end_of(victim, run, nodes.bag)(SimpleNamespace(returncode=status), context(launch_file))
         for child in started.values():
             if child.name != victim:
                 child.process.send_signal(signal.SIGINT)
@@ -143,7 +230,7 @@ def test_the_bag_names_a_killed_node_where_launch_has_started_them(launch_file, 
 
 
 def start_launch(folder: Path, **given: object) -> subprocess.Popen[str]:
-    arguments = [f"{name}:={value}" for name, value in {"scene": "seat_ride", "bag": folder / "bag", **given}.items()]
+    arguments = [f"{name}:={value}" for name, value in {"scene": "seat_ride", "out": folder / "bag", **given}.items()]
     environment = {**ENVIRONMENT, "HOME": str(folder)}  # launch keeps its logs there
     return subprocess.Popen(
         [sys.executable, "-c", LAUNCH, str(FILE), *arguments],
@@ -173,13 +260,17 @@ def test_launch_logs_the_progress_and_ends_with_0_and_then_refuses_the_bag(tmp_p
 @pytest.mark.fault("F2")
 @needs_ros
 @needs_launch
-@pytest.mark.parametrize(("node", "number", "status"), [("bag_logger", 9, 1), ("contact_simulator", 9, 1), ("", 2, 0)])
+@pytest.mark.parametrize(
+    ("node", "number", "status"), [("bag_logger", 9, 1), ("contact_simulator", 9, 1), ("", 2, 0), ("bag_logger", 19, 1)]
+)
 def test_the_status_of_launch_distinguishes_a_killed_node_from_an_interrupt(tmp_path, node, number, status):
     process = start_launch(tmp_path, duration=60)
     try:
         file = tmp_path / "bag" / "bag_0.mcap"
         wait_until(lambda: process.poll() is not None or (file.exists() and file.stat().st_size > 30_000))
         os.kill(process_of(process.pid, node) if node else process.pid, signal.Signals(number))
+        if number == signal.SIGSTOP:  # a logger that hangs, and then Ctrl-C
+            process.send_signal(signal.SIGINT)
         printed, _ = process.communicate(timeout=LONGEST)
     finally:
         if process.poll() is None:

@@ -1,11 +1,13 @@
 """Lists and numbers that stand in more than one file of the packaging agree."""
 
 import ast
+import configparser
 import re
+import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 from contextlib import suppress
-from importlib.metadata import PackageNotFoundError, requires
+from importlib.metadata import PackageNotFoundError, PathDistribution, requires
 from pathlib import Path
 
 import pytest
@@ -132,6 +134,48 @@ def test_a_sourced_ros_keeps_its_own_numpy_and_generators():
     lock = ["ros-rclpy==7.1.6", "numpy==2.2.6", "empy==4.2.1", "numba==0.68.1", "colcon-core==0.21.3"]
     assert system_requirements(lock, system_has_colcon=True) == ["numba==0.68.1"]
     assert system_requirements(lock, system_has_colcon=False) == ["numba==0.68.1", "colcon-core==0.21.3"]
+
+
+def test_the_page_of_the_wheel_is_complete(tmp_path):
+    """What PyPI shows, from the metadata that setuptools makes of setup.py."""
+    folder = tmp_path / "contact_sim_pkg"
+    for name in ("setup.py", "setup.cfg", "README.md", "LICENSE", "contact_sim_pkg/__init__.py"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes((PACKAGE / name).read_bytes())
+    make = "import sys; from setuptools import build_meta; build_meta.prepare_metadata_for_build_wheel(sys.argv[1])"
+    subprocess.run([sys.executable, "-c", make, str(tmp_path)], cwd=folder, check=True, capture_output=True)
+    made = PathDistribution(next(tmp_path.glob("*.dist-info")))
+    page = made.metadata
+    assert page["Description-Content-Type"] == "text/markdown"
+    assert "bench run tire_bump --offline" in (page.get_payload() or page["Description"])
+    assert {text.partition(",")[0] for text in page.get_all("Project-URL")} >= {"Documentation", "Source", "Issues"}
+    pythons = [text.rpartition(" ")[2] for text in page.get_all("Classifier") if "Python :: 3." in text]
+    assert pythons == ["3.10", "3.11", "3.12", "3.13"]
+    assert page.get_all("License-File") == ["LICENSE"]
+    assert set(page.get_all("Provides-Extra")) == {"parquet", "test"}
+    assert len([text for text in made.requires if "extra ==" not in text]) == len(setup_py_list("install_requires"))
+
+
+@pytest.mark.parametrize("package", ["contact_msgs_defs", "contact_sim_pkg", "contact_sim_lab"])
+def test_package_xml_has_what_an_index_shows(package):
+    described = package_xml(PROJECT / package)
+    assert {node.get("type") for node in described.findall("url")} == {"website", "repository", "bugtracker"}
+    assert described.find("author") is not None
+    assert (PROJECT / package / described.find("license").get("file")).resolve() == PROJECT / "LICENSE"
+
+
+def test_the_tests_of_colcon_are_there_and_their_marks_are_those_of_the_repository():
+    given = configparser.ConfigParser()
+    given.read(PACKAGE / "pytest.ini")
+    paths = given["pytest"]["testpaths"].split()
+    assert [path for path in paths if not (PACKAGE / path).exists()] == []
+    assert {path.split("/")[2] for path in paths if path.startswith("..")} == {
+        "records",
+        "scene",
+        "laws",
+        "bag",
+        "nodes",
+    }
 
 
 def test_no_unneeded_bag_or_build_product_is_tracked():

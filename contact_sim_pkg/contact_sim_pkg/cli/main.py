@@ -147,11 +147,14 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _sentences(text: str) -> str:
-    """One sentence, or one a line, as they are printed: what was read from a file cannot move the cursor."""
+    """One sentence, with the indented lines below it, or one a line, as they are printed: what was
+    read from a file cannot move the cursor.
+    """
     from contact_sim_pkg.files import printable
 
     lines = [printable(line, longest=len(line)) for line in text.split("\n")]
-    return f"bench: {lines[0]}" if len(lines) == 1 else "\n".join(lines)
+    is_one = all(line.startswith("  ") for line in lines[1:])
+    return "bench: " * is_one + "\n".join(lines)
 
 
 def refusal(error: Exception) -> tuple[str, int] | None:

@@ -84,11 +84,11 @@ def command(
     from contact_sim_pkg.nodes.bag_replay import main
 
     recorded = open_bag(bag)
-    parameters: dict[str, str | float | bool] = {
-        "bag": str(bag), "rate": rate, "start_offset": start_offset, "start_message": start_message, "delay": delay,
-        "loop": loop, "clock": clock, "topics": ",".join(topics),
-    }  # fmt: skip
-    rules = [part for text in remapped for part in ("-r", _rule(text, recorded))]
+    parameters = parameters_of(
+        bag=bag, rate=rate, start_offset=start_offset, start_message=start_message, delay=delay, loop=loop, clock=clock,
+        topics=topics,
+    )  # fmt: skip
+    rules = [part for rule in rules_of(remapped, recorded) for part in ("-r", ":=".join(rule))]
     with RunDisplay(recorded.end * 1e-9, "waiting for the subscribers", "message") as display:
         status = main(
             ["bench", *node_arguments(parameters), *rules],
@@ -97,9 +97,18 @@ def command(
     context.exit(status)
 
 
-def _rule(text: str, bag: Bag) -> str:
-    """A remapping by the topic's full name; BagError where the bag has no such topic."""
+def parameters_of(*, bag: Path, topics: tuple[str, ...], **others: float | bool) -> dict[str, str | float | bool]:
+    """Parameters of the node for these options of the command."""
+    return {"bag": str(bag.absolute()), "topics": ",".join(topics), **others}
+
+
+def rules_of(remapped: tuple[str, ...], bag: Bag) -> list[tuple[str, str]]:
+    """Remappings by the topics' full names; BagError where the bag has no such topic."""
+    return [_rule(text, bag) for text in remapped]
+
+
+def _rule(text: str, bag: Bag) -> tuple[str, str]:
     old, sign, new = text.partition(":=")
     if not (sign and old and new):
         raise click.BadParameter(f"{text!r} is not OLD:=NEW, such as tire/force:=left/force", param_hint="--remap")
-    return f"{bag.topic(old).name}:={new}"
+    return bag.topic(old).name, new

@@ -49,16 +49,7 @@ def command(
     as_json: bool,
 ) -> None:
     """Run SCENE (a name or a YAML file), record it and report its outcome."""
-    if no_record and out is not None:
-        raise click.UsageError(f"--out {out} names a bag and --no-record writes none; leave one of them out")
-    if no_record and strict:
-        raise click.UsageError(
-            "--strict needs the estimates in the bag, and --no-record writes none; leave one of them out"
-        )
-    if no_record and check:
-        raise click.UsageError(
-            "--check compares the bag with a finer run and --no-record writes none; leave one of them out"
-        )
+    refuse_without_bag(no_record=no_record, out=out, strict=strict, check=check)
     from contact_sim_pkg.cli.run_scene import run_scene
 
     status = run_scene(
@@ -74,3 +65,17 @@ def command(
         strict=strict,
     )
     context.exit(status)
+
+
+def refuse_without_bag(*, no_record: bool, out: Path | None, strict: bool, check: bool) -> None:
+    """Raise UsageError for an option that needs the bag which `no_record` leaves out."""
+    if no_record and out is not None:
+        raise click.UsageError(f"--out {out} names a bag and --no-record writes none; leave one of them out")
+    if no_record and strict:
+        raise click.UsageError(
+            "--strict needs the estimates in the bag, and --no-record writes none; leave one of them out"
+        )
+    if no_record and check:
+        raise click.UsageError(
+            "--check compares the bag with a finer run and --no-record writes none; leave one of them out"
+        )

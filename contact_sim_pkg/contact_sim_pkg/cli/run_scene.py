@@ -21,6 +21,7 @@ from contact_sim_pkg.cli.output.outcome import describe, print_outcome, state_of
 from contact_sim_pkg.cli.output.progress import RunDisplay
 from contact_sim_pkg.cli.output.tables import print_json
 from contact_sim_pkg.cli.scene_options import SceneOptions
+from contact_sim_pkg.requirements import is_met
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -71,6 +72,35 @@ class RunEnd(NamedTuple):
     computes_on: bool = False  # a thread of this process that nothing can stop
 
 
+class PreparedRun(NamedTuple):
+    """A run that may start."""
+
+    scene: ResolvedScene
+    directory: Path | None  # of the bag; None: nothing is recorded
+    forecast: dict[str, Any]  # numbers of the rig before the run
+
+
+def prepare(
+    options: SceneOptions, *, out: Path | None, from_bag: Path | None, record: bool, allow_long: bool
+) -> PreparedRun:
+    """Resolve the scene and refuse whatever can be refused, before the first process or file.
+
+    Raises:
+        SceneError, BagError, ExcitationError: refused.
+    """
+    scene = options.resolve(from_bag)
+    if from_bag is not None:
+        from contact_sim_pkg.run.from_bag import cautions, refuse_other_scene
+
+        refuse_other_scene(from_bag, scene)
+        for line in cautions(from_bag):
+            print(line, file=sys.stderr)
+    directory = new_directory(out, scene.name) if record else None
+    _report_work(scene, allow_long)
+    _report_absent(scene)
+    return PreparedRun(scene, directory, _forecast(scene))
+
+
 def run_scene(
     options: SceneOptions,
     *,
@@ -90,18 +120,7 @@ def run_scene(
     Raises:
         SceneError, BagError, ExcitationError: refused; nothing was created.
     """
-    scene = options.resolve(from_bag)
-    if from_bag is not None:
-        from contact_sim_pkg.run.from_bag import cautions, refuse_other_scene
-
-        refuse_other_scene(from_bag, scene)
-        for line in cautions(from_bag):
-            print(line, file=sys.stderr)
-    # everything that can be refused comes before the first process or file
-    directory = new_directory(out, scene.name) if record else None
-    _report_work(scene, allow_long)
-    _report_absent(scene)
-    forecast = _forecast(scene)
+    scene, directory, forecast = prepare(options, out=out, from_bag=from_bag, record=record, allow_long=allow_long)
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
     with RunDisplay(scene.duration) as display:
         ended = run(scene, directory, from_bag, display)
@@ -264,8 +283,9 @@ def _run_on_nodes(
     import rclpy  # noqa: F401  # refused here, with the cure, where ROS is not there
     from contact_msgs_defs.msg import BenchProgress  # noqa: F401
 
-    if find_spec("numba") is None:  # which only the simulator's process imports
-        raise ModuleNotFoundError("No module named 'numba'", name="numba")
+    for name in ("numba", "rocket-fft"):  # which only the simulator's process imports
+        if find_spec(name.replace("-", "_")) is None or not is_met(name):
+            raise ModuleNotFoundError(f"No module named {name!r} of a version that fits", name=name)
     from contact_sim_pkg.nodes.processes.supervisor import Supervisor
 
     supervisor = Supervisor(scene, directory, from_bag=from_bag, clock=clock)

@@ -26,7 +26,7 @@ from contact_sim_pkg.compiled.linking import KernelLibrary, Overload
 
 __all__ = ["compiled_kernels", "compiler_of"]
 
-TESTED = ("0.68.",)
+TESTED = ("0.66.", "0.67.", "0.68.")
 """Versions of numba whose inside is known to fit."""
 
 Result = TypeVar("Result")

@@ -101,7 +101,7 @@ def test_the_command_takes_several_bags(seat, tmp_path):
     several = CliRunner().invoke(command, [folder, folder, "--out", str(tmp_path / "page.html")])
     *lines, last = several.output.splitlines()
     assert last == f"report: {tmp_path / 'page.html'}"
-    said = [line for line in lines if not line.startswith("report: comparing the bags")]  # progress
+    said = [line for line in lines if line and not line.startswith("report: ")]  # progress, of a slow machine
     assert said
     assert all("package_version (0.0-synthetic and " in line for line in said), "the bags are synthetic, and it is said"
     assert "comparison of 2 bags" in (tmp_path / "page.html").read_text(encoding="utf-8")

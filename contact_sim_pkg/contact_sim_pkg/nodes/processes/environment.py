@@ -15,6 +15,9 @@ DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
     "OPENBLAS_NUM_THREADS": "1",
     "RCUTILS_CONSOLE_OUTPUT_FORMAT": "{severity} {name}: {message}",
 }
+LAUNCHED_ENVIRONMENT = {  # the same without the format of the log, which `ros2 launch` leaves to the user
+    name: value for name, value in DEFAULT_ENVIRONMENT.items() if name != "RCUTILS_CONSOLE_OUTPUT_FORMAT"
+}
 
 
 def set_default_environment() -> None:
