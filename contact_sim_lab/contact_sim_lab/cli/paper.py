@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -144,12 +144,19 @@ def _figure(
             "values": values, "numbers": rows, "output": str(place),
         })  # fmt: skip
         return
-    shown = [
-        {key: value for key, value in row.items() if key != "relative" and not (key == "note" and not value)}
-        for row in rows
-    ]
+    shown = [_line(row) for row in rows]
     title = f"{paper.short}, figure {number}: {figure.title}"
     show_sections([Section(title, shown, f"{figure.kind}: {figure.judged_by}\ndrawn in {place}")])
+
+
+def _line(row: Mapping[str, Any]) -> dict[str, Any]:
+    """A number of a figure as a person reads it."""
+    values = {key: None if row[key] is None else f"{row[key]:.6g}" for key in ("expected", "obtained")}
+    allowed = f"{row['tolerance']:.2g}{' of it' if row['relative'] else ''}" if row["expected"] is not None else ""
+    return {
+        "quantity": row["quantity"], "unit": row["unit"], **values, "difference": row["difference"], "allowed": allowed,
+        "verdict": row["verdict"], "origin of the expected value": row["origin"], "note": row["note"],
+    }  # fmt: skip
 
 
 def _equation(paper: Paper, number: str, given: Sequence[str], as_json: bool) -> None:

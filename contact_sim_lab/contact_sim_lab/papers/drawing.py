@@ -29,9 +29,12 @@ def picture(draw: Callable[[Canvas], None], size: tuple[float, float], dots: int
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    canvas = Figure(figsize=size, layout="constrained")
-    FigureCanvasAgg(canvas)
-    draw(canvas)
+    from contact_sim_pkg.report.drawing import style
+
     buffer = io.BytesIO()
-    canvas.savefig(buffer, format="png", dpi=dots, metadata={"Software": MAKER})
+    with style():
+        canvas = Figure(figsize=size, layout="constrained", facecolor="white")
+        FigureCanvasAgg(canvas)
+        draw(canvas)
+        canvas.savefig(buffer, format="png", dpi=dots, facecolor="white", metadata={"Software": MAKER})
     return buffer.getvalue()
