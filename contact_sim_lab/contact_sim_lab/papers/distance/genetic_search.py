@@ -99,7 +99,9 @@ def _slsqp_distance(bodies: tuple[ConvexBody, ConvexBody], points: Field, size: 
     start = points.ravel()
 
     def room(unknowns: Field) -> Field:
-        return numpy.concatenate([-constraint_values(body, unknowns[3 * k : 3 * k + 3]) for k, body in enumerate(bodies)])
+        return numpy.concatenate(
+            [-constraint_values(body, unknowns[3 * k : 3 * k + 3]) for k, body in enumerate(bodies)]
+        )
 
     return scipy.optimize.minimize(
         lambda z: ((z[:3] - z[3:]) ** 2).sum() / size**2,

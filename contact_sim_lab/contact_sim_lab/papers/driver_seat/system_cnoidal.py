@@ -67,9 +67,9 @@ def cnoidal(path: Path | None, values: Values) -> SystemResult:
         *(_term(number, float(m), whole) for number, m in enumerate(whole.parameters, start=1)),
     ]  # fmt: skip
     note = (
-        f"period {1.0 / period.frequency:.6g} s at {period.frequency:.6g} Hz; it differs from the one before by {period.mismatch:.2g}"
-        " of its spread. residual: rms over the spread; of a term k: B of its one-phase theta function, difference of that wave"
-        " from its cn² form (A5)"
+        f"period {1.0 / period.frequency:.6g} s at {period.frequency:.6g} Hz; it differs from the one before by "
+        f"{period.mismatch:.2g} of its spread. residual: rms over the spread; of a term k: B of its one-phase theta function, difference of that "
+        "wave from its cn² form (A5)"
     )
     return SystemResult(rows, lambda canvas: _draw(canvas, period, (linear, whole), unit), note)
 

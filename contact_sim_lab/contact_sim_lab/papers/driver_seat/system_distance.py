@@ -136,7 +136,9 @@ def _overlap(first: ConvexBody, second: ConvexBody, seed: int) -> SystemResult:
     ]  # fmt: skip
     kind = "the penetration depth" if found.one_foot_each else "smaller than the penetration depth or of nested bodies"
     note = f"the bodies overlap: d is the diameter of the largest ball inside both (eq 2), here {kind}"
-    points = numpy.stack([found.point - 0.5 * found.depth * found.normal, found.point + 0.5 * found.depth * found.normal])
+    points = numpy.stack(
+        [found.point - 0.5 * found.depth * found.normal, found.point + 0.5 * found.depth * found.normal]
+    )
     return SystemResult(rows, lambda canvas: _draw(canvas, (first, second), points, found.depth), note, (8.0, 4.0))
 
 
@@ -168,7 +170,9 @@ def _draw(canvas: Canvas, bodies: tuple[ConvexBody, ConvexBody], points: Array, 
         place.plot([-0.5 * length, 0.5 * length], [0.0, 0.0], color="#333333", marker="o", markersize=4)
         if diameter > 0.0:
             turn = numpy.linspace(0.0, 2.0 * math.pi, 181)
-            place.plot(0.5 * diameter * numpy.cos(turn), 0.5 * diameter * numpy.sin(turn), color="#333333", linestyle=":")
+            place.plot(
+                0.5 * diameter * numpy.cos(turn), 0.5 * diameter * numpy.sin(turn), color="#333333", linestyle=":"
+            )
         place.set_aspect("equal")
         place.set_title(f"{name} plane through the line", fontsize=9)
         place.set_xlabel("along the line of the points, m")

@@ -23,7 +23,7 @@ Array = NDArray[numpy.float64]
 NAMES = ("m", "mc_x", "mc_y", "mc_z", "Ixx", "Iyy", "Izz", "Ixy", "Ixz", "Iyz")
 UNITS = ("kg", *["kg m"] * 3, *["kg m^2"] * 6)
 RANK = 1e-8  # of the largest singular value of the column-scaled regressor
-SHARE = 0.1  # of a direction that is not identified, above which a parameter is named
+SHARE = 0.1  # part of a parameter in what is not identified, above which it is named
 
 
 class BodyMotion(NamedTuple):
@@ -42,7 +42,7 @@ class InertiaFit(NamedTuple):
     parameters: Array  # [10]; of smallest scaled norm where the rank is lower
     deviations: Array  # [10] from what is left; infinite where not identified
     rank: int
-    hidden: list[list[str]]  # parameters of each direction that is not identified
+    hidden: list[str]  # parameters that are not identified, alone or together
     residual: float  # rms of what is left over the rms of the wrench
 
 
@@ -86,8 +86,9 @@ def batch(motion: BodyMotion) -> InertiaFit:
     spread = (directions[:rank].T / sizes[:rank]) * numpy.sqrt(float(rest @ rest) / freedom)
     deviations = numpy.linalg.norm(spread, axis=1) / scale
     missing = directions[rank:]
-    deviations[(numpy.abs(missing) > SHARE).any(axis=0)] = numpy.inf
-    hidden = [[name for name, part in zip(NAMES, row, strict=True) if abs(part) > SHARE] for row in missing]
+    lost = numpy.linalg.norm(missing, axis=0) > SHARE
+    deviations[lost] = numpy.inf
+    hidden = [name for name, is_lost in zip(NAMES, lost, strict=True) if is_lost]
     size = float(numpy.sqrt(numpy.mean(wrench**2)))
     residual = float(numpy.sqrt(numpy.mean(rest**2))) / size if size > 0.0 else 0.0
     return InertiaFit(scaled / scale, deviations, rank, hidden, residual)

@@ -75,7 +75,7 @@ def moments_of(matrices: list[Array], rights: list[Array]) -> Moments:
     rest = right - matrix @ values
     spread = numpy.linalg.norm(directions[:rank].T / singular[:rank], axis=1)
     deviations = spread * float(numpy.sqrt(rest @ rest / max(len(rest) - rank, 1)))
-    deviations[(numpy.abs(directions[rank:]) > SHARE).any(axis=0)] = numpy.inf
+    deviations[numpy.linalg.norm(directions[rank:], axis=0) > SHARE] = numpy.inf
     return Moments(values, deviations, rank, rest.reshape(-1, 3))
 
 
@@ -106,7 +106,14 @@ def _draw(canvas: Canvas, result: Moments) -> None:
     left.set_xlabel("principal axis")
     left.set_ylabel("I/m, m²")
     for place, (name, colour) in enumerate(zip("xyz", ("#136f96", "#e08a2e", "#6b6b66"), strict=True)):
-        right.plot(numpy.arange(1, len(result.left) + 1), result.left[:, place], color=colour, marker="o", markersize=4, label=name)
+        right.plot(
+            numpy.arange(1, len(result.left) + 1),
+            result.left[:, place],
+            color=colour,
+            marker="o",
+            markersize=4,
+            label=name,
+        )
     right.set_xlabel("impact")
     right.set_ylabel("left of its equation, over its moment")
     right.legend()

@@ -57,7 +57,8 @@ def inertia(path: Path | None, values: Values) -> SystemResult:
         for place, (name, unit) in enumerate(zip(NAMES, UNITS, strict=True))
     ]  # fmt: skip
     note = f"rank {found.rank} of 10 from {len(motion.spin)} samples; {found.residual:.2g} of the wrench is left"
-    note += "".join(f"\nnot identified: a combination of {', '.join(names)}" for names in found.hidden)
+    if found.hidden:
+        note += f"\nnot identified, alone or together: {', '.join(found.hidden)}"
     if found.rank == 10:
         scale = numpy.maximum(numpy.abs(found.parameters), found.deviations)
         note += f"; batch and recursive differ by {float(numpy.max(numpy.abs(last - found.parameters) / scale)):.2g} at most"
@@ -78,7 +79,11 @@ def _impossible(parameters: Array) -> str:
     pseudo = numpy.zeros((4, 4))
     pseudo[:3, :3] = 0.5 * numpy.trace(matrix) * numpy.eye(3) - matrix
     pseudo[:3, 3], pseudo[3, :3], pseudo[3, 3] = first, first, mass
-    return "" if numpy.linalg.eigvalsh(pseudo).min() > 0.0 else "\nno body has these parameters: a second moment is negative"
+    return (
+        ""
+        if numpy.linalg.eigvalsh(pseudo).min() > 0.0
+        else "\nno body has these parameters: a second moment is negative"
+    )
 
 
 def _motion_of_table(path: Path) -> BodyMotion:
@@ -97,7 +102,9 @@ def _motion_of_bag(bag: AnyBag) -> BodyMotion:
     time = _times(imu, force_time[0])
     inside = (time >= 0.0) & (time <= _seconds(force_time))
     if inside.sum() < FEWEST:
-        raise PaperError(f"{bag.path}: {int(inside.sum())} samples of {name} lie within the time of the wrench; {FEWEST} are needed")
+        raise PaperError(
+            f"{bag.path}: {int(inside.sum())} samples of {name} lie within the time of the wrench; {FEWEST} are needed"
+        )
     spin = vectors([message.angular_velocity for message in imu])
     rate = CubicSpline(time, spin).derivative()(time)
     if ACCEL in bag.topics.values():

@@ -46,16 +46,18 @@ def load_over_seeds(path: Path | None, values: Values) -> SystemResult:
     Raises PaperError for a scene without a tire on a road.
     """
     assert path is not None
-    found = loads_of(str(path), range(int(values["first"]), int(values["first"]) + int(values["seeds"])), float(values["duration"]))
+    found = loads_of(
+        str(path), range(int(values["first"]), int(values["first"]) + int(values["seeds"])), float(values["duration"])
+    )
     settled = found.time >= float(values["start"])
     if settled.sum() < 2:
         raise PaperError(f"start {values['start']:g} s: the runs end at {found.time[-1]:.6g} s; give an earlier one")
     loads = found.loads[:, settled]
-    of_each = loads.std(axis=1)
+    of_each, over_seeds = loads.std(axis=1), found.spread[settled]
     grand = float(loads.mean())
     rows = [
         {"quantity": "mean load", "value": grand, "unit": "N"},
-        {"quantity": "spread over the seeds, rms over time", "value": float(numpy.sqrt((found.spread[settled] ** 2).mean())), "unit": "N"},
+        {"quantity": "spread over the seeds, rms over time", "value": float(numpy.sqrt((over_seeds**2).mean())), "unit": "N"},
         {"quantity": "of the mean load of a run", "value": float(loads.mean(axis=1).std(ddof=1)), "unit": "N"},
         {"quantity": "dynamic load coefficient of a run, mean", "value": float(of_each.mean()) / grand, "unit": ""},
         {"quantity": "its spread over the seeds", "value": float(of_each.std(ddof=1)) / grand, "unit": ""},
@@ -72,7 +74,9 @@ def loads_of(scene: str, seeds: range, duration: float = 0.0) -> LoadOverSeeds:
         values = (f"seed={seed}", *((f"duration={duration!r}",) if duration > 0.0 else ()))
         resolved = load_scene(scene, *values)
         if resolved.rig not in ("tire", "car"):
-            raise PaperError(f"scene {resolved.name}: rig {resolved.rig} has no wheel on a road; rig tire or car is needed")
+            raise PaperError(
+                f"scene {resolved.name}: rig {resolved.rig} has no wheel on a road; rig tire or car is needed"
+            )
         force = series(run(resolved), TOPIC)
         load = numpy.asarray(force["normal"], float)
         if "impulses" in force.columns:
@@ -87,7 +91,9 @@ def _draw(canvas: Canvas, found: LoadOverSeeds) -> None:
     axes = canvas.subplots()
     mean, spread = found.mean, found.spread
     axes.plot(found.time, found.loads.T, color="#9a9a96", linewidth=0.3, alpha=0.6)
-    axes.fill_between(found.time, mean - spread, mean + spread, color="#136f96", alpha=0.3, linewidth=0.0, label="mean ± spread")
+    axes.fill_between(
+        found.time, mean - spread, mean + spread, color="#136f96", alpha=0.3, linewidth=0.0, label="mean ± spread"
+    )
     axes.plot(found.time, mean, color="#136f96", label=f"mean of {len(found.loads)} seeds")
     axes.set_xlabel("simulated time, s")
     axes.set_ylabel("F_z, N")

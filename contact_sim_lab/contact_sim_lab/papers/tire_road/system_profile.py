@@ -93,14 +93,16 @@ def _outline(table: dict[str, Array], values: Values) -> SystemResult:
     modulus, load = float(values["modulus"]), float(values["load"])
     fit = fit_points(numpy.stack([table["x"], table["y"]], axis=1))
     if not fit.fitted:
-        raise LamePressureError(f"{len(table['x'])} points, fewer than {FEWEST} of them around the contact, fix no Lamé curve")
+        raise LamePressureError(
+            f"{len(table['x'])} points, fewer than {FEWEST} of them around the contact, fix no Lamé curve"
+        )
     ansatz = ansatz_on_domain(fit.a, fit.b, fit.exponent, modulus, load)
     ellipse = equivalent_ellipse(fit.a, fit.b, fit.exponent, modulus, load)
     rows = [_row("Lamé ansatz p₀ √(1 − ρⁿ)", ansatz), _row("equivalent ellipse of Hertz", ellipse)]
     note = (
         f"Lamé curve of the outline: a {fit.a:.6g} m, b {fit.b:.6g} m, n {fit.exponent:.4g}, area "
-        f"{lame_area(fit.a, fit.b, fit.exponent):.6g} m², rms deviation {fit.deviation:.2g} of the radius. For n above 2 the largest "
-        "pressure lies near the edge, the ansatz is up to 60 % high in the centre and 15 % low in the approach"
+        f"{lame_area(fit.a, fit.b, fit.exponent):.6g} m², rms deviation {fit.deviation:.2g} of the radius. For n above 2 the "
+        "largest pressure lies near the edge, the ansatz is up to 60 % high in the centre and 15 % low in the approach"
     )
     return SystemResult(rows, lambda canvas: _draw_outline(canvas, table, fit, (ansatz, ellipse)), note)
 
