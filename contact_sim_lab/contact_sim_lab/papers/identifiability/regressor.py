@@ -97,17 +97,17 @@ def batch(motion: BodyMotion) -> InertiaFit:
 def recursive(motion: BodyMotion) -> Array:
     """Parameters after each sample [samples, 10], forgetting factor 1; NaN until all ten are identified.
 
-    The triangle of all samples so far takes each new one by a QR of eleven to seventeen rows: the recursive
-    least squares in the square root of the information, which needs no start.
+    The triangle of all samples so far takes each new one by a QR of sixteen rows: the recursive least
+    squares in the square root of the information, which needs no start. The scale of the columns serves the rank alone.
     """
     phi, wrench = regressor(motion), _wrench(motion).reshape(-1, 6)
     scale = numpy.linalg.norm(phi.reshape(-1, 10), axis=0)
     scale[scale == 0.0] = 1.0
-    rows = numpy.zeros((10, 11))
+    rows: Array = numpy.zeros((10, 11))
     found = numpy.full((len(phi), 10), numpy.nan)
     for place, (matrix, right) in enumerate(zip(phi / scale, wrench, strict=True)):
         stacked = numpy.vstack([rows, numpy.column_stack([matrix, right])])
-        rows = numpy.linalg.qr(stacked, mode="r")[:10]
+        rows = numpy.asarray(numpy.linalg.qr(stacked, mode="r"))[:10]
         sizes = numpy.abs(numpy.diag(rows))
         if sizes.min() > RANK * sizes.max():
             found[place] = scipy.linalg.solve_triangular(rows[:, :10], rows[:, 10]) / scale
@@ -120,7 +120,7 @@ def _wrench(motion: BodyMotion) -> Array:
 
 def _reduced(phi: Array, wrench: Array) -> tuple[Array, Array]:
     """Triangle [10, 10] of a QR and the right side [10] that belongs to it."""
-    rows = numpy.linalg.qr(numpy.column_stack([phi, wrench]), mode="r")
+    rows = numpy.asarray(numpy.linalg.qr(numpy.column_stack([phi, wrench]), mode="r"))
     square = numpy.zeros((10, 11))
     square[: min(10, len(rows))] = rows[:10]
     return square[:, :10], square[:, 10]

@@ -80,7 +80,7 @@ def _draw_tip(canvas: Canvas, table: dict[str, Array], shape: SlopeProfile, modu
     left.set_ylabel("height of the tip, mm")
     for share, radius in zip(LOADS, radii, strict=True):
         # The centre of a pointed tip has no finite pressure.
-        r = radius * numpy.linspace(1e-3, 1.0, PLACES)
+        r: Array = radius * numpy.linspace(1e-3, 1.0, PLACES, dtype=numpy.float64)
         right.plot(r * 1e3, pressure(shape, modulus, radius, r) * 1e-3, label=f"{share:g} of the load", alpha=0.4 + 0.6 * share,
                    color="#136f96")  # fmt: skip
         left.axvline(radius * 1e3, color="#136f96", alpha=0.4 + 0.6 * share, linewidth=0.8)
@@ -126,7 +126,7 @@ def _draw_outline(
     left.set_ylabel("y, mm")
     left.legend()
     for contact, colour, name in zip(contacts, ("#136f96", "#e08a2e"), ("Lamé ansatz", "ellipse"), strict=True):
-        along = contact.a * numpy.linspace(-1.0, 1.0, PLACES)
+        along: Array = contact.a * numpy.linspace(-1.0, 1.0, PLACES, dtype=numpy.float64)
         right.plot(along * 1e3, lame_pressure(contact, along, numpy.zeros(1)) * 1e-3, color=colour, label=name)
     right.set_xlabel("x from the centre, mm")
     right.set_ylabel("pressure, kPa")
