@@ -14,13 +14,13 @@ from contact_sim_pkg.library import Series, load_scene, run, series
 __all__ = ["at", "bag_of", "series_of"]
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def bag_of(scene: str, *values: str) -> Bag:
     """The bag of an offline run of a shipped scene, with ``values`` such as ``"duration=0.5"`` set."""
     return run(load_scene(scene, *values))
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=64)
 def series_of(topic: str, scene: str, *values: str) -> Series:
     """A topic of `bag_of`, one row a sample."""
     return series(bag_of(scene, *values), topic)

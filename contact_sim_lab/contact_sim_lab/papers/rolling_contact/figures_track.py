@@ -150,7 +150,7 @@ def _figure_3(values: Values) -> Drawn:
                 travelled[part] - turn * CIRCUMFERENCE * 1e3, place[last][part] * 1e6, label=f"turn {turn - turns + 1}"
             )
         upper.set(xlabel="along the track, mm", ylabel="x_c, 10⁻⁶ m")
-        upper.legend(ncols=turns, fontsize=7)
+        upper.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=7)
         lower.semilogy(middles, amplitude * 1e6, "o", markersize=3, label="bench")
         lower.semilogy(
             middles, 1e6 * amplitude[0] * numpy.exp(growing.real * (middles - middles[0])), "k:", label="theory"
