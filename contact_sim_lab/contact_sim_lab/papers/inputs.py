@@ -47,7 +47,7 @@ def read_table(path: Path, *choices: Sequence[str], fewest: int = 1) -> dict[str
     if len(rows) - 1 < fewest:
         raise PaperError(f"{path}: {len(rows) - 1} rows of numbers, at least {fewest} are needed")
     places = {name: names.index(name) for name in columns}
-    found = {name: numpy.empty(len(rows) - 1) for name in columns}
+    found: dict[str, Array] = {name: numpy.empty(len(rows) - 1) for name in columns}
     for row, (number, cells) in enumerate(rows[1:]):
         for name, place in places.items():
             found[name][row] = _number(cells[place] if place < len(cells) else "", f"{path}, line {number}: {name}")

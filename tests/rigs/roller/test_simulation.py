@@ -176,7 +176,7 @@ def test_the_motion_follows_a_slow_bending_load_and_its_ledger_closes():
     heavy = ("roller.damping_tilt=2e-2", "roller.damping_yaw=2e-2", "roller.tilt=0", "roller.load=100")
     off = ("effects.roller.gyroscope=null", "effects.roller.rolling_friction=null")
     rows = ("roller.programme={time: [0.0, 1.0], bending_load: [0, 100]}", "effects.roller.shaft_bending={}")
-    scene, messages = run("roller_flutter", "duration=1.0", *heavy, *off, *rows)
+    _scene, messages = run("roller_flutter", "duration=1.0", *heavy, *off, *rows)
     contact = of(messages, RollerContact)[-1]
     radius, second = 0.005, 0.25 * math.pi * 0.005**4
     pull = 0.1 * 100.0 * math.pi * contact.along_x[-1] * contact.along_y[-1] * (radius - contact.approach[-1]) / second

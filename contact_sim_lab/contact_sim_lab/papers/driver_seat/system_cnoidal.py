@@ -9,8 +9,9 @@ form.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
@@ -59,7 +60,7 @@ def cnoidal(path: Path | None, values: Values) -> SystemResult:
     except ValueError as error:
         raise PaperError(f"{path}: {error}") from None
     harmonics = (whole.unknowns - 1) // 2
-    rows = [
+    rows: list[Mapping[str, Any]] = [
         {"fit": "S_lin, cn² alone (eq 13)", "unknowns": linear.unknowns, "residual": linear.residual},
         {"fit": "S, with the quotient (A6)", "unknowns": whole.unknowns, "residual": whole.residual},
         {"fit": f"mean and {harmonics} harmonics", "unknowns": 1 + 2 * harmonics,
@@ -67,9 +68,9 @@ def cnoidal(path: Path | None, values: Values) -> SystemResult:
         *(_term(number, float(m), whole) for number, m in enumerate(whole.parameters, start=1)),
     ]  # fmt: skip
     note = (
-        f"period {1.0 / period.frequency:.6g} s at {period.frequency:.6g} Hz; it differs from the one before by {period.mismatch:.2g}"
-        " of its spread. residual: rms over the spread; of a term k: B of its one-phase theta function, difference of that wave"
-        " from its cn² form (A5)"
+        f"period {1.0 / period.frequency:.6g} s at {period.frequency:.6g} Hz; it differs from the one before by "
+        f"{period.mismatch:.2g} of its spread. residual: rms over the spread; of a term k: B of its one-phase theta function, "
+        "difference of that wave from its cn² form (A5)"
     )
     return SystemResult(rows, lambda canvas: _draw(canvas, period, (linear, whole), unit), note)
 

@@ -109,7 +109,7 @@ def rotation_about(turn: Array) -> Array:
 def _apart(first: ConvexBody, second: ConvexBody, closest: Closest, seed: int) -> SystemResult:
     alone = genetic_distance(first, second, seed, polish=False)
     polished = genetic_distance(first, second, seed)
-    rows = [
+    rows: list[Mapping[str, Any]] = [
         {"by": "genetic search", "distance_m": alone.value, "residual": alone.residual, "evaluations": alone.evaluations,
          **_places(alone.points)},
         {"by": "SLSQP from its point", "distance_m": polished.value, "residual": polished.residual,
@@ -128,7 +128,7 @@ def _overlap(first: ConvexBody, second: ConvexBody, seed: int) -> SystemResult:
     except ValueError as error:
         raise PaperError(str(error)) from None
     searched = genetic_interference(first, second, seed)
-    rows = [
+    rows: list[Mapping[str, Any]] = [
         {"by": "genetic search, Nelder and Mead from its point", "interference_m": searched.value,
          "residual": searched.residual, **_place("centre", searched.points[0])},
         {"by": "largest ball inside both", "interference_m": found.depth, "residual": found.residual,
