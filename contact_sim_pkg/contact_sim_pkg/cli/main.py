@@ -37,6 +37,7 @@ LABORATORY = {  # the same, in contact_sim_lab.cli
     "validation": "validation",
     "goals": "goals",
     "growth": "goals:growth_command",
+    "paper": "paper",
 }
 ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share the cores; the same bits without nodes
 

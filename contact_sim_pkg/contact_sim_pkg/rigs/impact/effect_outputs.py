@@ -127,6 +127,8 @@ def history_of(model: ImpactModel, effect: History, block: int, impact: Finished
     tangent = max(material.loss_tangent, 1.0e-12)
     if effect.model == "kelvin_voigt":
         law = creep.kelvin_voigt(modulus, retardation_time(frequency, tangent))
+    elif effect.model == "standard_solid":
+        law = creep.standard_solid_at(modulus, tangent, frequency, effect.instant_ratio)
     else:
         stiff = modulus * (1.0 + tangent**2)
         law = creep.maxwell(stiff, stiff * maxwell_time(frequency, tangent))

@@ -57,6 +57,9 @@ def _short(scene: ResolvedScene, limit: float, lengths: str) -> str:
         shortest = road.shortest_wavelength if road.texture is None else road.texture.shortest_wavelength
         noticed = shortest < limit and _height(road, shortest, limit) > least
         return f"the road has waves of {shortest:g} m, shorter than {lengths}" if noticed else ""
+    if road.kind == "self_affine":
+        noticed = road.shortest_wavelength < limit and road.rms > least
+        return f"the road has waves of {road.shortest_wavelength:g} m, shorter than {lengths}" if noticed else ""
     height = abs(road.depth if road.kind == "pothole" else road.height)
     if height <= least or not _reached(scene, road):
         return ""
