@@ -72,7 +72,7 @@ def _closures(found: dict[str, Module]) -> list[Measure]:
     """Lines of code that are carried with something."""
     frame = closure(found, FRAME)
     rigs = {
-        name: code_of(found, closure(found, (*FRAME, *closure(found, [f"rigs.{name}"]))))
+        name: code_of(found, closure(found, (*FRAME, f"rigs.{name}")))
         for name in ("vehicle", "body", "backrest", "impact", "roller")
     }
     others = [rigs[name] for name in ("backrest", "impact", "roller")]
