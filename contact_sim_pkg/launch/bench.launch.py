@@ -15,8 +15,8 @@ from launch.events.process import ProcessExited
 from launch.substitutions import EnvironmentVariable, LaunchConfiguration
 from launch_ros.actions import Node
 
-from contact_sim_pkg.bag.mcap.unfinished import leave_metadata
 from contact_sim_pkg.bag.names import new_directory
+from contact_sim_pkg.bag.unfinished import leave_metadata
 from contact_sim_pkg.nodes.processes.children import how_ended
 from contact_sim_pkg.nodes.processes.environment import plugin_environment
 from contact_sim_pkg.nodes.processes.run_folder import RunFolder

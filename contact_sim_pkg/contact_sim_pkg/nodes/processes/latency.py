@@ -24,7 +24,7 @@ from rclpy.node import Node
 from contact_sim_pkg.bag.messages import stamp_of
 from contact_sim_pkg.nodes.processes.environment import set_default_environment
 from contact_sim_pkg.nodes.processes.process import handle_messages, make_executor
-from contact_sim_pkg.nodes.processes.scene_file import block_length_ns, queue_depth
+from contact_sim_pkg.nodes.processes.scene_file import queue_depth
 from contact_sim_pkg.nodes.protocol.endpoints import informed_subscription, raise_kept
 from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.run.bag_content import input_names, result_names
@@ -97,7 +97,7 @@ def measure(name: str, seconds: float) -> dict[str, float]:
 def _follow(node: Node, scene: ResolvedScene, process: subprocess.Popen[str]) -> Latencies:
     """Follow a run that is under way until its process has ended."""
     forces = [topic for topic in result_names(scene) if topic.endswith("/force")]
-    latencies = Latencies(block_length_ns(scene), len(forces))
+    latencies = Latencies(scene.block_length_ns, len(forces))
     executor = make_executor()
     executor.add_node(node)
     followed = [(topic, latencies.on_input) for topic in input_names(scene)]
