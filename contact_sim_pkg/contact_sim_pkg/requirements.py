@@ -18,7 +18,7 @@ def package_sentence(error: BaseException) -> str:
     a version that the bench needs; empty for any other error.
     """
     if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in ROS:
-        return f"{error.name} cannot be imported; source ros2_ws/setup.bash, or run with --offline, which needs no ROS"
+        return f"{error.name} cannot be imported; source ros2_ws/setup.bash (`bench run --offline` needs no ROS)"
     foreign = not type(error).__module__.startswith("contact_sim_pkg")
     if unmet := _unmet() if isinstance(error, (ImportError, *OF_ANOTHER_VERSION)) and foreign else []:
         found = ", ".join(f"{name} is {here or 'missing'}, {bounds} is needed" for name, here, bounds in unmet)

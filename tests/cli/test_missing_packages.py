@@ -44,7 +44,7 @@ def run(folder, program, *arguments):
         ("rosbags", (*SHORT, "--offline"), "rosbags"),
         ("rosbags", ("report", "bag"), "rosbags"),
         ("pydantic", ("list",), "pydantic"),
-        ("rclpy", SHORT, "rclpy cannot be imported; source ros2_ws/setup.bash, or run with --offline"),
+        ("rclpy", SHORT, "rclpy cannot be imported; source ros2_ws/setup.bash (`bench run --offline` needs no ROS)"),
         ("rclpy", ("replay", "bag"), "rclpy cannot be imported; source ros2_ws/setup.bash"),
         ("contact_msgs_defs", SHORT, "contact_msgs_defs cannot be imported; source ros2_ws/setup.bash"),
     ],
@@ -63,7 +63,7 @@ def test_a_node_after_plain_pip_names_what_it_lacks(tmp_path, node):
     (tmp_path / "sitecustomize.py").write_text(ABSENT.format(name="rclpy"))
     said = run(tmp_path, START, node)
     assert said == (
-        f"{node}: rclpy cannot be imported; source ros2_ws/setup.bash, or run with --offline, which needs no ROS\n"
+        f"{node}: rclpy cannot be imported; source ros2_ws/setup.bash (`bench run --offline` needs no ROS)\n"
     )
 
 

@@ -73,7 +73,7 @@ class LazyGroup(click.Group):
 
 
 def _of_laboratory(name: str) -> click.Command:
-    """A command of the laboratory; without it one that names what to install."""
+    """A command of the laboratory; without it one that names what to install, as its help does."""
     from contact_sim_pkg.cli.laboratory import laboratory
 
     module, _, command = LABORATORY[name].partition(":")
@@ -82,8 +82,12 @@ def _of_laboratory(name: str) -> click.Command:
     except click.UsageError as error:
         refusal_of_it = error
 
-        @click.command(name, short_help="Of the laboratory, which is not installed.", add_help_option=False,
-                       context_settings={"ignore_unknown_options": True, "allow_extra_args": True})  # fmt: skip
+        @click.command(
+            name,
+            help=f"{error.message}.",
+            short_help="Of the laboratory, which is not installed.",
+            context_settings={"ignore_unknown_options": True, "allow_extra_args": True},
+        )
         def absent() -> None:
             raise refusal_of_it
 
