@@ -16,6 +16,8 @@ __all__ = ["Column", "Map", "Table", "stamp_of", "table_of"]
 
 PERIODS = ("sample_period", "period")
 """Fields that hold the time between the samples of a message."""
+UNITS_OF_NAMES = "units"
+"""Field with a unit for each name."""
 UNITS = {
     "force": "N", "torque": "N m", "linear_acceleration": "m/s^2", "angular_velocity": "rad/s", "accel.linear": "m/s^2",
     "accel.angular": "rad/s^2", "twist.linear": "m/s", "twist.angular": "rad/s",
@@ -97,7 +99,7 @@ def _sorted(fields: list[Field]) -> _Fields:
     arrays = [
         field
         for field in plain
-        if field.is_array and field not in two and not (field.name in texts and field.name in sizes)
+        if field.is_array and field not in two and not (field.name in texts and field.name in {*sizes, UNITS_OF_NAMES})
     ]
     scalars = [field for field in plain if not field.is_array and field.name not in (*PERIODS, "samples")]
     return _Fields(scalars, arrays, named, [field for field in two if field not in named])
@@ -136,9 +138,10 @@ def _columns(bag: Bag, topic: str, fields: _Fields) -> list[Column]:
         )
     for field in fields.named:
         names = [str(each) for each in getattr(messages[0], field.shape[0])]
+        units = getattr(messages[0], UNITS_OF_NAMES, [field.unit] * len(names))
         parts = [np.reshape(getattr(each, field.name), (len(names), -1)) for each in messages]
-        for place, name in enumerate(names):
-            found.append(Column(f"{field.name}.{name}", field.unit, _filled([part[place] for part in parts], counts)))
+        for place, (name, unit) in enumerate(zip(names, units, strict=True)):
+            found.append(Column(f"{field.name}.{name}", str(unit), _filled([part[place] for part in parts], counts)))
     return found
 
 
