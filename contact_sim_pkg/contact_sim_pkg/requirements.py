@@ -8,7 +8,16 @@ from itertools import zip_longest
 
 __all__ = ["package_sentence"]
 
-ROS = ("rclpy", "contact_msgs_defs", "rcl_interfaces", "std_msgs", "std_srvs", "diagnostic_msgs", "rosgraph_msgs")
+ROS = (
+    "rclpy",
+    "_rclpy_pybind11",
+    "contact_msgs_defs",
+    "rcl_interfaces",
+    "std_msgs",
+    "std_srvs",
+    "diagnostic_msgs",
+    "rosgraph_msgs",
+)
 OF_ANOTHER_VERSION = (AttributeError, TypeError, NameError, RuntimeError)  # what its use may end in
 _REQUIREMENT = re.compile(r"(?P<name>[\w.-]+)(?P<bounds>[^;]*)(?P<marker>;.*)?")
 

@@ -20,6 +20,7 @@ def alone(monkeypatch):
 def test_its_commands_name_what_to_install(alone, capsys, arguments):
     assert main(arguments) == 2
     said = capsys.readouterr().err
+    assert said.count("\n") == 1
     assert "which is not installed: pip install ./contact_sim_lab_that_is_not_there" in said
     assert f"bench {arguments[0]}" in said
 

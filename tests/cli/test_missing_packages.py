@@ -67,6 +67,11 @@ def test_a_node_after_plain_pip_names_what_it_lacks(tmp_path, node):
     )
 
 
+def test_ros_that_is_there_but_not_sourced_has_the_same_cure():
+    error = ImportError("librcl_action.so: cannot open shared object file", name="_rclpy_pybind11")
+    assert "source ros2_ws/setup.bash" in package_sentence(error)
+
+
 @pytest.mark.parametrize("content", ["BaseModel = object\n", "from pydantic_core import nothing_of_that_name\n"])
 def test_an_old_pydantic_is_named_with_the_versions_that_do(tmp_path, content):
     (tmp_path / "pydantic.py").write_text(content)

@@ -74,12 +74,12 @@ class LazyGroup(click.Group):
 
 def _of_laboratory(name: str) -> click.Command:
     """A command of the laboratory; without it one that names what to install, as its help does."""
-    from contact_sim_pkg.cli.laboratory import laboratory
+    from contact_sim_pkg.cli.laboratory import AbsentError, laboratory
 
     module, _, command = LABORATORY[name].partition(":")
     try:
         found: click.Command = getattr(laboratory(f"cli.{module}", f"bench {name}"), command or "command")
-    except click.UsageError as error:
+    except AbsentError as error:
         refusal_of_it = error
 
         @click.command(

@@ -41,7 +41,7 @@ class ClosedBag(NamedTuple):
         return bool(self.lacking) or not self.summary.complete
 
 
-class Recording:
+class BagRecording:
     """Messages of a run in canonical order, and the bag that they are written to."""
 
     def __init__(self, path: Path, scene: ResolvedScene, block_length_ns: int) -> None:
