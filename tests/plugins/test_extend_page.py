@@ -30,7 +30,7 @@ EXAMPLE = ROOT / "examples/plugin_rig"
 BLOCKS = [
     textwrap.dedent(text)
     for text in re.findall(
-        r"^ *```python\n(.*?)^ *```", (ROOT / "docs/extend.md").read_text(), re.DOTALL | re.MULTILINE
+        r"^ *```(?:python|text)\n(.*?)^ *```", (ROOT / "docs/extend.md").read_text(), re.DOTALL | re.MULTILINE
     )
 ]
 RECORDS = (Rig, Contact, Effect, ContactTopic, RigStudies, HardCase, Output, BlockResult)
