@@ -17,7 +17,6 @@ import numpy
 
 from contact_sim_lab.nodes.outside import follow_run
 from contact_sim_pkg.bag.messages import stamp_of
-from contact_sim_pkg.nodes.processes.scene_file import block_length_ns
 from contact_sim_pkg.run.bag_content import input_names, result_names
 from contact_sim_pkg.scene.resolve import load_resolved
 
@@ -58,7 +57,7 @@ def measure(name: str, seconds: float) -> dict[str, float]:
     """Figures of a run of the scene over this simulated time, [s]; ValueError where it fails."""
     scene = load_resolved(name)
     forces = [topic for topic in result_names(scene) if topic.endswith("/force")]
-    latencies = Latencies(block_length_ns(scene), len(forces))
+    latencies = Latencies(scene.block_length_ns, len(forces))
     callbacks = dict.fromkeys(input_names(scene), latencies.on_input) | dict.fromkeys(forces, latencies.on_force)
     follow_run(name, scene, ("--duration", str(seconds), "--pace", "realtime"), callbacks)
     return latencies.figures()

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 
 from contact_sim_lab.nodes.outside import follow_run
 from contact_sim_pkg.bag.messages import decode, stamp_of
-from contact_sim_pkg.nodes.processes.scene_file import block_length_ns
 from contact_sim_pkg.nodes.protocol.window import AHEAD
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 from contact_sim_pkg.run.bag_content import input_names
@@ -110,7 +109,7 @@ def _simulator_of(supervisor: int) -> int:
 def trace(name: str) -> tuple[Events, Schedule]:
     """Events and schedule of a run of a scene at full speed; ValueError where it fails."""
     scene = load_resolved(name)
-    events = Events(block_length_ns(scene))
+    events = Events(scene.block_length_ns)
     callbacks = dict.fromkeys(input_names(scene), events.on_input)
     callbacks |= {"bench/progress": events.on_progress, "bench/recorded": events.on_recorded}
     samplers = list[_Sampler]()
