@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["SEAT_EFFECTS"]
 
+LOOK_SECONDS = 0.005  # between two looks at a recording, which a seat follows up to some 20 Hz
 NOTICED = 1.0 / 3.0
 """Fore-aft acceleration over gravity, in requested accuracies, from which on friction may carry it."""
 
@@ -27,25 +28,28 @@ def _friction(scene: ResolvedScene) -> str:
 
 
 def _fore_aft(scene: ResolvedScene) -> float:
-    """Fore-aft acceleration [m/s^2] of the floor: amplitude, rms of noise, peak of a recording. None
-    in a recording that cannot be read: the run refuses it, or has its blocks from a bag.
+    """Fore-aft acceleration [m/s^2] of the floor during the run: amplitude, rms of noise, peak of a
+    recording. None in a recording that cannot be read: the run refuses it, or has its blocks from a
+    bag.
     """
     vibration = scene.vibration
     if vibration is None:
         return 0.0
     if vibration.kind == "recorded":
+        import numpy
+
         from contact_sim_pkg.excitation.errors import ExcitationError
         from contact_sim_pkg.run.sources import make_vibration
         from contact_sim_pkg.scene.errors import SceneError
 
         try:
-            axes = make_vibration(scene).describe()["axes"]
+            forward, _up = make_vibration(scene).signal.acceleration(numpy.arange(0.0, scene.duration, LOOK_SECONDS))
         except (ExcitationError, SceneError):
             return 0.0
-        return float(axes["x"]["peak_m_per_s2"]) if "x" in axes else 0.0
+        return float(numpy.abs(forward).max())
     if vibration.axis != "x":
         return 0.0
-    return vibration.rms if vibration.kind == "noise" else vibration.amplitude
+    return abs(vibration.rms if vibration.kind == "noise" else vibration.amplitude)
 
 
 _SCHEMA, _LAWS = f"{__package__}.schema", "contact_sim_pkg.scene.schema.laws"

@@ -49,7 +49,7 @@ def _short(scene: ResolvedScene, limit: float, lengths: str) -> str:
     from contact_sim_pkg.scene.schema.accuracy import requested
 
     road, least = scene.road, NOTICED * requested(scene.accuracy) * APPROACH
-    if road is None or road.kind == "flat":
+    if road is None or road.kind == "flat" or not _way(scene):
         return ""
     if road.kind == "opencrg":
         return f"a measured road holds waves below {lengths}"
@@ -76,6 +76,14 @@ def _short(scene: ResolvedScene, limit: float, lengths: str) -> str:
     if road.kind == "bump" and RADIUS * 0.5 * height * (2.0 * math.pi / length) ** 2 > 1.0:
         return f"the bump of {length:g} m is {height:g} m high: it curves more sharply than the wheel"
     return ""
+
+
+def _way(scene: ResolvedScene) -> float:
+    """Way [m] of the wheel over the road during the run."""
+    from contact_sim_pkg.run.sources import make_travel
+
+    first, last = make_travel(scene).extent(0.0, scene.duration)
+    return last - first
 
 
 def _reached(scene: ResolvedScene, road: Any) -> bool:
