@@ -43,7 +43,9 @@ def _fore_aft(scene: ResolvedScene) -> float:
         from contact_sim_pkg.scene.errors import SceneError
 
         try:
-            forward, _up = make_vibration(scene).signal.acceleration(numpy.arange(0.0, scene.duration, LOOK_SECONDS))
+            forward, _up = make_vibration(scene).signal.acceleration(
+                numpy.arange(0.0, scene.duration, LOOK_SECONDS, dtype=numpy.float64)
+            )
         except (ExcitationError, SceneError):
             return 0.0
         return float(numpy.abs(forward).max())
