@@ -169,7 +169,14 @@ def _field(found: re.Match[str], comment: str) -> Field:
     default: Any = None if given is None else float(given) if found["type"].startswith("float") else int(given)
     sides = tuple((shape[1] or shape[2]).split(" x ")) if shape else ()
     return Field(
-        found["name"], found["type"], bool(found["array"]), default, sides, "empty without" in comment, comment, kind
+        found["name"],
+        found["type"],
+        is_array=bool(found["array"]),
+        default=default,
+        shape=sides,
+        may_be_empty="empty without" in comment,
+        comment=comment,
+        kind=kind,
     )
 
 

@@ -48,8 +48,8 @@ class Maker(NamedTuple):
             band, reason, words = found.band, found.reason, found.word(value)
         said = "; ".join(filter(None, (words, reason if reason != "no band" else "", remark)))
         return Metric(
-            f"{self.prefix}.{key}", name, float(value), unit, judged(value, band), band, said, broken, float(spread),
-            count, topic or self.topic, self.window,
+            f"{self.prefix}.{key}", name, float(value), unit, judged(value, band), band, remark=said, broken=broken,
+            spread=float(spread), size=count, topic=topic or self.topic, window=self.window,
         )  # fmt: skip
 
 

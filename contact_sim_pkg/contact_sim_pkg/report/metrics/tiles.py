@@ -53,10 +53,11 @@ def _tile(metric: Metric, footnote: int) -> Tile:
     band = metric.band
     defined = math.isfinite(metric.value)
     return Tile(
-        metric.name, number(metric.value) if defined else "–", _printed(metric.unit) if defined else "",
-        number(metric.spread) if math.isfinite(metric.spread) else "",
-        verdict_text(metric), metric.verdict.replace(" ", "-"),
-        "" if band is None else f"{band.text} {_printed(metric.unit)}".rstrip(), metric.remark, bool(metric.broken), footnote,
+        label=metric.name, value=number(metric.value) if defined else "–", unit=_printed(metric.unit) if defined else "",
+        spread=number(metric.spread) if math.isfinite(metric.spread) else "",
+        verdict=verdict_text(metric), tone=metric.verdict.replace(" ", "-"),
+        band="" if band is None else f"{band.text} {_printed(metric.unit)}".rstrip(), remark=metric.remark,
+        doubtful=bool(metric.broken), footnote=footnote,
     )  # fmt: skip
 
 

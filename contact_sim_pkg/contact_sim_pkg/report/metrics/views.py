@@ -109,8 +109,9 @@ def metric_of(row: Mapping[str, Any]) -> Metric:
         band = Band(low, high, row["kind"], row["source"], row["conditions"])
     value, spread = (math.nan if row[name] is None else row[name] for name in ("value", "spread"))
     return Metric(
-        row["key"], row["name"], value, row["unit"], row["verdict"], band, row["remark"], tuple(row["broken"]), spread,
-        row["count"] or 0, row["topic"], (row["window_start"], row["window_end"]),
+        row["key"], row["name"], value, row["unit"], row["verdict"], band, remark=row["remark"],
+        broken=tuple(row["broken"]), spread=spread, size=row["count"] or 0, topic=row["topic"],
+        window=(row["window_start"], row["window_end"]),
     )  # fmt: skip
 
 
