@@ -9,7 +9,7 @@ from setuptools import find_packages, setup
 PACKAGE = "contact_sim_pkg"
 HERE = Path(__file__).resolve().parent
 SITE = "https://contact-bench.example"
-NODES = ("road_profile", "vibration", "contact_simulator", "bag_logger", "bag_replay")
+NODES = ("road_profile", "vibration", "contact_simulator", "bag_logger", "bag_replay", "bench_view")
 
 
 def version() -> str:

@@ -8,8 +8,8 @@ from tests.house.source import LABORATORY, PACKAGE, circles, imports, modules
 ORDER = (
     ("files", "public", "python_process", "requirements"),
     ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid"), ("excitation",),
-    ("scene",), ("bag",), ("run",), ("compare",), ("report",), ("library",), ("rigs", "identify"), ("studies",), ("nodes",),
-    ("cli",),
+    ("scene",), ("bag",), ("run",), ("compare",), ("report",), ("library",), ("rigs", "identify"),
+    ("studies", "standard"), ("nodes",), ("cli",),
 )  # fmt: skip
 """A room imports from those before it, and from none beside it."""
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}

@@ -9,7 +9,16 @@ from pathlib import Path
 
 __all__ = ["is_met", "package_sentence"]
 
-ROS = ("rclpy", "contact_msgs_defs", "rcl_interfaces", "std_msgs", "std_srvs", "diagnostic_msgs", "rosgraph_msgs")
+ROS = (
+    "rclpy",
+    "_rclpy_pybind11",
+    "contact_msgs_defs",
+    "rcl_interfaces",
+    "std_msgs",
+    "std_srvs",
+    "diagnostic_msgs",
+    "rosgraph_msgs",
+)
 OF_ANOTHER_VERSION = (AttributeError, TypeError, NameError, RuntimeError)  # what its use may end in
 ENVIRONMENT = "python3 -m venv --system-site-packages ~/contact_bench_env && . ~/contact_bench_env/bin/activate"
 _REQUIREMENT = re.compile(r"(?P<name>[\w.-]+)(?P<bounds>[^;]*)(?P<marker>;.*)?")
@@ -20,7 +29,7 @@ def package_sentence(error: BaseException) -> str:
     a version that the bench needs; empty for any other error. The cure stands in two lines below.
     """
     if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in ROS:
-        return f"{error.name} cannot be imported; source ros2_ws/setup.bash, or run with --offline, which needs no ROS"
+        return f"{error.name} cannot be imported; source ros2_ws/setup.bash (`bench run --offline` needs no ROS)"
     foreign = not type(error).__module__.startswith("contact_sim_pkg")
     if unmet := _unmet() if isinstance(error, (ImportError, *OF_ANOTHER_VERSION)) and foreign else []:
         found = ", ".join(f"{name} is {here or 'missing'}, {bounds} is needed" for name, here, bounds in unmet)

@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 
-from .layout import BUILD_TOOLS_LOCK, COLCON_DEFAULTS, ENVIRONMENT, LOCK, PACKAGES, PROJECT, WORKSPACE
+from .layout import ABSENT, BUILD_TOOLS_LOCK, COLCON_DEFAULTS, ENVIRONMENT, LOCK, PACKAGES, PROJECT, WORKSPACE
 from .underlay import Underlay
 
 ENVIRONMENT_STAMP = ENVIRONMENT / "environment.stamp"
@@ -24,7 +24,7 @@ def environment_key(underlay: Underlay) -> str:
 
 def workspace_key(environment: str) -> str:
     """Hash of all that the build depends on. Python sources are linked, not copied: they are not in it."""
-    roots = [PROJECT / package for package in PACKAGES]
+    roots = [*(PROJECT / package for package in PACKAGES), *sorted(ABSENT.glob("*"))]
     files = [root / name for root in roots for name in _PACKAGING if (root / name).exists()]
     files += [path for root in roots for path in sorted(root.glob("msg/*.msg"))]
     # Of what is linked one by one, the names matter and not the content.

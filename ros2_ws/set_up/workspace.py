@@ -1,12 +1,13 @@
-"""Builds both packages with colcon, on the environment's interpreter."""
+"""Builds the packages with colcon, on the environment's interpreter."""
 
 import os
 import re
 import shutil
+from collections.abc import Mapping
 from pathlib import Path
 
 from .errors import SetUpError
-from .layout import COLCON_DEFAULTS, ENVIRONMENT, PACKAGES, WORKSPACE, environment_python
+from .layout import ABSENT, COLCON_DEFAULTS, ENVIRONMENT, PACKAGES, WORKSPACE, environment_python
 from .progress import Count, Progress
 
 _COLCON = "import sys; from colcon_core.command import main; sys.exit(main(argv=sys.argv[1:]))"
@@ -34,6 +35,7 @@ def build_workspace(environ: dict[str, str], progress: Progress) -> None:
     }
     # what the builds print says how far they are
     colcon = [str(environment_python()), "-c", _COLCON, "build", "--event-handlers", "console_direct+"]
+    colcon += ["--base-paths", "src", *(str(path) for path in absent_packages(environ))]
     command = ["/bin/sh", "-c", _IN_ENVIRONMENT, "sh", str(ENVIRONMENT), *colcon]
     status = progress.run(command, "building messages and package", environ=environ, cwd=WORKSPACE, count=built)
     if status:
@@ -41,6 +43,16 @@ def build_workspace(environ: dict[str, str], progress: Progress) -> None:
             f"colcon build ended with {status} (its messages stand above and in {WORKSPACE / 'log' / 'latest_build'}): "
             "correct what it names and call make setup again."
         )
+
+
+def absent_packages(environ: Mapping[str, str]) -> list[Path]:
+    """The packages of `ABSENT` that neither the environment nor a sourced ROS 2 has."""
+    sourced = environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    prefixes = [ENVIRONMENT, *(Path(entry) for entry in sourced if entry)]
+    return [
+        package for package in sorted(ABSENT.glob("*"))
+        if not any((prefix / "share" / package.name).is_dir() for prefix in prefixes)
+    ]  # fmt: skip
 
 
 def built(line: str) -> Count | None:

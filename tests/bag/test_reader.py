@@ -9,9 +9,9 @@ from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.mcap.recover import recover
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.recover import recover
 from contact_sim_pkg.bag.topics import full_name
 from contact_sim_pkg.bag.versions import installed_versions, version_differences, versions_of
 from contact_sim_pkg.bag.writer import BagWriter

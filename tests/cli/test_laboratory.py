@@ -20,8 +20,19 @@ def alone(monkeypatch):
 def test_its_commands_name_what_to_install(alone, capsys, arguments):
     assert main(arguments) == 2
     said = capsys.readouterr().err
+    assert said.count("\n") == 1
     assert "which is not installed: pip install ./contact_sim_lab_that_is_not_there" in said
     assert f"bench {arguments[0]}" in said
+
+
+@pytest.mark.parametrize("command", ["hard", "goals", "growth", "validation"])
+def test_the_help_of_its_commands_names_what_to_install(alone, capsys, command):
+    assert main([command, "--help"]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    said = " ".join(printed.out.split())
+    assert said.startswith(f"Usage: bench {command}")
+    assert said.count("which is not installed: pip install ./contact_sim_lab_that_is_not_there") == 1
 
 
 def test_help_and_the_product_work_without_it(alone, capsys):

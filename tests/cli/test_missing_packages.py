@@ -45,7 +45,7 @@ def run(folder, program, *arguments):
         ("rosbags", (*SHORT, "--offline"), "rosbags"),
         ("rosbags", ("report", "bag"), "rosbags"),
         ("pydantic", ("list",), "pydantic"),
-        ("rclpy", SHORT, "rclpy cannot be imported; source ros2_ws/setup.bash, or run with --offline"),
+        ("rclpy", SHORT, "rclpy cannot be imported; source ros2_ws/setup.bash (`bench run --offline` needs no ROS)"),
         ("rclpy", ("replay", "bag"), "rclpy cannot be imported; source ros2_ws/setup.bash"),
         ("contact_msgs_defs", SHORT, "contact_msgs_defs cannot be imported; source ros2_ws/setup.bash"),
     ],
@@ -69,7 +69,7 @@ def test_a_node_after_plain_pip_names_what_it_lacks(tmp_path, node):
     (tmp_path / "sitecustomize.py").write_text(ABSENT.format(name="rclpy"))
     said = run(tmp_path, START, node)
     assert said == (
-        f"{node}: rclpy cannot be imported; source ros2_ws/setup.bash, or run with --offline, which needs no ROS\n"
+        f"{node}: rclpy cannot be imported; source ros2_ws/setup.bash (`bench run --offline` needs no ROS)\n"
     )
 
 
@@ -83,6 +83,11 @@ def test_a_node_where_ros_is_names_a_package_that_is_missing(tmp_path, node, pac
     assert sentence.startswith(f"{node}: {package}")
     assert venv.strip().startswith("python3 -m venv --system-site-packages ")
     assert re.fullmatch(rf"  pip install '{package}[<>=].+'", pip)
+
+
+def test_ros_that_is_there_but_not_sourced_has_the_same_cure():
+    error = ImportError("librcl_action.so: cannot open shared object file", name="_rclpy_pybind11")
+    assert "source ros2_ws/setup.bash" in package_sentence(error)
 
 
 @pytest.mark.parametrize("content", ["BaseModel = object\n", "from pydantic_core import nothing_of_that_name\n"])

@@ -56,7 +56,7 @@ def test_the_event_of_a_road_is_where_the_wheel_passes_its_steepest_part():
     """A bump is steep within its length."""
     scene = load_resolved("tire_bump")
     road, speed = scene.road, scene.travel.speed
-    block = event_block(make_sources(scene), round(scene.duration / scene.block_length))
+    block = event_block(make_sources(scene), scene.blocks)
     place = speed * (block + 0.5) * scene.block_length
     assert abs(place - road.position) <= 0.5 * (road.length + speed * scene.block_length)
 
@@ -64,7 +64,7 @@ def test_the_event_of_a_road_is_where_the_wheel_passes_its_steepest_part():
 def test_the_event_of_a_vibration_is_its_largest_acceleration():
     scene = load_resolved("seat_drop")
     sources = make_sources(scene)
-    block = event_block(sources, round(scene.duration / scene.block_length))
+    block = event_block(sources, scene.blocks)
     largest = max(_largest(sources, each) for each in range(50))
     assert _largest(sources, block) >= largest
 

@@ -22,10 +22,10 @@ from mcap.stream_reader import StreamReader
 from contact_sim_pkg.bag.errors import BagError, BagWriteError, CorruptChunkError, RecordingStoppedError
 from contact_sim_pkg.bag.mcap import append_file
 from contact_sim_pkg.bag.mcap.append_file import AppendFile
-from contact_sim_pkg.bag.mcap.recover import recover
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.recover import recover
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.records.messages import EnergyLedger
 

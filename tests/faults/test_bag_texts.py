@@ -8,9 +8,9 @@ from tests.bag.hand_made import Content, seat_ride, write
 from tests.faults.test_bag_faults import chunk_spans
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.mcap.recover import recover
 from contact_sim_pkg.bag.metadata import CHECKSUM_KEY, OUTCOME, RECORD
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.recover import recover
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main as bench
 

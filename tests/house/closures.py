@@ -44,8 +44,9 @@ def named(module: Module, package: str = PACKAGE.name) -> Iterator[str]:
     """Modules, below the package, that a module names as text."""
     for node in ast.walk(module.tree):
         text = _text(node, f"{package}.{module.name}")
-        if text.startswith(f"{package}."):
-            yield text.removeprefix(f"{package}.").partition(":")[0]
+        name = text.removeprefix(f"{package}.").partition(":")[0]
+        if name and name != text:
+            yield name
 
 
 def _text(node: ast.AST, own_name: str) -> str:

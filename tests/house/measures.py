@@ -1,6 +1,7 @@
 """What `make measures` prints: each measure of the package's shape, what it was, what it is, what is wanted.
 
-The column *before* is the state of 2026-11, before the package was ordered by rigs.
+The column *before* is the state of 2026-11, before the package was ordered by rigs; of lines of code that of 372f7ee,
+counted by today's rules, rigs that are not among the roots left out.
 """
 
 from __future__ import annotations
@@ -72,21 +73,21 @@ def _closures(found: dict[str, Module]) -> list[Measure]:
     """Lines of code that are carried with something."""
     frame = closure(found, FRAME)
     rigs = {
-        name: code_of(found, closure(found, (*FRAME, *closure(found, [f"rigs.{name}"]))))
+        name: code_of(found, closure(found, (*FRAME, f"rigs.{name}")))
         for name in ("vehicle", "body", "backrest", "impact", "roller")
     }
     others = [rigs[name] for name in ("backrest", "impact", "roller")]
     return [
         Measure(
             "lines of code of the frame: run, report, replay, nodes",
-            "12138",
+            "13115",
             f"{code_of(found, frame)}",
             "<= 12500 + new",
         ),
-        Measure("frame and vehicle", "24025", f"{rigs['vehicle']}", "<= 25500"),
-        Measure("frame and body", "20155", f"{rigs['body']}", "<= 20000"),
-        Measure("frame and any other rig", "15800 to 17400", f"{min(others)} to {max(others)}", "<= 20000"),
-        Measure("the whole product", "58750", f"{code_of(found, found)}", "about 49000 + new"),
+        Measure("frame and vehicle", "27766", f"{rigs['vehicle']}", "<= 25500"),
+        Measure("frame and body", "25041", f"{rigs['body']}", "<= 20000"),
+        Measure("frame and any other rig", "17898 to 19713", f"{min(others)} to {max(others)}", "<= 20000"),
+        Measure("the whole product", "58170", f"{code_of(found, found)}", "about 49000 + new"),
     ]
 
 

@@ -109,6 +109,60 @@ def test_its_effect_looks_at_our_tire_and_changes_no_bit(example):
     assert rates == pytest.approx((force - smooth) / 0.02, rel=1e-9, abs=1e-6)
 
 
+WRITERS = """
+from contact_sim_pkg.records.effect import Effect
+from contact_sim_pkg.scene.schema.fields import Section
+
+
+class NoKeys(Section):
+    pass
+
+
+class Careless:
+    def __init__(self, scene):
+        pass
+
+    def prepare(self):
+        pass
+
+    def observe(self, outputs):
+        for output in outputs:
+            if output.topic == "tire/force":
+                output.record.normal[:] = 0.0
+        return ()
+
+
+class Stubborn(Careless):
+    def observe(self, outputs):
+        for output in outputs:
+            for value in output.record:
+                try:
+                    value[...] = 0.0
+                except (TypeError, ValueError):
+                    pass
+        return ()
+
+
+def effect(name):
+    return Effect(name=name.lower(), section="writers:NoKeys", help="writes", feeds=("force",), observer=f"writers:{name}")
+
+
+EFFECTS = {"tire": (effect("Careless"), effect("Stubborn"))}
+"""
+
+
+def test_one_that_writes_to_what_it_observes_changes_no_bit(bench):
+    bench.add("writers", WRITERS, effects="a = writers")
+    common = ("run", "tire_bump", "--offline", "--set", "duration=0.05", "--set", "effects.tire.contact_field=null")
+    text = bench(*common, "--set", "effects.tire.careless={}", "--out", "careless", status=1)
+    assert "effects.tire.careless writes to an output of block 0 that it observes; an observer only reads" in text
+    assert "Traceback" not in text
+    bench(*common, "--out", "plain")
+    bench(*common, "--set", "effects.tire.stubborn={}", "--out", "stubborn")
+    seen, plain = (messages(bench.work / name) for name in ("stubborn", "plain"))
+    assert [each for each in seen if each[0] != "/bench/scene"] == [each for each in plain if each[0] != "/bench/scene"]
+
+
 def test_a_bag_of_it_is_refused_by_name_where_it_is_missing(example):
     text = example("run", "--from-bag", "bag", "--offline", "--no-record", plugins=OFF, status=2)
     assert "uses the plug-in bouncer_rig 0.1.0, which is not installed" in text

@@ -59,7 +59,7 @@ def latency(seconds: float = LATENCY_SECONDS) -> list[Measured]:
     """From a block of excitation to its forces at a subscriber, at the pace of the clock, recorded:
     median, 99th percentile and maximum over a run of this length, [s].
     """
-    module = "contact_sim_pkg.nodes.processes.latency"  # a process of its own, with ROS
+    module = "contact_sim_lab.nodes.latency"  # a process of its own, with ROS
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(
             python_command(module, SCENE, str(seconds)),

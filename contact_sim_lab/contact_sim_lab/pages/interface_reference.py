@@ -22,6 +22,7 @@ from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.run.rigs import result_topics
 from contact_sim_pkg.scene.renamed_keys import REMOVED, RENAMED
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.standard.topics import standard_topics
 
 BEGIN = "<!-- tables made from the code: begin -->"
 END = "<!-- tables made from the code: end -->"
@@ -47,7 +48,7 @@ EXIT_CODES = {
 
 def reference(parameters: str) -> str:
     """All tables, as Markdown; `parameters` is the text of the nodes' parameter file."""
-    return "\n\n".join([_topics(), *_messages(), *_nodes(parameters), _exit_codes(), _renamed()])
+    return "\n\n".join([_topics(), _standard(), *_messages(), *_nodes(parameters), _exit_codes(), _renamed()])
 
 
 def with_tables(document: str, parameters: str) -> str:
@@ -70,6 +71,19 @@ def _topics() -> str:
         for topic in TOPICS.values()
     ]
     return "## Topics\n\n" + _table(("topic", "type", "publisher", "a message comes", "it appears"), rows)
+
+
+def _standard() -> str:
+    """What `bench_view` and `bench export --ros-std` make of the topics; CONTACT stands for any contact."""
+    rows: dict[str, tuple[str, ...]] = {}
+    for topic in standard_topics([name for name, row in TOPICS.items() if row.recorded]).values():
+        contact, _, rest = topic.source.partition("/")
+        general = topic.name.count("/") == 2 and contact != "bench" and rest != "axle"
+        name, source = (
+            each.replace(f"{contact}/", "CONTACT/") if general else each for each in (topic.name, topic.source)
+        )
+        rows[name] = (f"`{name}`", topic.type.replace("/msg/", "/"), f"`{source}`", topic.content)
+    return f"{STANDARD}\n\n{_table(('topic', 'type', 'made from', 'content'), rows.values())}"
 
 
 def _publisher(topic: str) -> str:
@@ -147,6 +161,12 @@ def message_fields(text: str) -> list[FieldRow]:
     return found
 
 
+STANDARD = """\
+## Standard topics
+
+Of `bench_view` and of `bench export --ros-std`, at most 20 messages of a topic a second unless
+requested; reliable and volatile, with a depth of 10. A run has those whose source it publishes, and
+accelerometers of the bodies that it has. [view.md](view.md) explains frames and images."""
 WRENCH = """\
 ### geometry_msgs/WrenchStamped
 
@@ -199,6 +219,8 @@ def _subscribed(node: str) -> str:
         names = ["every recorded topic of the scene", *(f"`{name}`" for name in names if name not in recorded)]
     else:
         names = [f"`{name}`" for name in names]
+    if node == "bench_view":
+        return " Subscribes to the sources of its standard topics, while somebody reads these."
     return f" Subscribes to {', '.join(names)}." if names else ""
 
 

@@ -12,7 +12,7 @@ import scipy.linalg
 import scipy.optimize
 from numpy.typing import NDArray
 
-__all__ = ["cell_displacement", "dense_influence", "displacement", "pressure_at_approach"]
+__all__ = ["cell_displacement", "dense_influence", "direct_sum", "displacement", "pressure_at_approach"]
 
 Field = NDArray[numpy.float64]
 
@@ -46,6 +46,25 @@ def dense_influence(rows: int, cols: int, cell_x: float, cell_y: float, modulus:
     )
     row, col = numpy.divmod(numpy.arange(rows * cols), cols)
     return numpy.asarray(table[abs(row[:, None] - row), abs(col[:, None] - col)])
+
+
+def direct_sum(
+    places: NDArray[numpy.int64], pressure: Field, cell_x: float, cell_y: float, modulus: float
+) -> NDArray[numpy.float64]:
+    """Displacement [places] [m] of the cells ``places`` [places, 2] (row, column) under ``pressure``
+    [rows, cols] [Pa]: Love's four logarithms, summed over the loaded cells one by one.
+    """
+    rows, cols = numpy.nonzero(pressure)
+    found = []
+    for row, col in places:
+        east, north = (row - rows + 0.5) * cell_x, (col - cols + 0.5) * cell_y
+        west, south = east - cell_x, north - cell_y
+        r1, r2 = numpy.hypot(east, north), numpy.hypot(east, south)
+        r3, r4 = numpy.hypot(west, north), numpy.hypot(west, south)
+        total = east * numpy.log((north + r1) / (south + r2)) + north * numpy.log((east + r1) / (west + r3))
+        total += west * numpy.log((south + r4) / (north + r3)) + south * numpy.log((west + r4) / (east + r2))
+        found.append(float(numpy.sum(total * pressure[rows, cols])))
+    return numpy.array(found) / (numpy.pi * modulus)
 
 
 def displacement(influence: Field, pressure: Field) -> Field:

@@ -28,7 +28,7 @@ _ZEROS = tuple(bytes(count) for count in range(8))
 Step = Callable[[list[bytes], int, Sequence[Any]], int]
 
 
-class Layout:
+class MessageLayout:
     """Places of some fields in CDR; what does not depend on the values is worked out once."""
 
     def __init__(self, fields: Sequence[Field]) -> None:
@@ -84,7 +84,7 @@ def _step(field: Field) -> Step:
     if field.type == "string":
         return _texts if field.is_array else _text
     if not field.is_array:
-        inner = Layout(definition_of(field.type.rpartition("/")[2]).fields)
+        inner = MessageLayout(definition_of(field.type.rpartition("/")[2]).fields)
         return lambda parts, at, values: inner.append(parts, at, values[0])
     size = numpy.dtype(field.type).itemsize
 

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.encoding import Layout, deserialize, joined, stamp_of, stamped
+from contact_sim_pkg.bag.encoding import MessageLayout, deserialize, joined, stamp_of, stamped
 from contact_sim_pkg.bag.errors import MessageError
 from contact_sim_pkg.records import messages as records
 from contact_sim_pkg.records.definitions import HEADER, Field, definition_of
@@ -82,7 +82,7 @@ class _Codec:
             if field.is_array and not field.shape and field.name not in sides
         ]  # fmt: skip
         body = [field for field in definition.fields if field.type != HEADER]
-        self._layout = Layout(body)
+        self._layout = MessageLayout(body)
         self._counts = [(place, field.name) for place, field in enumerate(body) if field not in fields]
 
     def encode(self, record: Any, stamp_ns: int, frame_id: str) -> bytes:

@@ -26,6 +26,7 @@ LACKING = "lacking"  # key of the outcome, with the messages of the blocks done 
 OUTCOME = f"{RECORD}_outcome"  # of the one at the end
 ROSBAG2 = "rosbag2"  # of the one that rosbag2 reads
 SCENE_KEY = "scene"
+WALL_TIME = "wall_time"  # key of the instant of simulated time 0, [ns] since 1970, in a bag in wall time
 RELATIVE_NAME = "relative_name"  # key of a channel's metadata
 CHECKSUM_KEY = "texts_sha256"
 CDR = "cdr"  # encoding of the messages that are written, read and replayed
@@ -73,6 +74,19 @@ class Extent(NamedTuple):
 
     start: int
     end: int
+
+
+def wall_time_of(texts: Mapping[str, str]) -> int:
+    """What is added to the log and publish times of a bag with these texts, [ns]; 0 in simulated time.
+
+    BagError where the text is no instant from 1970 to 2262.
+    """
+    text = texts.get(WALL_TIME, "0")
+    if not text.isascii() or not text.isdigit() or not int(text) < 2**63:
+        raise BagError(
+            f"the texts of the bag give {WALL_TIME} as {text!r:.40}; it is a number of nanoseconds since 1970"
+        )
+    return int(text)
 
 
 def sealed(texts: Mapping[str, str]) -> dict[str, str]:

@@ -30,6 +30,7 @@ from contact_sim_pkg.bag.metadata import (
     RecordedTopic,
     files_of_bag,
     unsealed,
+    wall_time_of,
 )
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.bag.typestore import store_of_definition, type_hash
@@ -40,7 +41,7 @@ SCENE_TOPIC, SCENE_TYPE = "bench/scene", "std_msgs/msg/String"
 
 
 class BagMessage(NamedTuple):
-    """One recorded message; times in [ns], `data` as it was recorded."""
+    """One recorded message; times in [ns] of simulated time, `data` as it was recorded."""
 
     topic: str
     type: str
@@ -70,6 +71,7 @@ class Bag:
         """
         self.scene: str | None = None
         """The resolved scene as YAML; None in a bag without one."""
+        self._epoch = 0  # [ns] that the stored times are later than simulated time
         self._take_texts()
         if LACKING in self.metadata:
             self.notes.append(f"{path.name}: {self.metadata[LACKING]}")
@@ -99,6 +101,7 @@ class Bag:
                     f"the texts {record.name!r} in the metadata of {self.path} are not as they were written"
                 )
             self.metadata.update(texts or {})
+        self._epoch = wall_time_of(self.metadata)
         kept, recorded = self.metadata.get(SCENE_KEY), self._recorded_scene()
         if recorded is not None and kept not in (None, recorded):
             self._leave_out(f"the scene in the metadata of {self.path} is another than the one on bench/scene")
@@ -179,7 +182,7 @@ class Bag:
     @property
     def end(self) -> int:
         """Latest log time in [ns]; 0 without messages."""
-        return max((chunk.end for chunk in self._layout.chunks), default=0)
+        return max((chunk.end - self._epoch for chunk in self._layout.chunks), default=0)
 
     def messages(self, topic: str | None = None) -> Iterator[BagMessage]:
         """All messages, or those of one topic, in file order.
@@ -259,7 +262,10 @@ class Bag:
         for record in records:
             if isinstance(record, Message) and record.channel_id in numbers:
                 row = self.topics[channels[record.channel_id].topic]
-                yield BagMessage(row.name, row.type, record.log_time, record.data, record.publish_time, record.sequence)
+                yield BagMessage(
+                    row.name, row.type, record.log_time - self._epoch, record.data, record.publish_time - self._epoch,
+                    record.sequence,
+                )  # fmt: skip
 
     def _skip_or_raise(self, error: CorruptChunkError) -> None:
         if not self._skip_bad:

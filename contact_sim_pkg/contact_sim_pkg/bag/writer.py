@@ -30,6 +30,7 @@ from contact_sim_pkg.bag.metadata import (
     recorded_topics,
     sealed,
     serialized_metadata,
+    wall_time_of,
 )
 from contact_sim_pkg.bag.names import file_name, refuse_wrong_name
 
@@ -74,7 +75,8 @@ class BagWriter:
             directory: the bag's directory, which must not exist.
             topics: what will be recorded; every recorded topic of the table, without a namespace,
                 where it is None.
-            attachments: texts kept in the bag and in `metadata.yaml`: scene, versions.
+            attachments: texts kept in the bag and in `metadata.yaml`: scene, versions. With the key `wall_time` all
+                times are stored that much later.
             reserve_bytes: free space of the disk, [bytes], below which the recording is closed.
             clock: steady clock, [s].
             free_bytes: free space of the disk, [bytes]; from the operating system where it is None.
@@ -93,6 +95,7 @@ class BagWriter:
             )
         self._topics = tuple(recorded_topics() if topics is None else topics)
         self._attachments = dict(attachments or {})
+        self._epoch = wall_time_of(self._attachments)
         self._reserve, self._clock = reserve_bytes, clock
         create_directory(directory)
         self.path = directory
@@ -177,12 +180,12 @@ class BagWriter:
                 )
             # counts and times grow only once the writer has accepted the message
             number = self._counts[topic] if sequence is None else sequence
+            logged = self._epoch + log_time
+            published = logged if publish_time is None else self._epoch + publish_time
             try:
-                self._writer.add_message(
-                    channel, log_time, data, log_time if publish_time is None else publish_time, number
-                )
+                self._writer.add_message(channel, logged, data, published, number)
                 self._counts[topic] += 1
-                self._start, self._end = min(self._start, log_time), max(self._end, log_time)
+                self._start, self._end = min(self._start, logged), max(self._end, logged)
                 self._chunk_opened = self._clock() if self._chunk_opened is None else self._chunk_opened
                 self._close_chunk_if_due()
             except BagWriteError as error:

@@ -49,7 +49,9 @@ def command(
         if write.suffix not in (".yaml", ".yml"):
             raise click.UsageError(f"--write {write}: the name of a scene's file ends in .yaml")
     resolved = load_resolved(scene)
-    found = effects_study.study_of(reduced.all_together(resolved) if start == "all" else resolved, _report)
+    everything = start == "all"  # what is off then replaces what is on: a choice of the model
+    studied = reduced.all_together(resolved) if everything else resolved
+    found = effects_study.study_of(studied, _report, off=not everything)
     if not as_json:
         click.echo(effects_table.answer(found))
         click.echo()

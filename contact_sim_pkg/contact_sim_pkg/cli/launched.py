@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 
 import click
 
-from contact_sim_pkg.bag.mcap.unfinished import leave_metadata
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.unfinished import leave_metadata
 from contact_sim_pkg.nodes.processes.children import how_ended
 from contact_sim_pkg.nodes.processes.scene_file import read_reason, write_reason
 

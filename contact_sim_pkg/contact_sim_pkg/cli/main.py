@@ -37,6 +37,7 @@ LABORATORY = {  # the same, in contact_sim_lab.cli
     "validation": "validation",
     "goals": "goals",
     "growth": "goals:growth_command",
+    "paper": "paper",
 }
 ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share the cores; the same bits without nodes
 
@@ -73,17 +74,21 @@ class LazyGroup(click.Group):
 
 
 def _of_laboratory(name: str) -> click.Command:
-    """A command of the laboratory; without it one that names what to install."""
-    from contact_sim_pkg.cli.laboratory import laboratory
+    """A command of the laboratory; without it one that names what to install, as its help does."""
+    from contact_sim_pkg.cli.laboratory import AbsentError, laboratory
 
     module, _, command = LABORATORY[name].partition(":")
     try:
         found: click.Command = getattr(laboratory(f"cli.{module}", f"bench {name}"), command or "command")
-    except click.UsageError as error:
+    except AbsentError as error:
         refusal_of_it = error
 
-        @click.command(name, short_help="Of the laboratory, which is not installed.", add_help_option=False,
-                       context_settings={"ignore_unknown_options": True, "allow_extra_args": True})  # fmt: skip
+        @click.command(
+            name,
+            help=f"{error.message}.",
+            short_help="Of the laboratory, which is not installed.",
+            context_settings={"ignore_unknown_options": True, "allow_extra_args": True},
+        )
         def absent() -> None:
             raise refusal_of_it
 

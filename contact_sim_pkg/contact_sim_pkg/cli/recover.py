@@ -13,7 +13,7 @@ import click
 @click.pass_context
 def command(context: click.Context, bag: Path, target: Path) -> None:
     """Write what can be read of BAG into the new bag TARGET; exit code 3 where messages are lost."""
-    from contact_sim_pkg.bag.mcap.recover import recover
+    from contact_sim_pkg.bag.recover import recover
 
     recovery = recover(bag, target)
     click.echo(f"{recovery.path}: {recovery.messages} messages{f'; {recovery.sentence}' if recovery.sentence else ''}")

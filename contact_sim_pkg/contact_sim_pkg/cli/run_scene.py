@@ -164,7 +164,7 @@ def _is_inaccurate(facts: dict[str, Any]) -> bool:
 
 def _leave_metadata(scene: ResolvedScene, ended: RunEnd) -> str:
     """Beside a bag that its recorder could not finish; how to make it whole, empty where it is."""
-    from contact_sim_pkg.bag.mcap.unfinished import leave_metadata
+    from contact_sim_pkg.bag.unfinished import leave_metadata
 
     outcome = {"ended": state_of(scene, ended), "blocks_done": str(ended.blocks), "failure": ended.failure}
     return "" if ended.bag is None else leave_metadata(ended.bag, outcome)

@@ -14,7 +14,7 @@ from contact_sim_pkg.compare.judgement import Judgement, Scale, cell_of, judged,
 from contact_sim_pkg.compare.parting import Parting, parting_of, until
 from contact_sim_pkg.compare.recorded import costs_of_bag, outputs_of_bag, scene_of_bag
 from contact_sim_pkg.compare.span import Notify, Span, begins_later, prepared, run_span
-from contact_sim_pkg.compare.windows import Window, from_the_start, windows_of
+from contact_sim_pkg.compare.windows import CheckWindow, from_the_start, windows_of
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.records.messages import SolverCost
 from contact_sim_pkg.run.block_simulation import BlockSimulation
@@ -151,10 +151,10 @@ def _as_long_as(scene: ResolvedScene, blocks: int) -> ResolvedScene:
     return ResolvedScene({**scene.data, "duration": round(blocks * scene.block_length, 9)}, scene.files)
 
 
-def _windows(pair: _Companions, columns: Columns, costs: Sequence[SolverCost], *, whole: bool) -> list[Window]:
+def _windows(pair: _Companions, columns: Columns, costs: Sequence[SolverCost], *, whole: bool) -> list[CheckWindow]:
     blocks = len(costs)
     if whole:
-        return [Window(Span(0, 0, blocks), ("the whole run",))]
+        return [CheckWindow(Span(0, 0, blocks), ("the whole run",))]
     windows = windows_of(pair.scene, columns, costs, pair.sources, blocks)
     return windows if begins_later(pair.scene) else from_the_start(windows)
 
@@ -195,7 +195,7 @@ def _largest(judgements: Iterable[Judgement]) -> list[Judgement]:
     return list(found.values())
 
 
-def _announced(pair: _Companions, windows: Sequence[Window], costs: Sequence[SolverCost]) -> str:
+def _announced(pair: _Companions, windows: Sequence[CheckWindow], costs: Sequence[SolverCost]) -> str:
     """What the check is about to do, and what it costs."""
     factor = FINER_GRID if pair.companion.grid else FINER_STEPS
     seconds = 0.0
@@ -207,11 +207,11 @@ def _announced(pair: _Companions, windows: Sequence[Window], costs: Sequence[Sol
     return f"companion run of {pair.scene.name}: {length:.3g} s simulated, about {max(1.0, seconds):.2g} s of computing"
 
 
-def _checked(scene: ResolvedScene, window: Window) -> CheckedWindow:
+def _checked(scene: ResolvedScene, window: CheckWindow) -> CheckedWindow:
     start, end = (round(block * scene.block_length, 9) for block in (window.span.shown, window.span.end))
     return CheckedWindow(start, end, window.reasons)
 
 
-def _described(scene: ResolvedScene, window: Window) -> str:
+def _described(scene: ResolvedScene, window: CheckWindow) -> str:
     found = _checked(scene, window)
     return f"{found.start:g} to {found.end:g} s: {', '.join(found.reasons)}"

@@ -22,7 +22,7 @@ MOTION = "motion"
 WORDS = {"force": "force", "motion": "motion", "peak": "peak pressure", "area": "area"}
 
 
-class Topic(Protocol):
+class NamedTopic(Protocol):
     """A topic of a recording."""
 
     @property
@@ -34,7 +34,7 @@ class Topic(Protocol):
         """package/msg/Type."""
 
 
-class Recorded(Protocol):
+class RunRecording(Protocol):
     """What is needed of a recording."""
 
     @property
@@ -54,7 +54,7 @@ class Recorded(Protocol):
         """None where no motion is recorded."""
 
     @property
-    def topics(self) -> Sequence[Topic]:
+    def topics(self) -> Sequence[NamedTopic]:
         """Of the bag."""
 
     @property
@@ -62,7 +62,7 @@ class Recorded(Protocol):
         """The largest of the run."""
 
 
-def accuracy_numbers(recording: Recorded) -> dict[str, Any]:
+def accuracy_numbers(recording: RunRecording) -> dict[str, Any]:
     """Section ``accuracy`` of the summary; empty for a bag without a scene, or without a contact.
 
     ``requested`` [1]; ``estimated``: of each contact, and of the ``motion`` of the bodies, largest
@@ -95,7 +95,7 @@ def accuracy_numbers(recording: Recorded) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _by_kind(recording: Recorded) -> dict[str, dict[str, list[Estimate]]]:
+def _by_kind(recording: RunRecording) -> dict[str, dict[str, list[Estimate]]]:
     """Estimates of each contact, and of the motion, by kind."""
     types = {topic.name.lstrip("/"): topic.type.rpartition("/")[2] for topic in recording.topics}
     found: dict[str, dict[str, list[Estimate]]] = {name: {"force": []} for name in recording.contacts}
@@ -108,7 +108,7 @@ def _by_kind(recording: Recorded) -> dict[str, dict[str, list[Estimate]]]:
     return found
 
 
-def _not_below(recording: Recorded, estimated: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, list[Any]]]:
+def _not_below(recording: RunRecording, estimated: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, list[Any]]]:
     """Largest error by place and kind that no request makes smaller, and its effect."""
     found = {
         place: {kind: [*least] for kind, least in kinds.items() if kind in estimated.get(place, {})}

@@ -49,7 +49,7 @@ class EventSpan(NamedTuple):
 
 def event_spans(scene: ResolvedScene, sources: Mapping[str, Source]) -> list[EventSpan]:
     """Spans of a resolved scene in order of time; those that overlap are one."""
-    blocks = max(1, round(scene.duration / scene.block_length))
+    blocks = max(1, scene.blocks)
     if not begins_later(scene):
         return [whole_run(scene)]
     found: list[EventSpan] = []
@@ -64,7 +64,7 @@ def event_spans(scene: ResolvedScene, sources: Mapping[str, Source]) -> list[Eve
 
 def whole_run(scene: ResolvedScene) -> EventSpan:
     """A scene from its start, as much of it as its work lets it."""
-    blocks = max(1, round(scene.duration / scene.block_length))
+    blocks = max(1, scene.blocks)
     work = sum(part.seconds for part in estimated_work(scene))
     end = min(blocks, max(1, int(blocks * MOST_WORK / work))) if work > 0.0 else blocks
     return EventSpan(Span(0, 0, end), "the whole run" if end == blocks else "from the start")

@@ -112,7 +112,7 @@ def first_look(
     reference = run_span(finer, span, notify, simulation=simulation, most_cpu=most_cpu)
     span = span._replace(end=span.first + reference.blocks)
     scales = _scales(scene, reference)
-    whole = Span(0, 0, round(scene.duration / scene.block_length))
+    whole = Span(0, 0, scene.blocks)
     if span != whole and begins_later(scene):
         notify(f"{scene.name} at {requests[0]:g}: the whole run, for the scales of its errors")
         scales = larger_scales(
@@ -158,7 +158,7 @@ def _finer(scene: ResolvedScene, judged_scene: ResolvedScene, notify: Notify) ->
 
 def _span_of(scene: ResolvedScene, effort: Effort) -> Span:
     """What is run: round the event where the rig can begin there, else from the start."""
-    blocks = round(scene.duration / scene.block_length)
+    blocks = scene.blocks
     sources = make_sources(scene)
     if begins_later(scene) and sources:
         return span_round(scene, event_block(sources, blocks), blocks, effort.length, effort.lead)

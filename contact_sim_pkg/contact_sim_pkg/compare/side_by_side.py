@@ -16,7 +16,7 @@ from contact_sim_pkg.bag.texts import values_of_text
 from contact_sim_pkg.files import FileRefusedError, open_regular_file
 from contact_sim_pkg.records.metric import OUTSIDE, Metric
 
-__all__ = ["Compared", "Curve", "Miss", "Side", "Tolerance", "misses", "read_tolerances", "side_by_side"]
+__all__ = ["Compared", "ComparedMetric", "Curve", "Miss", "Tolerance", "misses", "read_tolerances", "side_by_side"]
 
 LARGEST_FILE = 100_000
 """[bytes] of a file of tolerances"""
@@ -24,7 +24,7 @@ KEYS = ("absolute", "relative", "from", "to")
 FloatArray = NDArray[np.float64]
 
 
-class Side(NamedTuple):
+class ComparedMetric(NamedTuple):
     """One metric in every run."""
 
     key: str
@@ -103,7 +103,7 @@ class Miss(NamedTuple):
     sentence: str
 
 
-def side_by_side(runs: Sequence[Compared]) -> list[Side]:
+def side_by_side(runs: Sequence[Compared]) -> list[ComparedMetric]:
     """Every metric that some run has, what moved most first."""
     keys = dict.fromkeys(each.key for run in runs for each in run.metrics)
     by_run = [{each.key: each for each in run.metrics} for run in runs]
@@ -111,10 +111,10 @@ def side_by_side(runs: Sequence[Compared]) -> list[Side]:
     return sorted(found, key=lambda each: -each.moved)
 
 
-def _side(runs: Sequence[Metric | None]) -> Side:
+def _side(runs: Sequence[Metric | None]) -> ComparedMetric:
     first = next(each for each in runs if each is not None)
     broken = dict.fromkeys(text for each in runs if each is not None for text in each.broken)
-    return Side(
+    return ComparedMetric(
         first.key, first.name, first.unit, tuple(math.nan if each is None else each.value for each in runs),
         tuple("absent" if each is None else each.verdict for each in runs), tuple(broken),
     )  # fmt: skip

@@ -19,7 +19,7 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 __all__ = [
     "LEAD",
     "LENGTH",
-    "Window",
+    "CheckWindow",
     "event_block",
     "from_the_start",
     "size_of",
@@ -34,7 +34,7 @@ MOST_LOOKS = 400
 NANOSECONDS = 1_000_000_000
 
 
-class Window(NamedTuple):
+class CheckWindow(NamedTuple):
     """A span of a run, and why it is checked."""
 
     span: Span
@@ -44,22 +44,22 @@ class Window(NamedTuple):
 def windows_of(
     scene: ResolvedScene, columns: Mapping[Key, Column], costs: Sequence[SolverCost], sources: Mapping[str, Source],
     blocks: int,
-) -> list[Window]:  # fmt: skip
+) -> list[CheckWindow]:  # fmt: skip
     """Windows of a run of so many blocks, those of the same blocks as one, in order of time."""
     places = {"largest force": _largest_force(scene, columns)}
     if any(len(cost.estimated_error) for cost in costs):
         places["largest estimated error"] = max(costs, key=_estimated).block
     if sources:
         places["event of the excitation"] = event_block(sources, blocks)
-    found: list[Window] = []
+    found: list[CheckWindow] = []
     for reason, place in sorted(places.items(), key=lambda item: item[1]):
         span = span_round(scene, place, blocks)
         if found and span.shown < found[-1].span.end:  # overlaps: one longer window
             last = found.pop()
             span, before = last.span._replace(end=span.end), last.reasons
-            found.append(Window(span, (*before, reason)))
+            found.append(CheckWindow(span, (*before, reason)))
         else:
-            found.append(Window(span, (reason,)))
+            found.append(CheckWindow(span, (reason,)))
     return found
 
 
@@ -80,13 +80,13 @@ def span_round(
     return Span(max(0, shown - lead), shown, min(blocks, shown + length))
 
 
-def from_the_start(windows: Iterable[Window]) -> list[Window]:
+def from_the_start(windows: Iterable[CheckWindow]) -> list[CheckWindow]:
     """One window from the start of the run to the end of the last: for a rig that begins nowhere
     else.
     """
     windows = list(windows)
     end = max(window.span.end for window in windows)
-    return [Window(Span(0, 0, end), ("from the start", *(each for window in windows for each in window.reasons)))]
+    return [CheckWindow(Span(0, 0, end), ("from the start", *(each for window in windows for each in window.reasons)))]
 
 
 def event_block(sources: Mapping[str, Source], blocks: int) -> int:

@@ -32,7 +32,10 @@ class Texture:
     was requested last.
     """
 
-    def __init__(self, scale: float, exponent: float, longest: float, shortest: float, seed: int) -> None:
+    def __init__(
+        self, scale: float, exponent: float, longest: float, shortest: float, seed: int,
+        strip: tuple[float, float] = (STRIP_LENGTH, STRIP_WIDTH),
+    ) -> None:  # fmt: skip
         """Draw the waves.
 
         Args:
@@ -41,27 +44,34 @@ class Texture:
             longest: longest wavelength in [m], where the profile ends; at most the strip's width.
             shortest: shortest wavelength in [m].
             seed: of the phases; shared with the profile, which draws from another stream.
+            strip: length along the road and width across it after which the surface repeats, [m].
 
         Raises:
             ExcitationError: waves longer than the strip is wide.
         """
-        if longest > STRIP_WIDTH:
+        self.length, self.width = strip
+        if longest > self.width:
             raise ExcitationError(
-                f"a texture with waves up to {longest:g} m does not fit its strip of {STRIP_WIDTH:g} m; let the "
-                f"profile go down to {STRIP_WIDTH:g} m or less"
+                f"a texture with waves up to {longest:g} m does not fit its strip of {self.width:g} m; let the "
+                f"profile go down to {self.width:g} m or less"
             )
         # Waves of the plane: half the spectrum along the track, both signs across it
         self.longest, self.shortest, self.exponent = longest, shortest, exponent
-        along = numpy.arange(int(STRIP_LENGTH / shortest) + 1)
-        half = int(STRIP_WIDTH / shortest)
+        along = numpy.arange(int(self.length / shortest) + 1)
+        half = int(self.width / shortest)
         self._across = numpy.arange(-half, half + 1)
         self._waves = self._draw(scale, along, seed)
         self.rms = sqrt(0.5 * float(numpy.sum(numpy.abs(self._waves) ** 2)))
         self._track: tuple[bytes, PeriodicTable] | None = None
 
+    def scale_to(self, rms: float) -> None:
+        """Scale the heights to a root mean square [m]."""
+        self._waves *= rms / self.rms
+        self.rms, self._track = rms, None
+
     def _draw(self, scale: float, along: NDArray[numpy.int64], seed: int) -> NDArray[numpy.complex128]:
         """Complex amplitudes over the half plane of wave vectors, [along, across]."""
-        q = numpy.hypot(along[:, None] / STRIP_LENGTH, self._across[None, :] / STRIP_WIDTH)
+        q = numpy.hypot(along[:, None] / self.length, self._across[None, :] / self.width)
         inside = (q >= 1.0 / self.longest) & (q <= 1.0 / self.shortest)
         inside[0, self._across <= 0] = False  # the half plane counts a wave along y once
         w = self.exponent
@@ -70,7 +80,7 @@ class Texture:
         density[inside] = constant * q[inside] ** -(w + 1.0)
         generator = numpy.random.Generator(numpy.random.PCG64(numpy.random.SeedSequence(seed, spawn_key=(1,))))
         phase = 2.0 * pi * generator.random(q.shape)
-        amplitude = 2.0 * numpy.sqrt(density / (STRIP_LENGTH * STRIP_WIDTH))
+        amplitude = 2.0 * numpy.sqrt(density / (self.length * self.width))
         return numpy.asarray(amplitude * numpy.exp(1j * phase), dtype=numpy.complex128)
 
     def share(self, n: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
@@ -92,11 +102,9 @@ class Texture:
 
     def _tabulate(self, y: NDArray[numpy.float64]) -> PeriodicTable:
         """The strip's lines at these y: exact across the track, a fine lattice along it."""
-        if float(numpy.ptp(y)) > STRIP_WIDTH:
-            raise ExcitationError(
-                f"a track of {numpy.ptp(y):g} m is wider than the strip of texture, {STRIP_WIDTH:g} m"
-            )
-        points = 64 * (int(POINTS_PER_WAVE * STRIP_LENGTH / self.shortest / 64) + 1)
+        if float(numpy.ptp(y)) > self.width:
+            raise ExcitationError(f"a track of {numpy.ptp(y):g} m is wider than the strip of texture, {self.width:g} m")
+        points = 64 * (int(POINTS_PER_WAVE * self.length / self.shortest / 64) + 1)
         if 2 * points * len(y) > LARGEST_TABLE:
             raise ExcitationError(
                 f"a texture down to {self.shortest:g} m on {len(y)} lines needs {2 * points * len(y)} numbers, limit "
@@ -105,18 +113,18 @@ class Texture:
         # Waves of both signs across together: (A+ + A-) cos + i (A+ - A-) sin
         half = len(self._across) // 2
         right, left = self._waves[:, half + 1 :], self._waves[:, half - 1 :: -1]
-        phase = 2.0 * pi / STRIP_WIDTH * self._across[half + 1 :, None] * y
+        phase = 2.0 * pi / self.width * self._across[half + 1 :, None] * y
         even, odd = right + left, 1j * (right - left)
         lines = numpy.empty((len(even), len(y)), dtype=numpy.complex128)
         lines.real = _sums(even.real, numpy.cos(phase)) + _sums(odd.real, numpy.sin(phase))
         lines.imag = _sums(even.imag, numpy.cos(phase)) + _sums(odd.imag, numpy.sin(phase))
-        return synthesise(lines + self._waves[:, half, None], points, STRIP_LENGTH)
+        return synthesise(lines + self._waves[:, half, None], points, self.length)
 
     def note(self) -> str:
         """What the texture is, for a person."""
         return (
             f"Below {self.longest:g} m the spectrum goes on as an isotropic surface down to {self.shortest:g} m; it "
-            f"repeats after {STRIP_LENGTH:g} m along the road, and its spectrum along a line falls to 0 at the "
+            f"repeats after {self.length:g} m along the road, and its spectrum along a line falls to 0 at the "
             "shortest wavelength."
         )
 

@@ -14,15 +14,9 @@ from contact_sim_pkg.bag.names import new_directory
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.parameters import declare, declare_input_timeout, declare_scene
 from contact_sim_pkg.nodes.processes.process import run
-from contact_sim_pkg.nodes.processes.scene_file import (
-    block_length_ns,
-    queue_depth,
-    read_descriptions,
-    read_reason,
-    read_scene,
-)
+from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_descriptions, read_reason, read_scene
 from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, publisher, subscription
-from contact_sim_pkg.nodes.protocol.recording import Recording
+from contact_sim_pkg.nodes.protocol.recording import BagRecording
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, Follower, RunState
 from contact_sim_pkg.nodes.protocol.window import Gather
 from contact_sim_pkg.records.messages import BenchProgress
@@ -42,7 +36,7 @@ class BagLoggerNode(LifecycleBenchNode):
         self.scene_name = declare_scene(self)
         self._directory = declare(self, "bag", "", BAG_TEXT)
         self._patience = declare_input_timeout(self)
-        self._recording: Recording | None = None
+        self._recording: BagRecording | None = None
         self._gather = Gather()
 
     def configure(self) -> None:
@@ -52,7 +46,7 @@ class BagLoggerNode(LifecycleBenchNode):
         scene = read_scene(self.scene_name)
         path = new_directory(Path(self._directory) if self._directory else None, scene.name)
         self._run, self._news, self._leave_at = Follower(), time.monotonic(), float("inf")
-        self._scene, self._recording = scene, Recording(path, scene, block_length_ns(scene))
+        self._scene, self._recording = scene, BagRecording(path, scene, scene.block_length_ns)
         self._answers = publisher(self, "bench/recorded")
         kept = [
             numbered_subscription(self, name, partial(self._on_message, name), queue_depth(scene))

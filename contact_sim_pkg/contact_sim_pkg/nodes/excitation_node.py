@@ -14,13 +14,7 @@ from contact_sim_pkg.bag.messages import decode, encode
 from contact_sim_pkg.nodes.bench_node import SUPERVISOR_TEXT
 from contact_sim_pkg.nodes.parameters import declare, declare_pace, declare_record, declare_scene
 from contact_sim_pkg.nodes.processes.process import use_usual_policy
-from contact_sim_pkg.nodes.processes.scene_file import (
-    block_length_ns,
-    count_blocks,
-    queue_depth,
-    read_scene,
-    write_description,
-)
+from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_scene, write_description
 from contact_sim_pkg.nodes.protocol.endpoints import publisher, subscription
 from contact_sim_pkg.nodes.protocol.pacing import Pacer
 from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError, RecordedFollower, RunState
@@ -54,10 +48,10 @@ class ExcitationNode(Node):
         bag = declare(self, "from_bag", "", FROM_BAG_TEXT)
         self._source = _source_of_bag(topic, bag, scene) if bag else make_source(scene)
         write_description(self.scene_name, topic, self._source.describe())
-        self._block_length_ns = block_length_ns(scene)
+        self._block_length_ns = scene.block_length_ns
         logged = declare_record(self)
         self._listeners = 1 + logged  # simulator, logger
-        self._window = BlockWindow(count_blocks(scene), logged=logged)
+        self._window = BlockWindow(scene.blocks, logged=logged)
         pace = declare_pace(self, scene.data["pace"])
         self._pacer = Pacer(pace, scene.block_length)
         self._gather, self._at_full_speed = Gather(), math.isinf(pace)

@@ -11,7 +11,7 @@ from rclpy.node import Node
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.nodes.clock import SimulatedClock
 from contact_sim_pkg.nodes.diagnostics import Diagnostics
-from contact_sim_pkg.nodes.processes.scene_file import block_length_ns, queue_depth
+from contact_sim_pkg.nodes.processes.scene_file import queue_depth
 from contact_sim_pkg.nodes.protocol.endpoints import publisher
 from contact_sim_pkg.nodes.protocol.progress_report import ProgressReport
 from contact_sim_pkg.nodes.protocol.states import RunState
@@ -34,7 +34,7 @@ class SimulatorPublishers:
         self.diagnostics = Diagnostics(node)
         self._scene = publisher(node, "bench/scene")
         self._scene.publish(encode(String(data=scene.to_yaml())))
-        self._block_length_ns, self._compiled = block_length_ns(scene), scene
+        self._block_length_ns, self._compiled = scene.block_length_ns, scene
 
     def compiling(self) -> AbstractContextManager[None]:
         """While the block of code lasts, `bench/progress` reports the kernels that it compiles."""

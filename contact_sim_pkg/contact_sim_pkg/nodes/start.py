@@ -10,7 +10,7 @@ from importlib import import_module
 
 from contact_sim_pkg.requirements import package_sentence
 
-__all__ = ["bag_logger", "bag_replay", "contact_simulator", "road_profile", "vibration"]
+__all__ = ["bag_logger", "bag_replay", "bench_view", "contact_simulator", "road_profile", "vibration"]
 
 
 def _start(node: str) -> int:
@@ -28,6 +28,7 @@ def _start(node: str) -> int:
 
 bag_logger = partial(_start, "bag_logger")
 bag_replay = partial(_start, "bag_replay")
+bench_view = partial(_start, "bench_view")
 contact_simulator = partial(_start, "contact_simulator")
 road_profile = partial(_start, "road_profile")
 vibration = partial(_start, "vibration")

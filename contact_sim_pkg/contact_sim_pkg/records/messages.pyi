@@ -333,6 +333,7 @@ class RollerTrack(_Record):
     radius: float
     height: NDArray[numpy.float64]
     load: NDArray[numpy.float64]
+    axial: NDArray[numpy.float64] = ...
     lowered: float
     range: float
     free: float

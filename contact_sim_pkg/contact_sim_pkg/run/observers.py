@@ -1,14 +1,18 @@
 """Effects that only look: after each block they see its outputs, and add outputs of their own.
 
-They change no state and no other output, so a run with them has the bits of one without. An effect
-names its observer (`records.effect.Effect.observer`); that is how a plug-in adds one to any rig.
+They change no state and no other output, so a run with them has the bits of one without: the arrays
+that they see are views that cannot be written to. An effect names its observer
+(`records.effect.Effect.observer`); that is how a plug-in adds one to any rig.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Protocol
+
+import numpy
 
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.registry import contacts, rigs
@@ -19,6 +23,10 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["Observer", "observed"]
 
+WRITES = re.compile(r"(?:destination|array) is read-only|setitem\(readonly array")
+"""The words of numpy and of numba where somebody writes to an array that cannot be written to."""
+CURE = "an observer only reads: change a copy of the array"
+
 
 class Observer(Protocol):
     """What looks at the blocks of one run, in their order."""
@@ -27,8 +35,8 @@ class Observer(Protocol):
         """Compile or load its kernels, if it has any: a run compiles nothing."""
 
     def observe(self, outputs: Sequence[Output]) -> Iterable[Output]:
-        """Outputs of its own, on the topic that its effect announces, from all outputs of a block, which it
-        must not write to; stamps [ns] as theirs.
+        """Outputs of its own, on the topic that its effect announces, from all outputs of a block, whose
+        arrays are read-only; stamps [ns] as theirs.
         """
 
 
@@ -55,10 +63,13 @@ class _Observed:
         """
         result = self._simulation.advance(block, inputs)
         seen: list[Output] = []
+        shown = tuple(each._replace(record=_read_only(each.record)) for each in result.outputs)
         for effect, (observer, topic) in self._observers.items():
             try:
-                found = list(observer.observe(result.outputs))
+                found = list(observer.observe(shown))
             except Exception as error:
+                if WRITES.search(str(error)):
+                    raise RunError(f"{effect} writes to an output of block {block} that it observes; {CURE}") from error
                 raise RunError(f"{effect} failed in block {block}: {type(error).__name__}: {error}") from error
             for output in found:
                 if output.topic != topic:
@@ -67,6 +78,20 @@ class _Observed:
                     )
             seen += found
         return replace(result, outputs=[*result.outputs, *seen])
+
+
+def _read_only(value: Any) -> Any:
+    """A record of a message as it is, those within it too, its arrays as views that cannot be
+    written to.
+    """
+    if isinstance(value, numpy.ndarray):
+        view = value.view()
+        view.setflags(write=False)
+        return view
+    if isinstance(value, list | tuple) and value and not isinstance(value[0], str):
+        shown = map(_read_only, value)
+        return value._make(shown) if hasattr(value, "_make") else tuple(shown)
+    return value
 
 
 def observed(scene: ResolvedScene, simulation: BlockSimulation) -> BlockSimulation:

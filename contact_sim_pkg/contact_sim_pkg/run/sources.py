@@ -98,6 +98,11 @@ def make_surface(scene: ResolvedScene, cell: float) -> Surface:
             shortest_wavelength=road.shortest_wavelength, longest_wavelength=road.longest_wavelength,
             texture_wavelength=None if road.texture is None else road.texture.shortest_wavelength, lattice_cell=cell,
         )  # fmt: skip
+    if road.kind == "self_affine":
+        from contact_sim_pkg.excitation.self_affine import SelfAffineRoad
+
+        waves = (road.longest_wavelength, road.shortest_wavelength)
+        return SelfAffineRoad(road.hurst, road.rms, *waves, scene.seed, lattice_cell=cell)
     if road.kind == "opencrg":
         from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 

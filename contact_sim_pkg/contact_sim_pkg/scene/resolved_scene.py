@@ -82,6 +82,16 @@ class ResolvedScene:
         return float(self.data["block_length"])
 
     @property
+    def block_length_ns(self) -> int:
+        """Simulated time in [ns] of a block."""
+        return round(self.block_length * 1e9)
+
+    @property
+    def blocks(self) -> int:
+        """Number of blocks of the whole run."""
+        return round(self.duration / self.block_length)
+
+    @property
     def accuracy(self) -> float | str:
         """Requested relative error, or `realtime`."""
         accuracy: float | str = self.data["accuracy"]

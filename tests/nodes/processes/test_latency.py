@@ -14,7 +14,7 @@ def message(block: int) -> bytes:
 
 @needs_ros
 def test_a_block_lasts_from_its_last_excitation_to_its_last_force():
-    from contact_sim_pkg.nodes.processes.latency import Latencies
+    from contact_sim_lab.nodes.latency import Latencies
 
     latencies = Latencies(LENGTH, forces=2)
     for block in range(200):
@@ -34,7 +34,7 @@ def test_a_block_lasts_from_its_last_excitation_to_its_last_force():
 
 @needs_ros
 def test_a_run_without_a_whole_block_is_refused():
-    from contact_sim_pkg.nodes.processes.latency import Latencies
+    from contact_sim_lab.nodes.latency import Latencies
 
     with pytest.raises(ValueError, match="no block came"):
         Latencies(LENGTH, forces=1).figures()
@@ -42,7 +42,7 @@ def test_a_run_without_a_whole_block_is_refused():
 
 @needs_ros
 def test_the_latency_of_a_run_is_positive_and_below_its_length():
-    from contact_sim_pkg.nodes.processes.latency import measure
+    from contact_sim_lab.nodes.latency import measure
 
     found = measure("seat_ride", 10.0)
     assert found["blocks"] > 0

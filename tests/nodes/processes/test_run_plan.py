@@ -8,7 +8,7 @@ from ruamel.yaml import YAML
 from tests.bench_process import PACKAGE, needs_ros, resolved
 
 from contact_sim_pkg.nodes.processes.run_plan import in_processes, planned_nodes
-from contact_sim_pkg.nodes.processes.scene_file import count_blocks, queue_depth, read_scene, write_scene
+from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_scene, write_scene
 
 SCENE = Path("scene.resolved.yaml")
 
@@ -58,7 +58,7 @@ def test_a_node_reads_the_scene_that_was_resolved_to_the_bit(tmp_path):
     again = read_scene(str(write_scene(scene, tmp_path)))
     assert again.data == scene.data
     assert again.files == scene.files
-    assert count_blocks(again) == 37
+    assert again.blocks == 37
 
 
 def test_queues_are_two_windows_of_the_fastest_single_messages_deep():

@@ -1,5 +1,8 @@
 """Spectra against scipy and closed forms: a sine's variance, white noise, and a one-mass oscillator."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import scipy.signal
@@ -129,3 +132,18 @@ def test_signals_in_parts_give_the_bits_of_the_whole(part):
 
     assert found == ends
     assert parts.mean().density.tobytes() == whole.mean().density.tobytes()
+
+
+def test_a_response_in_the_middle_of_a_run_loads_no_part_of_scipy():
+    # It takes 0.3 s, which a simulator that keeps a clock does not have
+    code = (
+        "import sys, numpy\n"
+        "from contact_sim_pkg.report.signal.spectrum import Welch\n"
+        "welch = Welch(2, 64, 100.0)\n"
+        "list(welch.advance(numpy.random.default_rng(1).standard_normal((2, 256))))\n"
+        "before = set(sys.modules)\n"
+        "assert numpy.isfinite(welch.mean().response(0, 1).magnitude).any()\n"
+        "print(*sorted(name for name in set(sys.modules) - before if name.startswith('scipy')))"
+    )
+    found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert found.stdout.split() == []

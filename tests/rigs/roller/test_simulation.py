@@ -152,6 +152,62 @@ def test_a_new_step_of_the_load_tells_its_stability():
     assert column(messages, "load")[-1] == pytest.approx(100.0, rel=1e-3)
 
 
+def test_a_new_step_of_the_bending_load_moves_the_static_tilt():
+    """The moment of the bent surface is proportional to Q, and so is the static tilt while it is small."""
+    bend = "effects.roller.shaft_bending={load: 10}"
+    values = ("roller.programme={between: steps, time: [0.0, 0.05], bending_load: [10, 20]}", bend)
+    _scene, messages = run("roller_flutter", "duration=0.1", *values)
+    first, second = of(messages, RollerStability)
+    assert second.tilt == pytest.approx(2.0 * first.tilt, rel=1e-3)
+    assert abs(first.tilt) > 1e-5
+
+
+def test_a_bending_load_that_is_constant_is_that_of_the_effect():
+    bend = "effects.roller.shaft_bending={load: 150}"
+    _scene, wanted = run("roller_flutter", "duration=0.1", bend)
+    rows = "roller.programme={time: [0.0, 1.0], bending_load: [150, 150]}"
+    _scene, found = run("roller_flutter", "duration=0.1", "effects.roller.shaft_bending={load: 70}", rows)
+    assert column(found, "tilt") == pytest.approx(column(wanted, "tilt"), rel=1e-12, abs=1e-18)
+
+
+def test_the_motion_follows_a_slow_bending_load_and_its_ledger_closes():
+    """A roller without spin under Q(t) = 100 N/s t: it stays at the static tilt of the moment, of which
+    eq 17a gives -f0 Q pi a b h R (A - l + R psi) / J_y over the stiffness k_psi - F R."""
+    heavy = ("roller.damping_tilt=2e-2", "roller.damping_yaw=2e-2", "roller.tilt=0", "roller.load=100")
+    off = ("effects.roller.gyroscope=null", "effects.roller.rolling_friction=null")
+    rows = ("roller.programme={time: [0.0, 1.0], bending_load: [0, 100]}", "effects.roller.shaft_bending={}")
+    _scene, messages = run("roller_flutter", "duration=1.0", *heavy, *off, *rows)
+    contact = of(messages, RollerContact)[-1]
+    radius, second = 0.005, 0.25 * math.pi * 0.005**4
+    pull = 0.1 * 100.0 * math.pi * contact.along_x[-1] * contact.along_y[-1] * (radius - contact.approach[-1]) / second
+    tilt = -pull * 0.02 * (0.060 - 0.158) / (60.0 - 100.0 * 0.02 + pull * 0.02**2)
+    assert contact.tilt[-1] == pytest.approx(tilt, rel=2e-3)
+    rows_of_energy = ledger_rows(messages)
+    assert abs(rows_of_energy[:, 5]).max() < 1e-6 * abs(rows_of_energy).max()
+
+
+def test_the_axial_wave_is_the_arm_of_the_tilted_roller():
+    """x_c = R sin psi at the cells of the last turn, beside the tilt between the same instants."""
+    values = ("duration=0.1", "effects.roller.subsurface.instants=[0.0]", "effects.roller.damage.table_rows=3")
+    cells = ("effects.roller.track_waves.cells=250", "outputs.force_rate=50000")
+    _scene, messages = run("roller_hour", *values, "roller.tilt=1e-3", *cells)
+    track, contact = of(messages, RollerTrack)[-1], of(messages, RollerContact)[-1]
+    assert len(track.axial) == len(track.height) == 250
+    assert track.axial == pytest.approx(0.02 * numpy.sin(contact.tilt[-250:]), rel=1e-9)
+    assert of(run("roller_corrugation", *values)[1], RollerTrack)[-1].axial.size == 0
+
+
+def test_points_are_marked_by_the_stresses_above_their_limits():
+    from contact_sim_pkg.rigs.roller.report.figures_stress import TONES, components_above
+
+    limits = numpy.array([4.0, 4.0, 4.0, 1.0, 1.0, 1.0])
+    rows = [[0, 0, -3, 0, 0.9, 0], [0, -5, 0, 0, 0, 0], [5, 0, 0, 0, -2, 0], [0, 0, -5, 0, 0, 0], [0, 0, -5, 0, 2, 0]]
+    stress = numpy.array(rows, float)
+    assert [TONES[int(each)] for each in components_above(stress, stress, limits)] == list(TONES)
+    bent = stress + numpy.array([9.0, 0, 0, 0, 0, 0])
+    assert components_above(stress, bent, limits).tolist() == [1, 1, 2, 3, 4]
+
+
 def test_a_roller_that_tips_over_ends_the_run_with_the_time():
     with pytest.raises(RunError, match="the roller tips over"):
         run("roller_flutter", "roller.tilt=0.1", "duration=4.0")
@@ -313,6 +369,11 @@ def test_the_time_acceleration_is_checked_against_every_turn_ridden():
         ("roller_flutter", ("roller.profile_radius=0",), "give profile_radius or shaft_profile_radius a value"),
         ("roller_flutter", ("roller.inertia_product=2e-5",), "give one between -2e-05 and 2e-05"),
         ("roller_flutter", ("effects.roller.normal_elastic.split=parallel",), "add shaft_bending, or take series"),
+        (
+            "roller_flutter",
+            ("roller.programme={time: [0, 1], bending_load: [1, 2]}",),
+            "add the effect shaft_bending, or leave it out",
+        ),
         ("roller_corrugation", ("roller.speed=0",), "give a speed above 0 or leave track_waves out"),
         ("roller_corrugation", ("effects.roller.subsurface.instants=[7]",), "leave it out or take a longer duration"),
         (

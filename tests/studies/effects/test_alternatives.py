@@ -1,10 +1,16 @@
 """Scenes with one effect left out, or one more."""
 
+import numpy
 import pytest
 
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.studies.effects import absent, reduced
 from contact_sim_pkg.studies.effects.alternatives import effects_of, with_effect, without_effects
+
+UPRIGHT = "vibration={kind: sine, frequency: 4, amplitude: 3}"
+BACKWARD = "vibration={kind: half_sine, axis: x, amplitude: -20, duration: 0.02, start: 1}"
+NO_FIELD = "effects.tire.contact_field=null"
+CLEAT = "road={kind: cleat, %s, height: 0.01, length: 0.02}"
 
 
 def alternative(scene, name, *values, on=False):
@@ -63,9 +69,17 @@ def test_all_that_can_act_together_keeps_what_is_on():
         ("impact_rubber_drop", ("impact.temperatures=[256.0]",), {"shift"}),
         ("impact_rubber_drop", (), set()),
         ("seat_ride", ("vibration={kind: sine, axis: x, frequency: 3, amplitude: 3}",), {"friction"}),
-        ("seat_ride", ("effects.seat.normal_dissipative=null",), set()),
-        ("seat_ride", ("effects.seat.normal_dissipative=null", "effects.seat.foam_hysteresis=null"),
+        ("seat_ride", ("vibration={kind: sine, axis: x, frequency: 3, amplitude: 1.0e-9}",), set()),
+        ("seat_ride", (BACKWARD,), {"friction"}),
+        ("seat_ride", (UPRIGHT, "effects.seat.normal_dissipative=null"), set()),
+        ("seat_ride", (UPRIGHT, "effects.seat.normal_dissipative=null", "effects.seat.foam_hysteresis=null"),
          {"normal_dissipative", "general_dissipative"}),
+        ("tire_bump", (NO_FIELD, CLEAT % "position: 90"), set()),  # 30 m in 3 s
+        ("tire_bump", (NO_FIELD, CLEAT % "position: -9"), set()),
+        ("tire_bump", (NO_FIELD, CLEAT % "position: 70, period: 50"), {"contact_field"}),
+        ("tire_bump", (NO_FIELD, CLEAT % "position: 90, period: 200"), set()),
+        ("tire_rough_road", (NO_FIELD,), {"contact_field"}),
+        ("tire_rough_road", (NO_FIELD, "travel={speed: 0}"), set()),
         ("car_full_bench", (), set()),
     ],
 )  # fmt: skip
@@ -75,3 +89,37 @@ def test_the_data_of_a_scene_call_for_effects_that_are_off(scene, values, effect
     sentence = absent.sentence_of_absent(resolved)
     assert all(name in sentence for name in effects)
     assert bool(sentence) == bool(effects)
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "columns", "effects"),
+    [(0.5, "x,z", {"friction"}), (0.5, "forward,z", set()), (0.02, "x,z", set()), (0.0, "x,z", set())],
+)
+def test_a_recording_calls_for_friction_where_it_shakes_fore_and_aft(tmp_path, amplitude, columns, effects):
+    """A third of the requested 1e-2 of gravity is 0.033 m/s^2; a forward column may be absent."""
+    wave = numpy.sin(2.0 * numpy.pi * 4.0 * numpy.arange(400) / 100.0)
+    path = tmp_path / "floor.csv"
+    samples = numpy.column_stack([0.6 + amplitude * wave, 9.81 + 2.0 * wave])
+    numpy.savetxt(path, samples, delimiter=",", header=columns, comments="")
+    values = (f"vibration={{kind: recorded, file: {path}, rate: 100}}", "duration=3")
+    found = absent.absent_effects(load_resolved("seat_ride", *values))
+    assert {effect.name for _contact, effect, _reason in found} == effects
+
+
+@pytest.mark.parametrize(("start", "effects"), [(0.0, set()), (1.5, {"friction"})])
+def test_only_the_part_of_a_recording_that_a_run_plays_calls_for_friction(tmp_path, start, effects):
+    instants = numpy.arange(600) / 100.0
+    wave = numpy.sin(2.0 * numpy.pi * 4.0 * instants)
+    path = tmp_path / "floor.csv"
+    samples = numpy.column_stack([2.0 * wave * (instants > 4.0), 9.81 + wave])
+    numpy.savetxt(path, samples, delimiter=",", header="x,z", comments="")
+    values = (f"vibration={{kind: recorded, file: {path}, rate: 100, start: {start}}}", "duration=3")
+    found = absent.absent_effects(load_resolved("seat_ride", *values))
+    assert {effect.name for _contact, effect, _reason in found} == effects
+
+
+def test_a_recording_that_is_too_short_calls_for_nothing(tmp_path):
+    path = tmp_path / "floor.csv"
+    path.write_text("x,z\n1,9\n-1,11\n", encoding="utf-8")
+    scene = load_resolved("seat_ride", f"vibration={{kind: recorded, file: {path}, rate: 100}}")
+    assert absent.sentence_of_absent(scene) == ""

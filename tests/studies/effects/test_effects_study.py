@@ -18,8 +18,11 @@ from contact_sim_pkg.studies.effects import effects_study, effects_table, reduce
 
 QUICK = (
     "slip angle of 1e-9 rad", "sliding of 1e-12 m", "ride without loss", "rubber at 256 K", "0.01 K apart",
-    "ring on a flat road", "softening on noise", "map of a ride", "stress of an impact", "shift in a room",
+    "ring on a flat road", "softening on noise", "map of a ride", "recorded ride without friction",
+    "stress of an impact", "shift in a room",
 )  # fmt: skip
+
+WITHOUT_LOSS = ("normal_dissipative", "surface_waves", "history")  # and what needs it
 
 
 def silent(_line):
@@ -79,6 +82,23 @@ def test_the_written_scene_has_what_the_scene_calls_for(tmp_path):
     assert by_name["gauge_noise"]["verdict"] == "would observe"
     again = CliRunner().invoke(command, given)
     assert "exists already" in str(again.exception)
+
+
+def test_an_effect_that_observes_keeps_its_word_beside_the_law_that_comes_with_it():
+    scene = load_resolved("impact_rubber_drop", *(f"effects.impact.{each}=null" for each in WITHOUT_LOSS))
+    study = effects_study.study_of(scene, silent, "impact.surface_waves")
+    (row,) = study.rows
+    assert (row.verdict, row.added) == (verdicts.WOULD_OBSERVE, ("normal_dissipative",))
+    assert row.largest is not None, "of the loss"
+    assert effects_table.table(study)[0].rows[0]["effect"] == "impact surface_waves with normal_dissipative"
+
+
+def test_from_all_that_can_act_together_only_what_acts_is_measured():
+    given = ["impact_rubber_drop", "--from", "all", "--json"]
+    facts = json.loads(CliRunner().invoke(command, given, catch_exceptions=False).stdout)
+    assert all(row["on"] for row in facts["rows"])
+    assert {"normal_dissipative", "shift"} <= {row["effect"] for row in facts["rows"]}
+    assert "that is off" not in facts["answer"]
 
 
 def test_what_is_left_out_is_what_changes_less_than_requested():

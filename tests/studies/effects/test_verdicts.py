@@ -56,3 +56,16 @@ def test_resolved_changes_come_first_and_an_effect_has_its_own_least_error():
     found = verdicts.changes_of(judged, {("tire", "peak"): 0.5}, {"force": 1.5e-2})
     assert [(each.kind, each.resolved) for each in found] == [("motion", True), ("peak", False), ("force", False)]
     assert verdicts.largest(found).column == "wheel_z velocity"
+
+
+def test_rounding_is_no_change():
+    judged = [Judgement("seat", "force", 5e-16, "seat normal", 0.1)]
+    found = verdicts.changes_of(judged, {}, {})
+    assert verdicts.verdict_off(found, REQUEST, "slip") == "would change nothing"
+    assert verdicts.shown(found[0]) == "nothing"
+
+
+def test_a_change_is_shown_in_per_cent():
+    assert verdicts.shown(change(2.3449)) == "force 234 %"
+    assert verdicts.shown(change(0.997)) == "force 100 %"
+    assert verdicts.shown(change(0.0123, kind="peak")) == "peak pressure 1.2 %"

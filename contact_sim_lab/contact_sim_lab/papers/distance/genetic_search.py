@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from contact_sim_lab.papers.distance.convex_body import ConvexBody
 from contact_sim_lab.papers.distance.ellipsoid import supporting_plane
 
-__all__ = ["GeneticResult", "genetic_distance", "genetic_interference"]
+__all__ = ["GeneticResult", "constraint_values", "genetic_distance", "genetic_interference"]
 
 Field = NDArray[numpy.float64]
 
@@ -99,7 +99,9 @@ def _slsqp_distance(bodies: tuple[ConvexBody, ConvexBody], points: Field, size: 
     start = points.ravel()
 
     def room(unknowns: Field) -> Field:
-        return numpy.concatenate([-_values(body, unknowns[3 * k : 3 * k + 3]) for k, body in enumerate(bodies)])
+        return numpy.concatenate(
+            [-constraint_values(body, unknowns[3 * k : 3 * k + 3]) for k, body in enumerate(bodies)]
+        )
 
     return scipy.optimize.minimize(
         lambda z: ((z[:3] - z[3:]) ** 2).sum() / size**2,
@@ -110,11 +112,12 @@ def _slsqp_distance(bodies: tuple[ConvexBody, ConvexBody], points: Field, size: 
     )
 
 
-def _values(body: ConvexBody, point: Field) -> Field:
-    """g of every constraint, quadrics first."""
-    off = point - body.centres
-    curved = numpy.einsum("ki,kij,kj->k", off, body.shapes, off) - 1.0
-    return numpy.concatenate([curved, body.normals @ point - body.offsets])
+def constraint_values(body: ConvexBody, points: Field) -> Field:
+    """g of every constraint, quadrics first, at points [..., 3] [m]: [constraints, ...]."""
+    off = points[..., None, :] - body.centres
+    curved = numpy.einsum("...ki,kij,...kj->k...", off, body.shapes, off) - 1.0
+    flat = numpy.moveaxis(points @ body.normals.T - body.offsets, -1, 0)
+    return numpy.concatenate([curved, flat])
 
 
 def _pulled_in(body: ConvexBody, points: Field) -> Field:
@@ -158,7 +161,7 @@ def _distance_residual(bodies: tuple[ConvexBody, ConvexBody], points: Field, siz
         off = point - body.centres
         slopes = numpy.concatenate([2.0 * numpy.einsum("kij,kj->ki", body.shapes, off), body.normals])
         lengths = numpy.linalg.norm(slopes, axis=1)
-        outside = _values(body, point) / (lengths * size)
+        outside = constraint_values(body, point) / (lengths * size)
         active = outside > -ACTIVE
         if active.any():
             _, left = scipy.optimize.nnls((slopes / lengths[:, None])[active].T, -gap)

@@ -1,7 +1,7 @@
 """Slow twins of the backrest rig, integrated by scipy; they share no code with the kernels.
 
 ``slapping_mass``: one mass on a Hunt-Crossley seat back under preload and a sine, phase by phase
-with located events. ``slapping_normal``: the force of that mass at given instants.
+with located events. ``slapping_course``, ``slapping_normal``: motion and force of that mass at given instants.
 ``sliding_friction``: friction under a given force, step by step. ``slapping_points``: modal
 coordinates with many contact points, in one go at a tight tolerance.
 """
@@ -50,17 +50,26 @@ def slapping_mass(body: SlappingMass, duration: float, tolerance: float = 1e-12)
     return Slaps(touches, losses, parts[-1][1].y[:, -1])
 
 
-def slapping_normal(body: SlappingMass, times: Vector, tolerance: float = 1e-12) -> Vector:
-    """Contact force [times] [N] of the motion of ``slapping_mass`` at ascending ``times`` [s] from
-    0.
+def slapping_course(body: SlappingMass, times: Vector, tolerance: float = 1e-12) -> NDArray[numpy.float64]:
+    """Approach [m], its rate [m/s] and contact force [N], [3, times], of the motion of ``slapping_mass``
+    at ascending ``times`` [s] from 0.
     """
-    force = numpy.zeros(len(times))
+    course = numpy.zeros((3, len(times)))
     for touching, part in _phases(body, float(times[-1]), tolerance):
+        during = (times >= part.t[0]) & (times <= part.t[-1])
+        if not during.any():
+            continue
+        w, v = part.sol(times[during])
+        course[:2, during] = w, v
         if touching:
-            during = (times >= part.t[0]) & (times <= part.t[-1])
-            w, v = part.sol(times[during])
-            force[during] = body.coefficient * numpy.maximum(w, 0.0) ** body.exponent * (1.0 + body.damping * v)
-    return numpy.maximum(force, 0.0)
+            force = body.coefficient * numpy.maximum(w, 0.0) ** body.exponent * (1.0 + body.damping * v)
+            course[2, during] = numpy.maximum(force, 0.0)
+    return course
+
+
+def slapping_normal(body: SlappingMass, times: Vector, tolerance: float = 1e-12) -> Vector:
+    """Contact force [times] [N] of `slapping_course`."""
+    return slapping_course(body, times, tolerance)[2]
 
 
 def sliding_friction(

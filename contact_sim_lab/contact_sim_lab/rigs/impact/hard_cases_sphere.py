@@ -14,17 +14,16 @@ from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_
 from contact_sim_lab.twins import impact as elastic_reference
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.runs import integrate
-from contact_sim_pkg.rigs.impact.theory import moduli, position, shift
+from contact_sim_pkg.rigs.impact.theory import micro_front, moduli, position, shift, stress
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere, hertz_modulus
-from contact_sim_pkg.rigs.impact.theory.closed_form import micro_front, stress
 from contact_sim_pkg.rigs.impact.theory.closed_form import scalings as closed_forms
 from contact_sim_pkg.rigs.impact.theory.closed_form.force import elastic_force, viscous_force
 from contact_sim_pkg.rigs.impact.theory.closed_form.scaled_motion import scaled_impact
 from contact_sim_pkg.rigs.impact.theory.closed_form.severity import fold, severity_of_loss_tangent
-from contact_sim_pkg.rigs.impact.theory.closed_form.surface_wave import ring, shear_speed
 from contact_sim_pkg.rigs.impact.theory.errors import FoldError, ImpactError
 from contact_sim_pkg.rigs.impact.theory.geometry import SMALL_SHAPE_FACTOR, contact_radius, depth_note, shape_factor
 from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact, course, solve_impact
+from contact_sim_pkg.rigs.impact.theory.surface_wave import ring, shear_speed
 from contact_sim_pkg.rigs.impact.theory.viscoelastic import creep, hereditary
 
 STEEL_RADIUS, STEEL_DENSITY = 0.01, 7800.0  # [m], [kg/m^3]

@@ -9,8 +9,8 @@ import functools
 from contact_sim_lab.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_lab.rigs.impact.twins import goloshchapov
 from contact_sim_lab.rigs.impact.work_precision import MODULUS, SPEED, SPHERE, reference
+from contact_sim_pkg.rigs.impact.theory import micro_front
 from contact_sim_pkg.rigs.impact.theory.bodies import Material
-from contact_sim_pkg.rigs.impact.theory.closed_form import micro_front
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.inverse import FORMS, material_of_impact
 from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact, solve_impact

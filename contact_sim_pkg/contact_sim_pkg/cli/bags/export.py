@@ -1,36 +1,105 @@
-"""`bench export`: topics of a bag as tables."""
+"""`bench export`: topics of a bag as tables, as standard messages of ROS, or in wall time."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from contact_sim_pkg.cli.output.tables import overwrite_option
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.bag.reader import Bag
+    from contact_sim_pkg.bag.writer import BagSummary
+
+STANDARD = "ros-std"
+HIGHEST_RATE = 1e5
 
 
 @click.command("export")
 @click.argument("bag", type=click.Path(path_type=Path))
 @click.option("--csv", "form", flag_value="csv", help="Comma-separated text, any spreadsheet.")
 @click.option("--parquet", "form", flag_value="parquet", help="Apache Parquet; needs pyarrow.")
+@click.option(
+    "--ros-std", "form", flag_value=STANDARD, help="A bag of standard messages: Image, PointCloud2, Imu, TF ..."
+)
+@click.option("--wall-time", is_flag=True, help="A bag whose log times are wall time; alone, or with --ros-std.")
+@click.option(
+    "--begin", default="", metavar="TIME", help="Wall time of simulated time 0; by default from the bag's file."
+)
+@click.option("--rate", type=click.FloatRange(0.001, HIGHEST_RATE), metavar="HZ",
+              help="Of --ros-std: messages of a topic a second at most, 20.")  # fmt: skip
 @click.option("--topic", "topics", multiple=True, metavar="NAME", help="Only this one; may be given several times.")
-@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder; by default export/ in the bag.")
+@click.option("--out", type=click.Path(path_type=Path), metavar="DIR",
+              help="Folder, by default export/ in the bag; of a bag, by default BAG_std or BAG_wall.")  # fmt: skip
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 @overwrite_option
+@click.pass_context
 def command(
-    bag: Path, form: str | None, topics: tuple[str, ...], out: Path | None, skip_bad: bool, overwrite: bool
-) -> None:
-    """Write each topic of BAG as a table, one row a sample with its time and units.
+    context: click.Context, bag: Path, form: str | None, wall_time: bool, begin: str, rate: float | None,
+    topics: tuple[str, ...], out: Path | None, skip_bad: bool, overwrite: bool,
+) -> None:  # fmt: skip
+    """Write each topic of BAG as a table, one row a sample with its time and units; or write a new bag.
 
     Pressure maps become the CSV of a pressure mat, frame by frame.
     """
     from contact_sim_pkg.bag.reader import open_bag
-    from contact_sim_pkg.report.export.write import export
 
-    if form is None:
-        raise click.UsageError("Missing --csv or --parquet.")
-    source = open_bag(bag, skip_bad=skip_bad)
-    for file in export(source, form, topics, out or source.path.parent / "export", overwrite=overwrite):
-        click.echo(str(file))
+    _refuse_options_that_do_not_fit(form, wall_time, begin, rate, topics, overwrite)
+    source, status = open_bag(bag, skip_bad=skip_bad), 0
+    if form in (None, STANDARD):
+        summary = _new_bag(source, form, out, wall_time, begin, rate)
+        click.echo(f"{summary.path}: {summary.messages} messages{f'; {summary.sentence}' if summary.sentence else ''}")
+        status = 0 if summary.complete else 3
+    else:
+        from contact_sim_pkg.report.export.write import export
+
+        for file in export(source, form, topics, out or source.path.parent / "export", overwrite=overwrite):
+            click.echo(str(file))
     for note in source.notes:
         click.echo(note, err=True)
+    context.exit(status)
+
+
+def _refuse_options_that_do_not_fit(
+    form: str | None, wall_time: bool, begin: str, rate: float | None, topics: tuple[str, ...], overwrite: bool
+) -> None:
+    """UsageError for an option that the rest gives no meaning."""
+    if form is None and not wall_time:
+        raise click.UsageError("Missing --csv, --parquet, --ros-std or --wall-time.")
+    table = form not in (None, STANDARD)
+    wrong = {
+        "--wall-time": table and wall_time,
+        "--begin": bool(begin) and not wall_time,
+        "--rate": rate is not None and form != STANDARD,
+        "--topic": bool(topics) and not table,
+        "--overwrite": overwrite and not table,
+    }
+    for option in (option for option, is_wrong in wrong.items() if is_wrong):
+        needs = {"--begin": "--wall-time", "--rate": "--ros-std"}.get(option, "")
+        raise click.UsageError(
+            f"{option} needs {needs}." if needs else f"{option} and {_named(form)} exclude each other."
+        )
+
+
+def _new_bag(
+    source: Bag, form: str | None, out: Path | None, wall_time: bool, begin: str, rate: float | None
+) -> BagSummary:
+    from contact_sim_pkg.bag.names import new_directory
+    from contact_sim_pkg.bag.wall_time import began_at, export_wall_time, wall_time_texts
+
+    ending = "_std" if form == STANDARD else "_wall"
+    place = source.path.parent
+    directory = new_directory(out or place.with_name(place.name + ending), "")
+    if form is None:
+        return export_wall_time(source, directory, began_at(source, begin))
+    from contact_sim_pkg.standard.export import export_standard
+    from contact_sim_pkg.standard.topics import RATE
+
+    texts = wall_time_texts(began_at(source, begin)) if wall_time else {}
+    return export_standard(source, directory, rate=rate or RATE, texts=texts)
+
+
+def _named(form: str | None) -> str:
+    return f"--{form}" if form else "--wall-time"

@@ -79,7 +79,7 @@ def state_of(scene: ResolvedScene, outcome: Outcome) -> str:
     """
     if outcome.exit_status == 1:
         return "failed"
-    blocks = round(scene.duration / scene.block_length)
+    blocks = scene.blocks
     return "stopped" if outcome.blocks < blocks else "finished"
 
 

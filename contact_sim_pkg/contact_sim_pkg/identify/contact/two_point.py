@@ -15,7 +15,7 @@ from contact_sim_pkg.identify.geometry import UP
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.problem import PAIRS, spatial_basis
 
-__all__ = ["TwoPoint", "one_impact", "two_point"]
+__all__ = ["TwoPoint", "impact_equations", "one_impact", "two_point"]
 
 
 class TwoPoint(NamedTuple):
@@ -75,12 +75,28 @@ def one_impact(
     Returns:
         I0/m [3, 3] in [m^2] and the rank: 3 from one impact, 0 where its impulse passes through the centre of mass.
     """  # fmt: skip
-    spin_change, spin = rotation.T @ (after[1] - before[1]), rotation.T @ (0.5 * (before[1] + after[1]))
-    push = after[0] - before[0] + passed * gravity * UP
-    basis = spatial_basis()
-    regressor = numpy.stack([part @ spin_change + passed * numpy.cross(spin, part @ spin) for part in basis], axis=1)
-    found, _, rank, _ = numpy.linalg.lstsq(regressor, rotation.T @ numpy.cross(reach, push), rcond=1e-10)
+    regressor, moment = impact_equations(spatial_basis(), rotation, before, after, reach, passed, gravity)
+    found, _, rank, _ = numpy.linalg.lstsq(regressor, moment, rcond=1e-10)
     inertia = numpy.zeros((3, 3))
     for value, (row, col) in zip(found, PAIRS, strict=True):
         inertia[row, col] = inertia[col, row] = value
     return inertia, int(rank)
+
+
+def impact_equations(
+    basis: Array, rotation: Array, before: tuple[Array, Array], after: tuple[Array, Array], reach: Array,
+    passed: float = 0.0, gravity: float = 9.81,
+) -> tuple[Array, Array]:  # fmt: skip
+    """Three equations that one impact gives the numbers s of `S = I0/m = sum s_i E_i`: matrix [3, k] and right side [3].
+
+    `S a + h W x S W = R^T (r x pi)` (Identifiability eqs 19 to 31, corrected), a the change of the spin and W its mean in
+    body axes, pi the impulse over the mass.
+
+    Args:
+        basis: E_i, [k, 3, 3]: six for a general body, three `e_i e_i^T` where the principal axes are known.
+        rotation, before, after, reach, passed, gravity: as `one_impact`.
+    """
+    spin_change, spin = rotation.T @ (after[1] - before[1]), rotation.T @ (0.5 * (before[1] + after[1]))
+    push = after[0] - before[0] + passed * gravity * UP
+    rows = [part @ spin_change + passed * numpy.cross(spin, part @ spin) for part in basis]
+    return numpy.stack(rows, axis=1), rotation.T @ numpy.cross(reach, push)

@@ -9,10 +9,9 @@ from typing import Any
 
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from contact_sim_pkg.nodes.protocol.endpoints import UNKNOWN, describe_endpoint
+from contact_sim_pkg.nodes.protocol.endpoints import UNKNOWN, describe_endpoint, why_not_served
 
 QUIET_SECONDS = 0.5  # without news of the graph before it counts as known
 BUSY_SECONDS = 0.2  # between two looks: the machine is busy, and others may not have answered yet
@@ -62,7 +61,7 @@ class Audience:
         entry = self._publishers[name]
         fitting = []
         for info in self._node.get_subscriptions_info_by_topic(entry.topic_name):
-            reason = _why_not(entry.qos_profile, info.qos_profile)
+            reason = why_not_served(entry.qos_profile, info.qos_profile)
             if not reason:
                 fitting.append(info)
             elif UNKNOWN not in info.node_name:
@@ -71,14 +70,3 @@ class Audience:
                     self._unfit.add(sentence)
                     self._node.get_logger().warning(sentence)
         return fitting
-
-
-def _why_not(offered: QoSProfile, wanted: QoSProfile) -> str:
-    """Why a subscription cannot be served; empty where it can. (The deadlines in the graph are
-    not those requested.)
-    """
-    if wanted.reliability == ReliabilityPolicy.RELIABLE and offered.reliability == ReliabilityPolicy.BEST_EFFORT:
-        return "it asks for reliable delivery, the topic was recorded as best effort"
-    if wanted.durability == DurabilityPolicy.TRANSIENT_LOCAL and offered.durability == DurabilityPolicy.VOLATILE:
-        return "it asks for a transient-local topic, the topic was recorded as volatile"
-    return ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from types import TracebackType
+from typing import Any
 
 import rclpy
 from rclpy.node import Node
@@ -12,11 +13,11 @@ from rclpy.signals import SignalHandlerOptions
 
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.nodes.processes.process import handle_messages, make_executor, use_batch_policy
-from contact_sim_pkg.nodes.protocol.endpoints import raise_kept, subscription
+from contact_sim_pkg.nodes.protocol.endpoints import informed_subscription, raise_kept
 from contact_sim_pkg.nodes.protocol.states import Follower, RecordedFollower, RunState
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
-GATHER_SECONDS = 0.01  # that reports gather for; what the times of a run are exact to
+GATHER_SECONDS = 0.05  # that reports gather for: at full speed each of them would wake this process
 
 
 class RunMonitor:
@@ -32,8 +33,8 @@ class RunMonitor:
         self.run, self.recorded = Follower(answers=False), RecordedFollower()
         self.ready_at = self.done_at = self.recorded_at = 0.0  # steady clock, [s]; 0 before
         self._kept = [
-            subscription(self._node, "bench/progress", self._on_progress),
-            subscription(self._node, "bench/recorded", self._on_recorded),
+            informed_subscription(self._node, "bench/progress", self._on_progress),
+            informed_subscription(self._node, "bench/recorded", self._on_recorded),
         ]
 
     def spin(self, seconds: float) -> None:
@@ -45,17 +46,17 @@ class RunMonitor:
             raise_kept(self._node)
             left = limit - time.monotonic()
 
-    def _on_progress(self, data: bytes) -> None:
+    def _on_progress(self, data: bytes, info: dict[str, Any]) -> None:
         if self.run.accept(decode(BenchProgress, data)):
-            now = time.monotonic()
+            now = _arrival(info)
             if self.run.state >= RunState.READY and not self.ready_at:
                 self.ready_at = now
             self.done_at = now
 
-    def _on_recorded(self, data: bytes) -> None:
+    def _on_recorded(self, data: bytes, info: dict[str, Any]) -> None:
         recorded = decode(BenchRecorded, data)
         if recorded.block > self.recorded.block:
-            self.recorded_at = time.monotonic()
+            self.recorded_at = _arrival(info)
         self.recorded.accept(recorded)
 
     def __enter__(self) -> RunMonitor:
@@ -68,3 +69,9 @@ class RunMonitor:
         """Leave the graph."""
         self._node.destroy_node()
         rclpy.try_shutdown()
+
+
+def _arrival(info: dict[str, Any]) -> float:
+    """When a message arrived, [s] of the steady clock: the middleware knows it by the system clock."""
+    waited = 1e-9 * (time.time_ns() - int(info["received_timestamp"]))
+    return time.monotonic() - min(max(waited, 0.0), GATHER_SECONDS)

@@ -97,16 +97,6 @@ def read_reason(scene: str) -> str:
         return ""
 
 
-def block_length_ns(scene: ResolvedScene) -> int:
-    """Simulated time of a block, [ns]."""
-    return round(scene.block_length * 1e9)
-
-
-def count_blocks(scene: ResolvedScene) -> int:
-    """Number of blocks of the scene."""
-    return round(scene.duration / scene.block_length)
-
-
 def queue_depth(scene: ResolvedScene) -> int:
     """Depth for the messages of a topic in two windows of blocks."""
     highest = max(scene.outputs.field_rate, scene.outputs.display_rate)

@@ -11,8 +11,10 @@ from collections.abc import Iterable
 from xml.etree import ElementTree
 
 from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.standard.topics import standard_topics
 
-LIFECYCLE = ("contact_simulator", "bag_logger", "bag_replay")
+LIFECYCLE = ("contact_simulator", "bag_logger", "bag_replay", "bench_view")
+_VIEW = standard_topics([name for name, topic in TOPICS.items() if topic.recorded])
 PUBLISHED = {
     "road_profile": ("road/patch",),
     "vibration": ("platform/vibration",),
@@ -21,6 +23,7 @@ PUBLISHED = {
     ),
     "bag_logger": ("bench/recorded",),
     "bag_replay": tuple(name for name, topic in TOPICS.items() if topic.recorded or topic.kind == "clock"),
+    "bench_view": tuple(_VIEW),
     "bench_run": (),
 }
 SUBSCRIBED = {
@@ -29,6 +32,7 @@ SUBSCRIBED = {
     "contact_simulator": ("road/patch", "platform/vibration", "bench/recorded"),
     "bag_logger": (*(name for name, topic in TOPICS.items() if topic.recorded), "bench/progress"),
     "bag_replay": (),
+    "bench_view": tuple(dict.fromkeys(source for topic in _VIEW.values() for source in topic.sources)),
     "bench_run": ("bench/progress", "bench/recorded"),
 }
 PARAMETER_SERVICES = (

@@ -14,7 +14,7 @@ from contact_sim_pkg.nodes.processes.children import Child, Children, ErrorLines
 from contact_sim_pkg.nodes.processes.environment import node_arguments, plugin_environment, set_default_environment
 from contact_sim_pkg.nodes.processes.run_folder import RunFolder
 from contact_sim_pkg.nodes.processes.run_plan import in_processes, planned_nodes
-from contact_sim_pkg.nodes.processes.scene_file import count_blocks, descriptions_beside, write_reason, write_scene
+from contact_sim_pkg.nodes.processes.scene_file import descriptions_beside, write_reason, write_scene
 from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments
 from contact_sim_pkg.nodes.processes.stop_requests import StopRequests
 from contact_sim_pkg.nodes.processes.supervised_run import Report, SupervisedRun, report_of
@@ -156,7 +156,7 @@ class Supervisor:
         bag = self._directory if self._directory is not None and self._directory.is_dir() else None
         stopped = self._stops.any or monitor.run.state is RunState.STOPPED
         done = monitor.run.block + 1
-        if not self._failure and not stopped and done < count_blocks(self._scene):
+        if not self._failure and not stopped and done < self._scene.blocks:
             self._fail(f"the run ended after {done} blocks without a word", FAULT)
         return SupervisedRun(
             blocks=done,

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from typing import Any
 
@@ -91,6 +91,18 @@ def informed_subscription(
 
     receive.__signature__ = _DATA_AND_INFO  # type: ignore[attr-defined]  # by which rclpy sees that the number is wanted
     return _subscribe(node, name, receive, least_depth)
+
+
+def viewing_subscription(node: Node, name: str, callback: Callable[[bytes], None]) -> Subscription:
+    """As `subscription`, of the newest message alone, which no publisher keeps or repeats for it; a latched topic as
+    it is.
+    """
+    topic = topic_of(name)
+    if topic.durability != "transient_local":
+        topic = topic._replace(reliability="best_effort", depth=1)
+    return node.create_subscription(
+        message_type(topic.type), name, partial(_call, node, callback), profile_of(topic), raw=True
+    )
 
 
 _DATA_AND_INFO = inspect.Signature(
@@ -178,3 +190,14 @@ def describe_endpoint(info: TopicEndpointInfo) -> str:
     if UNKNOWN in info.node_name:
         return "a node whose name is not known"
     return f"{info.node_namespace.rstrip('/')}/{info.node_name}"
+
+
+def why_not_served(offered: QoSProfile, wanted: QoSProfile) -> str:
+    """Why a subscription cannot be served; empty where it can. (The deadlines in the graph are
+    not those requested.)
+    """
+    if wanted.reliability == ReliabilityPolicy.RELIABLE and offered.reliability == ReliabilityPolicy.BEST_EFFORT:
+        return "it asks for reliable delivery, the topic was recorded as best effort"
+    if wanted.durability == DurabilityPolicy.TRANSIENT_LOCAL and offered.durability == DurabilityPolicy.VOLATILE:
+        return "it asks for a transient-local topic, the topic was recorded as volatile"
+    return ""

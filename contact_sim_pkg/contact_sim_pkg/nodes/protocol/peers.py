@@ -10,8 +10,9 @@ from functools import partial
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from contact_sim_pkg.nodes.protocol.endpoints import publisher_ids, refuse_strangers
+from contact_sim_pkg.nodes.protocol.endpoints import publisher_ids, refuse_strangers, why_not_served
 from contact_sim_pkg.nodes.protocol.single_source import SourceWatch
 
 NAME_SECONDS = 3.0  # for the graph to learn a stranger's name before it is refused without one
@@ -88,10 +89,21 @@ class Peers:
             absent.append(f"{self._followers} subscribers of bench/progress")
         if self._recorded is not None:
             absent += [] if _publishers(self._node, self._recorded) else ["a publisher of bench/recorded (bag_logger)"]
+            loggers = {_node_of(info) for info in self._node.get_publishers_info_by_topic("bench/recorded")}
             absent += [
-                f"a recorder of {topic}" for topic, entry in self._outputs.items() if entry.get_subscription_count() < 1
+                f"a recorder of {topic}"
+                for topic, entry in self._outputs.items()
+                if entry.get_subscription_count() < 1 or not (unnamed or self._is_recorded(entry, loggers))
             ]
         return absent
+
+    def _is_recorded(self, entry: Publisher, loggers: set[tuple[str, str]]) -> bool:
+        """Whether the logger is among the subscribers, and everybody who can be served is matched: a viewer that was
+        there before is no recorder.
+        """
+        infos = self._node.get_subscriptions_info_by_topic(entry.topic_name)
+        served = [info for info in infos if not why_not_served(entry.qos_profile, info.qos_profile)]
+        return any(_node_of(info) in loggers for info in served) and entry.get_subscription_count() >= len(served)
 
     def alone(self, now: float) -> bool:
         """Whether nobody else publishes results or inputs of the run at `now` of the steady clock,
@@ -100,6 +112,10 @@ class Peers:
         Raises NodeError (fault) as `SourceWatch.alone`.
         """
         return self._results.alone(now) and self.sources.alone(now)
+
+
+def _node_of(info: TopicEndpointInfo) -> tuple[str, str]:
+    return info.node_name, info.node_namespace
 
 
 def _publishers(node: Node, subscription: Subscription) -> int:

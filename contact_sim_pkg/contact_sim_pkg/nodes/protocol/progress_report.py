@@ -8,7 +8,6 @@ from rclpy.duration import Duration
 from rclpy.publisher import Publisher
 
 from contact_sim_pkg.bag.messages import encode
-from contact_sim_pkg.nodes.processes.scene_file import block_length_ns, count_blocks
 from contact_sim_pkg.nodes.protocol.states import RunState
 from contact_sim_pkg.records.messages import BenchProgress
 from contact_sim_pkg.run.block_simulation import BlockResult
@@ -25,7 +24,7 @@ class ProgressReport:
         self.publisher = publisher
         self.state = RunState.IDLE
         self._scene = scene.name
-        self._blocks, self._period_ns = count_blocks(scene), block_length_ns(scene)
+        self._blocks, self._period_ns = scene.blocks, scene.block_length_ns
         self._block, self._sent = -1, 0
         self._load = self._peak = 0.0
         self._began: float | None = None

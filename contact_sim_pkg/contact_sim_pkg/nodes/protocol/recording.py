@@ -14,7 +14,6 @@ from contact_sim_pkg.bag.errors import BagError, MessageError
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.writer import BagSummary, BagWriter
-from contact_sim_pkg.nodes.processes.scene_file import count_blocks
 from contact_sim_pkg.nodes.protocol.input_blocks import check_block
 from contact_sim_pkg.nodes.protocol.record_order import BlockMessage, RecordOrder
 from contact_sim_pkg.nodes.protocol.record_outcome import outcome_of
@@ -42,13 +41,13 @@ class ClosedBag(NamedTuple):
         return bool(self.lacking) or not self.summary.complete
 
 
-class Recording:
+class BagRecording:
     """Messages of a run in canonical order, and the bag that they are written to."""
 
     def __init__(self, path: Path, scene: ResolvedScene, block_length_ns: int) -> None:
         """No message yet; the bag `path` is not created before `open`; block length in [ns]."""
         self.path, self._scene, self._block_length_ns = path, scene, block_length_ns
-        self._inputs, self._blocks = set(input_names(scene)), count_blocks(scene)
+        self._inputs, self._blocks = set(input_names(scene)), scene.blocks
         self._sources = {name: SingleSource() for name in (*result_names(scene), *self._inputs)}
         self.order = RecordOrder(input_names(scene), block_length_ns)
         self.left_out = Counter[str]()

@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 
 from contact_sim_pkg.bag.excitation import Block
-from contact_sim_pkg.nodes.processes.scene_file import block_length_ns
 from contact_sim_pkg.nodes.protocol.input_blocks import InputBlocks
 from contact_sim_pkg.nodes.protocol.logger_answers import LoggerAnswers
 from contact_sim_pkg.nodes.protocol.pacing import Lateness, Pacer
@@ -37,7 +36,7 @@ class SimulatedRun:
             input_timeout: longest wait for a block that is due, [s].
         """
         self.simulation, self.report = simulation, report
-        self.inputs = InputBlocks(simulation.inputs, block_length_ns(scene), simulation.blocks)
+        self.inputs = InputBlocks(simulation.inputs, scene.block_length_ns, simulation.blocks)
         self.window = BlockWindow(simulation.blocks, logged=logged)
         self.logger = LoggerAnswers(self.window, logged=logged)
         self.late = ""  # sentence about a run behind its pace; empty where it is not

@@ -14,6 +14,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
+from contact_sim_pkg.pressure.closed_form import FIT_EXPONENTS
 
 __all__ = [
     "LameFit",
@@ -35,7 +36,6 @@ SMALLEST_EXPONENT = 0.1
 LARGEST_POWER = 100.0
 LARGEST_LOGARITHM = 600.0
 
-FIT_EXPONENTS = (0.3, 20.0)
 FEWEST_CELLS = 8
 """A patch of fewer cells says nothing about its exponent."""
 

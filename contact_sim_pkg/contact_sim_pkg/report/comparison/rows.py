@@ -8,14 +8,14 @@ from collections.abc import Sequence
 from typing import Any
 from xml.etree import ElementTree
 
-from contact_sim_pkg.compare.side_by_side import Miss, Side, Tolerance
+from contact_sim_pkg.compare.side_by_side import ComparedMetric, Miss, Tolerance
 from contact_sim_pkg.report.comparison.tables import metric_table
 from contact_sim_pkg.report.metrics.views import junit_text
 
 __all__ = ["csv_text", "junit_text_of", "rows_of", "table_rows"]
 
 
-def rows_of(names: Sequence[str], sides: Sequence[Side]) -> list[dict[str, Any]]:
+def rows_of(names: Sequence[str], sides: Sequence[ComparedMetric]) -> list[dict[str, Any]]:
     """A row a metric, a value a run under its name."""
     return [
         {
@@ -26,7 +26,7 @@ def rows_of(names: Sequence[str], sides: Sequence[Side]) -> list[dict[str, Any]]
     ]  # fmt: skip
 
 
-def csv_text(names: Sequence[str], sides: Sequence[Side]) -> str:
+def csv_text(names: Sequence[str], sides: Sequence[ComparedMetric]) -> str:
     """`rows_of` with a header."""
     text = io.StringIO()
     rows = rows_of(names, sides)
@@ -36,7 +36,7 @@ def csv_text(names: Sequence[str], sides: Sequence[Side]) -> str:
     return text.getvalue()
 
 
-def table_rows(names: Sequence[str], sides: Sequence[Side]) -> list[dict[str, str]]:
+def table_rows(names: Sequence[str], sides: Sequence[ComparedMetric]) -> list[dict[str, str]]:
     """The table of the page as rows for a terminal."""
     table = metric_table(names, sides)
     header = ("metric", *table.header[1:])

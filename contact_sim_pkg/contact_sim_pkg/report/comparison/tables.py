@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from contact_sim_pkg.compare.side_by_side import Side
+from contact_sim_pkg.compare.side_by_side import ComparedMetric
 from contact_sim_pkg.report.comparison.scene_differences import Difference
 from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.report.tables import Table
@@ -20,7 +20,7 @@ def difference_table(names: Sequence[str], found: Sequence[Difference]) -> Table
     return Table(caption, ("key", *names), rows)
 
 
-def metric_table(names: Sequence[str], sides: Sequence[Side]) -> Table:
+def metric_table(names: Sequence[str], sides: Sequence[ComparedMetric]) -> Table:
     """One row a metric, one column a run; of two runs their difference too."""
     header = ("", *names, *(("Δ", "Δ %") if len(names) == 2 else ("range, %",)), "verdict")
     caption = "What moved most first."
@@ -30,7 +30,7 @@ def metric_table(names: Sequence[str], sides: Sequence[Side]) -> Table:
     return Table(caption, header, [row_of(side) for side in sides])
 
 
-def row_of(side: Side) -> tuple[str, ...]:
+def row_of(side: ComparedMetric) -> tuple[str, ...]:
     """Texts of one metric."""
     label = f"{side.name}, {side.unit}" if side.unit else side.name
     values = tuple(_text(value) for value in side.values)

@@ -12,10 +12,12 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.records.definitions import HEADER, Field, parsed
 
-__all__ = ["Column", "Map", "Table", "stamp_of", "table_of"]
+__all__ = ["Map", "TopicColumn", "TopicTable", "stamp_of", "table_of"]
 
 PERIODS = ("sample_period", "period")
 """Fields that hold the time between the samples of a message."""
+UNITS_OF_NAMES = "units"
+"""Field with a unit for each name."""
 UNITS = {
     "force": "N", "torque": "N m", "linear_acceleration": "m/s^2", "angular_velocity": "rad/s", "accel.linear": "m/s^2",
     "accel.angular": "rad/s^2", "twist.linear": "m/s", "twist.angular": "rad/s",
@@ -25,7 +27,7 @@ LONGEST_ROW = 16
 """Elements of an array of a foreign message that become columns of their own."""
 
 
-class Column(NamedTuple):
+class TopicColumn(NamedTuple):
     """One column."""
 
     name: str
@@ -48,11 +50,11 @@ class Map(NamedTuple):
     """fields of its rows and columns"""
 
 
-class Table(NamedTuple):
+class TopicTable(NamedTuple):
     """A topic."""
 
     topic: str
-    columns: list[Column]
+    columns: list[TopicColumn]
     maps: list[Map]
 
 
@@ -66,7 +68,7 @@ class _Fields(NamedTuple):
     maps: list[Field]
 
 
-def table_of(bag: Bag, topic: str) -> Table:
+def table_of(bag: Bag, topic: str) -> TopicTable:
     """The table of a topic.
 
     Samples of a block become rows, each with its own time; events and points of a message rows with
@@ -85,7 +87,7 @@ def table_of(bag: Bag, topic: str) -> Table:
     if nested:
         return _foreign(bag, row.name)
     fields = _sorted(list(definition.fields))
-    return Table(row.name, _columns(bag, row.name, fields), [_map(field) for field in fields.maps])
+    return TopicTable(row.name, _columns(bag, row.name, fields), [_map(field) for field in fields.maps])
 
 
 def _sorted(fields: list[Field]) -> _Fields:
@@ -97,7 +99,7 @@ def _sorted(fields: list[Field]) -> _Fields:
     arrays = [
         field
         for field in plain
-        if field.is_array and field not in two and not (field.name in texts and field.name in sizes)
+        if field.is_array and field not in two and not (field.name in texts and field.name in {*sizes, UNITS_OF_NAMES})
     ]
     scalars = [field for field in plain if not field.is_array and field.name not in (*PERIODS, "samples")]
     return _Fields(scalars, arrays, named, [field for field in two if field not in named])
@@ -107,7 +109,7 @@ def _map(field: Field) -> Map:
     return Map(field.name, field.unit, (field.shape[0], field.shape[1]))
 
 
-def _columns(bag: Bag, topic: str, fields: _Fields) -> list[Column]:
+def _columns(bag: Bag, topic: str, fields: _Fields) -> list[TopicColumn]:
     messages = (
         [message for _, message in bag.decoded(topic)] if not fields.maps else [*_without_maps(bag, topic, fields)]
     )
@@ -123,22 +125,25 @@ def _columns(bag: Bag, topic: str, fields: _Fields) -> list[Column]:
         start = np.repeat(times, counts) + number * np.repeat(
             [float(getattr(each, period)) for each in messages], counts
         )
-        found = [Column("time", "s", start)]
+        found = [TopicColumn("time", "s", start)]
     else:
-        found = [Column("time", "s", np.repeat(times, counts))]
-        found += [Column("index", "", number)] if long or fields.named else []
+        found = [TopicColumn("time", "s", np.repeat(times, counts))]
+        found += [TopicColumn("index", "", number)] if long or fields.named else []
     for field in fields.scalars:
         values = np.array([getattr(each, field.name) for each in messages])
-        found.append(Column(_own(field.name), field.unit, np.repeat(values, counts)))
+        found.append(TopicColumn(_own(field.name), field.unit, np.repeat(values, counts)))
     for field in long:
         found.append(
-            Column(_own(field.name), field.unit, _filled([getattr(each, field.name) for each in messages], counts))
+            TopicColumn(_own(field.name), field.unit, _filled([getattr(each, field.name) for each in messages], counts))
         )
     for field in fields.named:
         names = [str(each) for each in getattr(messages[0], field.shape[0])]
+        units = getattr(messages[0], UNITS_OF_NAMES, [field.unit] * len(names))
         parts = [np.reshape(getattr(each, field.name), (len(names), -1)) for each in messages]
-        for place, name in enumerate(names):
-            found.append(Column(f"{field.name}.{name}", field.unit, _filled([part[place] for part in parts], counts)))
+        for place, (name, unit) in enumerate(zip(names, units, strict=True)):
+            found.append(
+                TopicColumn(f"{field.name}.{name}", str(unit), _filled([part[place] for part in parts], counts))
+            )
     return found
 
 
@@ -187,18 +192,18 @@ def _without_maps(bag: Bag, topic: str, fields: _Fields) -> Iterator[Any]:
         yield message
 
 
-def _foreign(bag: Bag, topic: str) -> Table:
+def _foreign(bag: Bag, topic: str) -> TopicTable:
     """A topic of nested or foreign messages: a row a message, fields with dots, short arrays one column an element."""
     columns = bag.columns(topic)
-    found = [Column("time", "s", columns["time"] if "time" in columns else columns["log_time"] * 1e-9)]
+    found = [TopicColumn("time", "s", columns["time"] if "time" in columns else columns["log_time"] * 1e-9)]
     for name, values in columns.items():
         if name in ("time", "log_time", "stamp") or isinstance(values, list):
             continue
         unit = next((unit for part, unit in UNITS.items() if f".{name}.".find(f".{part}.") >= 0), "")
         if values.ndim == 1:
-            found.append(Column(name, unit, values))
+            found.append(TopicColumn(name, unit, values))
         elif values.ndim == 2 and values.shape[1] <= LONGEST_ROW:
-            found += [Column(f"{name}.{place}", unit, values[:, place]) for place in range(values.shape[1])]
+            found += [TopicColumn(f"{name}.{place}", unit, values[:, place]) for place in range(values.shape[1])]
     if len(found) == 1:
         raise BagError(f"{bag.path}: {topic} has no fields of numbers or texts to write into a table")
-    return Table(topic, found, [])
+    return TopicTable(topic, found, [])

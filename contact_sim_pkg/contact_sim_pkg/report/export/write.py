@@ -16,7 +16,7 @@ import numpy as np
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.files import FileRefusedError, check_output, new_file, wrong_name
-from contact_sim_pkg.report.export.table import Map, Table, stamp_of, table_of
+from contact_sim_pkg.report.export.table import Map, TopicTable, stamp_of, table_of
 
 __all__ = ["CSV", "PARQUET", "export"]
 
@@ -78,7 +78,7 @@ def file_name(topic: str) -> str:
     return topic.strip("/").replace("/", "_")
 
 
-def _write_csv(table: Table, stream: IO[bytes]) -> None:
+def _write_csv(table: TopicTable, stream: IO[bytes]) -> None:
     """A header with units and a row a sample; numbers in the fewest digits that give the same bits, empty where a
     value is not defined."""
     text = io.TextIOWrapper(stream, encoding="utf-8", newline="")
@@ -99,7 +99,7 @@ def _texts(values: Any) -> list[Any]:
     return list(column.tolist())
 
 
-def _write_parquet(table: Table, stream: IO[bytes]) -> None:
+def _write_parquet(table: TopicTable, stream: IO[bytes]) -> None:
     pyarrow, parquet = import_module("pyarrow"), import_module("pyarrow.parquet")
     fields = [
         pyarrow.field(column.header, pyarrow.array(np.asarray(column.values)).type, metadata={"unit": column.unit})

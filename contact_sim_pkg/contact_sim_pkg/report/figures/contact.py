@@ -14,7 +14,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from numpy.typing import NDArray
 
-from contact_sim_pkg.pressure.closed_form.lame import FIT_EXPONENTS
+from contact_sim_pkg.pressure.closed_form import FIT_EXPONENTS
 from contact_sim_pkg.report.drawing import (
     ACCENT,
     BAND,

@@ -9,7 +9,8 @@ from contact_sim_pkg.rigs.backrest.cushion import build_back_cushion
 from contact_sim_pkg.rigs.backrest.model import shallow_shell
 from contact_sim_pkg.rigs.backrest.schema import BackrestSection, ShellModesSection
 from contact_sim_pkg.rigs.backrest.shell import natural_frequencies
-from contact_sim_pkg.run.integrator_work import Link, integrator_steps, links_of_laws, segments
+from contact_sim_pkg.run.integrator_work import Link, integrator_steps, segments
+from contact_sim_pkg.run.linear_laws import links_of_laws
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 

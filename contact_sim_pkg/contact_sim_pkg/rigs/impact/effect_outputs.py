@@ -17,8 +17,7 @@ from contact_sim_pkg.records.messages import ImpactFront, ImpactHistory, ImpactP
 from contact_sim_pkg.rigs.impact.model import ImpactModel
 from contact_sim_pkg.rigs.impact.motion import FinishedImpact, course_of
 from contact_sim_pkg.rigs.impact.schema_effects import ContactStress, History, MicroFront, SurfaceWaves, ThermalVolume
-from contact_sim_pkg.rigs.impact.theory import position
-from contact_sim_pkg.rigs.impact.theory.closed_form import micro_front, stress, surface_wave
+from contact_sim_pkg.rigs.impact.theory import micro_front, position, stress, surface_wave
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.viscoelastic import creep, hereditary
 from contact_sim_pkg.rigs.impact.theory.viscoelastic.relaxation import maxwell_time, retardation_time
@@ -127,6 +126,8 @@ def history_of(model: ImpactModel, effect: History, block: int, impact: Finished
     tangent = max(material.loss_tangent, 1.0e-12)
     if effect.model == "kelvin_voigt":
         law = creep.kelvin_voigt(modulus, retardation_time(frequency, tangent))
+    elif effect.model == "standard_solid":
+        law = creep.standard_solid_at(modulus, tangent, frequency, effect.instant_ratio)
     else:
         stiff = modulus * (1.0 + tangent**2)
         law = creep.maxwell(stiff, stiff * maxwell_time(frequency, tangent))

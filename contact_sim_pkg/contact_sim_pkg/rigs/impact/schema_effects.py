@@ -102,9 +102,13 @@ class History(Section):
     """Depth by the hereditary integral under the recorded force, for comparison, as
     `impact/history`; flagged where the contact shrinks and the integral no longer holds."""
 
-    model: Literal["kelvin_voigt", "maxwell"] = choice(
+    model: Literal["kelvin_voigt", "maxwell", "standard_solid"] = choice(
         "model with the complex modulus of the sample at the frequency of the impact", default="kelvin_voigt"
     )
+    instant_ratio: float = number(
+        1.0, 1e6, "", "instantaneous modulus of standard_solid over that of maxwell, which a large ratio makes kelvin_voigt",
+        default=2.0, above=True,
+    )  # fmt: skip
 
 
 class GaugeNoise(Section):

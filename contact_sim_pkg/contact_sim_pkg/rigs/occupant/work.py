@@ -11,7 +11,8 @@ from contact_sim_pkg.rigs.occupant.model import pose_of_scene
 from contact_sim_pkg.rigs.vehicle.seat.lean import rest_of
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
 from contact_sim_pkg.rigs.vehicle.work import seat_steps
-from contact_sim_pkg.run.integrator_work import integrator_steps, links_of_laws, segments
+from contact_sim_pkg.run.integrator_work import integrator_steps, segments
+from contact_sim_pkg.run.linear_laws import links_of_laws
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 

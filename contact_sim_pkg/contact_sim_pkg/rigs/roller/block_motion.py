@@ -38,7 +38,7 @@ class TiltYaw:
         """At rest, off the static angles under `load` [N] by the start angles of the scene."""
         self.model, self.rules = model, (gauss_rule(2), gauss_rule(3))
         curvatures = model.programme.curvatures_at(0.0)
-        found = stability(model.roller, curvatures, model.bending, model.modulus, load)
+        found = stability(model.roller, curvatures, model.bending_at(0.0), model.modulus, load)
         tilt, yaw = found.linear.tilt + model.start[0], found.linear.yaw + model.start[1]
         self.state = numpy.array([tilt, yaw, 0.0, 0.0, 0.0, 0.0])
         self._load, self._shifted, self._start = load, 0.0, Energies()
@@ -55,7 +55,7 @@ class TiltYaw:
         parts = self.parts(start, length)
         self.rule = self.rules[0 if self.fastest * length / parts <= SMALL_PHASE else 1]
         record = numpy.empty((len(times), 4))
-        if model.programme.turns_bodies:
+        if model.programme.turns_bodies or model.programme.bends_shaft:
             for i in range(len(times) - 1):
                 middle = start + float(times[i]) + 0.5 * length
                 pair = self._integrate(
@@ -91,7 +91,7 @@ class TiltYaw:
         status = integrate_tilt_yaw(
             model.roller,
             model.programme.curvatures_at(at),
-            model.bending,
+            model.bending_at(at),
             model.modulus,
             loads=loads,
             step=step,

@@ -9,7 +9,7 @@ import numpy
 
 from contact_sim_pkg.records.messages import RollerStability
 from contact_sim_pkg.rigs.roller.model import RollerModel, build_roller
-from contact_sim_pkg.rigs.roller.theory.parameters import Curvatures
+from contact_sim_pkg.rigs.roller.theory.parameters import Bending, Curvatures
 from contact_sim_pkg.rigs.roller.theory.stability import RollerError, critical_damping, critical_load, stability
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -31,11 +31,13 @@ def forecast(model: RollerModel, block: int = 0) -> RollerStability | None:
     time = block * model.timing.block_length
     curvatures = model.programme.curvatures_at(time)
     load = model.contact_load(float(model.programme.loads(numpy.array([time]))[0]), curvatures)
-    return _stability(model, block, curvatures, load)
+    return _stability(model, block, curvatures, model.bending_at(time), load)
 
 
-def _stability(model: RollerModel, block: int, curvatures: Curvatures, load: float) -> RollerStability:
-    case = (curvatures, model.bending, model.modulus)
+def _stability(
+    model: RollerModel, block: int, curvatures: Curvatures, bending: Bending | None, load: float
+) -> RollerStability:
+    case = (curvatures, bending, model.modulus)
     try:
         found = stability(model.roller, *case, load)
     except RollerError as error:
@@ -78,19 +80,20 @@ def _worst_row(model: RollerModel, rows: int) -> tuple[int, float]:
     places = numpy.unique(numpy.linspace(0, rows - 1, min(rows, MOST_ROWS)).round().astype(int))
     rates = []
     for place in places:
-        curvatures, load = _row(model, int(place))
+        curvatures, bending, load = _row(model, int(place))
         try:
-            rates.append(stability(model.roller, curvatures, model.bending, model.modulus, load).growth_rate)
+            rates.append(stability(model.roller, curvatures, bending, model.modulus, load).growth_rate)
         except RollerError:
             rates.append(math.inf)
     worst = int(numpy.argmax(rates))
     return int(places[worst]), rates[worst]
 
 
-def _row(model: RollerModel, place: int) -> tuple[Curvatures, float]:
-    """Curvatures and contact load of a row."""
+def _row(model: RollerModel, place: int) -> tuple[Curvatures, Bending | None, float]:
+    """Curvatures, bent shaft and contact load of a row."""
     curvatures = Curvatures(*(float(value) for value in model.programme.curvatures[place]))
-    return curvatures, model.contact_load(float(model.programme.load[place]), curvatures)
+    bending = model.bending_at(float(model.programme.time[place]))
+    return curvatures, bending, model.contact_load(float(model.programme.load[place]), curvatures)
 
 
 def _at_row(model: RollerModel, place: int) -> RollerStability:

@@ -40,10 +40,11 @@ lies 7 % off its parabola.
 
 @dataclass(frozen=True)
 class Programme:
-    """Load and curvatures over time."""
+    """Loads and curvatures over time."""
 
     time: Vector  # [rows] [s]
     load: Vector  # [rows] [N]
+    bending_load: Vector | None  # [rows] [N] Q; None: constant
     curvatures: NDArray[numpy.float64]  # [rows, 4] [1/m] as `Curvatures`
     steps: bool
 
@@ -52,6 +53,14 @@ class Programme:
         if self.steps:
             return numpy.asarray(self.load[self._rows(times)])
         return numpy.interp(times, self.time, self.load)
+
+    def bending_load_at(self, time: float, constant: float) -> float:
+        """Q [N] at one time [s]; `constant` where the programme gives none."""
+        if self.bending_load is None:
+            return constant
+        if self.steps:
+            return float(self.bending_load[self._rows(numpy.array([time]))[0]])
+        return float(numpy.interp(time, self.time, self.bending_load))
 
     def curvatures_at(self, time: float) -> Curvatures:
         """At one time [s]. Radii go straight from row to row, not the curvatures."""
@@ -69,6 +78,11 @@ class Programme:
     def turns_bodies(self) -> bool:
         """Whether the curvatures change."""
         return bool((self.curvatures != self.curvatures[0]).any())
+
+    @property
+    def bends_shaft(self) -> bool:
+        """Whether Q changes."""
+        return self.bending_load is not None and float(numpy.ptp(self.bending_load)) > 0.0
 
     def _rows(self, times: Vector) -> NDArray[numpy.int64]:
         return numpy.maximum(numpy.searchsorted(self.time, times, side="right") - 1, 0)
@@ -91,7 +105,7 @@ class RollerModel:
     mass: float  # [kg]
     shaft_radius: float  # [m]
     turn_time: float  # [s] of the shaft; inf: it stands
-    bending: Bending | None
+    bending: Bending | None  # its load is that of the effect, see `bending_at`
     bending_compliance: float  # k_b [m/N]; 0: the shaft does not bend
     programme: Programme
     kind: int  # of the ellipse
@@ -103,6 +117,11 @@ class RollerModel:
     subsurface: Subsurface | None
     damage: Damage | None
     seed: int
+
+    def bending_at(self, time: float) -> Bending | None:
+        """The bent shaft under Q(t) of a time [s] (eq 19 of Rolling Contact)."""
+        bent = self.bending
+        return None if bent is None else bent._replace(load=self.programme.bending_load_at(time, bent.load))
 
     def contact_load(self, load: float, curvatures: Curvatures) -> float:
         """F_c [N] of the load pressed on."""
@@ -202,7 +221,7 @@ def _bending(rig: schema.RollerRig, effect: schema.ShaftBending | None) -> tuple
 
 
 def _programme(rig: schema.RollerRig) -> Programme:
-    """Load and radii over time; what the programme does not give is constant."""
+    """Loads and radii over time; what the programme does not give is constant."""
     rows = rig.programme
     times = numpy.array([0.0] if rows is None else rows.time, float)
 
@@ -218,7 +237,8 @@ def _programme(rig: schema.RollerRig) -> Programme:
     radii = numpy.stack(columns, axis=1)
     curvatures = numpy.divide(1.0, radii, out=numpy.zeros_like(radii), where=radii > 0.0)
     load = column(None if rows is None else rows.load, rig.load)
-    return Programme(times, load, curvatures, rows is not None and rows.between == "steps")
+    bend = None if rows is None or rows.bending_load is None else numpy.array(rows.bending_load, float)
+    return Programme(times, load, bend, curvatures, rows is not None and rows.between == "steps")
 
 
 def refused(sentence: str) -> SceneError:
@@ -265,7 +285,7 @@ def _refuse_no_static_angles(model: RollerModel) -> None:
     curvatures = Curvatures(*(float(value) for value in model.programme.curvatures[0]))
     load = model.contact_load(float(model.programme.load[0]), curvatures)
     try:
-        linear = linearise(model.roller, curvatures, model.bending, model.modulus, load)
+        linear = linearise(model.roller, curvatures, model.bending_at(0.0), model.modulus, load)
     except RollerError as error:
         about_y = model.roller.stiffness_tilt - load * model.roller.radius
         raise refused(

@@ -103,7 +103,8 @@ def _track(model: RollerModel, record: RollerRecord, ride: TrackRide, track: Bod
     return RollerTrack(
         block=record.block, body=track.body, turns=float(track.turned), cycles=track.turned * model.acceleration,
         turn_time=track.turn_time, radius=track.radius, height=track.heights.copy(), load=track.loads.copy(),
-        lowered=track.lowered, range=track.range, free=ride.free, checked=float(checked.intervals * track.turns),
+        axial=track.axial.copy(), lowered=track.lowered, range=track.range, free=ride.free,
+        checked=float(checked.intervals * track.turns),
         check_error=checked.error,
     )  # fmt: skip
 

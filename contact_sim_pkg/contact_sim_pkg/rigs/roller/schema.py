@@ -15,6 +15,7 @@ MOST_ROWS = 10000
 Instant: TypeAlias = Annotated[float, Field(ge=0.0, le=3600.0)]
 Length: TypeAlias = Annotated[float, Field(ge=0.0, le=100.0)]
 Newton: TypeAlias = Annotated[float, Field(gt=0.0, le=1e7)]
+Bend: TypeAlias = Annotated[float, Field(ge=-1e7, le=1e7)]
 Hardness: TypeAlias = Annotated[float, Field(ge=0.1, le=10.0)]
 Metre: TypeAlias = Annotated[float, Field(ge=-1e-3, le=1e-3)]
 
@@ -28,7 +29,7 @@ def _radii(of: str) -> list[float] | None:
 
 
 class RollerProgramme(Section):
-    """Load and radii over time; before the first time and behind the last they stay."""
+    """Loads and radii over time; before the first time and behind the last they stay."""
 
     time: list[Instant] = numbers(
         "s", "time of each row, increasing", f"2 to {MOST_ROWS} numbers, each 0 to 3600 s", shortest=2, longest=MOST_ROWS,
@@ -38,6 +39,10 @@ class RollerProgramme(Section):
     load: list[Newton] | None = numbers(
         "N", "normal load, in place of `load`", f"2 to {MOST_ROWS} numbers, each above 0 to 1e7 N", default=None,
         shortest=2, longest=MOST_ROWS,
+    )  # fmt: skip
+    bending_load: list[Bend] | None = numbers(
+        "N", "load Q of the bent shaft, in place of `effects.roller.shaft_bending.load`",
+        f"2 to {MOST_ROWS} numbers, each -1e7 to 1e7 N", default=None, shortest=2, longest=MOST_ROWS,
     )  # fmt: skip
     profile_radius: list[Length] | None = _radii("profile radius of the roller")
     rolling_radius: list[Length] | None = _radii("radius of the roller along rolling, of the contact alone")
@@ -82,7 +87,7 @@ class RollerRig(Section):
         1.0, 1e9, "", "time acceleration: turns of the rig that one simulated turn stands for in cycles and damage",
         default=1.0,
     )  # fmt: skip
-    programme: RollerProgramme | None = choice("load and radii over time", default=None)
+    programme: RollerProgramme | None = choice("loads and radii over time", default=None)
 
 
 class RollerElastic(Section):

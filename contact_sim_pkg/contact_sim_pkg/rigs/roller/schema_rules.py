@@ -19,7 +19,8 @@ from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.clock import exact
 from contact_sim_pkg.scene.schema.scene import Scene
 
-COLUMNS = ("load", "profile_radius", "rolling_radius", "shaft_radius", "shaft_profile_radius")
+RADII = ("profile_radius", "rolling_radius", "shaft_radius", "shaft_profile_radius")
+COLUMNS = ("load", "bending_load", *RADII)
 
 
 def roller_breaches(scene: Scene) -> Iterator[Breach]:
@@ -41,6 +42,9 @@ def roller_breaches(scene: Scene) -> Iterator[Breach]:
     # Each effect has rules of its own.
     if roller.programme is not None:
         yield from _programme(roller.programme)
+        if roller.programme.bending_load is not None and scene.effect("roller", ShaftBending) is None:
+            sentence = "bends a shaft that is not bent; add the effect shaft_bending, or leave it out"
+            yield Breach("roller.programme.bending_load", sentence, ("effects.roller.shaft_bending",))
     if waves is not None:
         yield from _track(scene, roller, waves)
     elif scene.road is not None:
@@ -77,7 +81,7 @@ def _programme(programme: RollerProgramme) -> Iterator[Breach]:
 
 
 def _track(scene: Scene, roller: RollerRig, waves: TrackWaves) -> Iterator[Breach]:
-    """A block holds whole turns of the shaft; over the heights of the track only the load may
+    """A block holds whole turns of the shaft; over the heights of the track only the loads may
     change.
     """
     if roller.speed == 0.0:
@@ -93,9 +97,9 @@ def _track(scene: Scene, roller: RollerRig, waves: TrackWaves) -> Iterator[Breac
         sentence += "leave track_waves out"
         yield Breach("effects.roller.normal_elastic.split", sentence, ("effects.roller.track_waves",))
     yield from _whole_turns(scene, roller, waves.track)
-    # The heave over heights has one contact: only its load may change.
+    # The heave over heights has one contact: only loads may change.
     programme = roller.programme
-    for name in COLUMNS[1:]:
+    for name in RADII:
         if programme is not None and getattr(programme, name) is not None:
             sentence = "changes the radii while the roller rides over heights; leave it out, or the effect track_waves"
             yield Breach(f"roller.programme.{name}", sentence, ("effects.roller.track_waves",))

@@ -121,7 +121,7 @@ class RollerSimulation:
             load=loads[:-1],
             heave=heave[:, :-1],
             angles=angles,
-            acceleration=self._acceleration(curvatures, loads[:-1], angles, heave[1, :-1]),
+            acceleration=self._acceleration(start + times[:-1], curvatures, loads[:-1], angles, heave[1, :-1]),
             contacts=contacts,
             steps=steps,
             energy=energy,
@@ -168,17 +168,28 @@ class RollerSimulation:
             )
             parts.append(part._replace(time=part.time + at))
             angles.append(moved)
+        if self._angles is not None:
+            # The axial wave of the last interval: a tilted roller touches R sin(tilt) further along the shaft.
+            for track in ride.tracks:
+                track.shift(self.model.roller.radius * numpy.sin(angles[-1][:-1, 0]))
         return joined(parts), numpy.vstack([angles[0], *(each[1:] for each in angles[1:])])
 
-    def _acceleration(self, curvatures: Matrix, loads: Vector, angles: Matrix, speed: Vector) -> Matrix:
-        """Of heave, tilt and yaw [3, samples], from the equations of motion."""
+    def _acceleration(self, times: Vector, curvatures: Matrix, loads: Vector, angles: Matrix, speed: Vector) -> Matrix:
+        """Of heave, tilt and yaw [3, samples] at `times` [s], from the equations of motion."""
         model, found = self.model, numpy.zeros((3, len(loads)))
         if self._ride is not None:
             drag = 2.0 * self._ride.zeta * self._ride.frequency
             found[0] = (loads - self._ride.heave.load) / model.mass - drag * speed
         if self._angles is not None:
             turned = numpy.zeros((len(loads), 2))
-            accelerations(model.roller, curvatures, model.bending, model.modulus, loads, angles, turned)
+            # One call for all samples, or one for each where the bending load changes.
+            length = 1 if model.programme.bends_shaft else len(loads)
+            for place in range(0, len(loads), length):
+                rows = slice(place, place + length)
+                bending = model.bending_at(float(times[place]))
+                accelerations(
+                    model.roller, curvatures[rows], bending, model.modulus, loads[rows], angles[rows], turned[rows]
+                )
             found[1:] = turned.T
         return found
 
@@ -186,8 +197,9 @@ class RollerSimulation:
         programme = self.model.programme
         if block > 0:
             ends = numpy.array([block - 1, block]) * self.model.timing.block_length
+            bends = [programme.bending_load_at(float(end), 0.0) for end in ends]
             before, now = programme.loads(ends)
-            if not programme.steps or before == now:
+            if not programme.steps or (before == now and bends[0] == bends[1]):
                 return None
         return forecast(self.model, block)
 
@@ -211,8 +223,9 @@ class RollerSimulation:
         cut = usual if cells is None else cells
         own = dangerous_volumes(contact, model.poisson_ratio, limits, cut, None, traction)
         bent = None
-        if model.bending is not None:
-            bent = dangerous_volumes(contact, model.poisson_ratio, limits, cut, model.bending, traction)
+        bending = model.bending_at(instant)
+        if bending is not None:
+            bent = dangerous_volumes(contact, model.poisson_ratio, limits, cut, bending, traction)
         first = model.contact(float(model.programme.load[0]), model.held_yaw, model.programme.curvatures_at(0.0))
         return RollerMeasurement(instant, contact, limits, box_volume(first), own, bent)
 

@@ -10,12 +10,12 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.roller.damage import Table, damage_table
 from contact_sim_pkg.rigs.roller.model import RollerModel
-from contact_sim_pkg.rigs.roller.schema import TrackWaves
+from contact_sim_pkg.rigs.roller.schema import Damage, TrackWaves
 from contact_sim_pkg.rigs.roller.theory.corrugation import WearTrack, make_track, moving_mean
 from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact
 from contact_sim_pkg.scene.schema.fields import given
 
-__all__ = ["BodyTrack", "make_tracks", "track_under"]
+__all__ = ["BodyTrack", "hardness_round", "make_tracks", "track_under"]
 
 
 @dataclass
@@ -31,12 +31,19 @@ class BodyTrack:
     table: Table
     track: WearTrack
     loads: Vector  # [cells] [N] of the last interval
+    axial: Vector  # [cells] [m] x_c of the last interval; none where the tilt is fixed
     turned: int = 0
     lowered: float = 0.0  # [m]
 
     def copy(self) -> BodyTrack:
         """With heights of its own."""
         return replace(self, heights=self.heights.copy(), loads=self.loads.copy())
+
+    def shift(self, places: Vector) -> None:
+        """Take the places x_c [m] of the contact over an interval, as `loads`: means over its
+        turns.
+        """
+        self.axial = places.reshape(self.turns, -1).mean(axis=0)
 
     @property
     def range(self) -> float:
@@ -67,7 +74,7 @@ def make_tracks(model: RollerModel) -> list[BodyTrack]:
         heights = _first_heights(effect, [model.seed, 1] if found else model.seed, number, waves=not found)
         table = damage_table(model, body)
         turn_time = model.turn_time * radii[body] / model.shaft_radius
-        hardness = _hardness(model, body, number)
+        hardness = hardness_round(model.damage, body, number)
         track = make_track(
             radius=radii[body],
             turn_time=turn_time,
@@ -90,6 +97,7 @@ def make_tracks(model: RollerModel) -> list[BodyTrack]:
                 table=table,
                 track=track,
                 loads=numpy.zeros(number),
+                axial=numpy.zeros(0),
             )
         )
     return found
@@ -119,11 +127,10 @@ def _first_heights(effect: TrackWaves, seed: int | list[int], cells: int, waves:
     return level
 
 
-def _hardness(model: RollerModel, body: str, cells: int) -> Vector:
-    """Limits round a track over those of `subsurface`: straight between the given places, 1
+def hardness_round(damage: Damage | None, body: str, cells: int) -> Vector:
+    """Limits [cells] round a track over those of `subsurface`: straight between the given places, 1
     where none are given.
     """
-    damage = model.damage
     limits = [] if damage is None else damage.roller_hardness if body == "roller" else damage.hardness
     limits = limits or [1.0]
     places = numpy.arange(cells, dtype=numpy.float64) / cells * len(limits)

@@ -8,7 +8,8 @@ from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.work import Work
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
 from contact_sim_pkg.rigs.vehicle.tire.schema import RigidRingSection, TireSection
-from contact_sim_pkg.run.integrator_work import Link, integrator_steps, links_of_laws, segments
+from contact_sim_pkg.run.integrator_work import Link, integrator_steps, segments
+from contact_sim_pkg.run.linear_laws import links_of_laws
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 

@@ -1,4 +1,4 @@
-"""Roads of a scene: flat, ISO 8608, single obstacles, OpenCRG files; and the speed programme on
+"""Roads of a scene: flat, ISO 8608, self-affine, single obstacles, OpenCRG files; and the speed programme on
 them.
 """
 
@@ -107,6 +107,20 @@ class Iso8608RoadSection(Section):
     )
 
 
+class SelfAffineRoadSection(Section):
+    """Random surface, equal in all directions, of spectrum q^-(2 + 2 hurst) between two wavelengths
+    (the irregular road of Tire/Road Contact).
+    """
+
+    kind: Literal["self_affine"]
+    hurst: float = number(0.0, 1.0, "", "Hurst's exponent; 0.8 for road surfaces", default=0.8)
+    rms: float = number(0.0, 0.05, "m", "root mean square of the heights", default=5e-4)
+    shortest_wavelength: float = number(
+        0.001, 1.0, "m", "shortest wavelength; at least two cells of the contact field are resolved", default=0.005
+    )
+    longest_wavelength: float = number(0.001, 1.0, "m", "longest wavelength", default=0.2)
+
+
 class BumpRoad(Section):
     """One bump, or a row of them, on an even road: height/2 (1 + cos(2π s / length))."""
 
@@ -178,6 +192,13 @@ class OpenCrgRoadSection(Section):
 
 
 Road: TypeAlias = Annotated[
-    FlatRoadSection | Iso8608RoadSection | BumpRoad | CleatRoad | StepRoad | PotholeRoad | OpenCrgRoadSection,
+    FlatRoadSection
+    | Iso8608RoadSection
+    | SelfAffineRoadSection
+    | BumpRoad
+    | CleatRoad
+    | StepRoad
+    | PotholeRoad
+    | OpenCrgRoadSection,
     Field(discriminator="kind"),
 ]

@@ -11,7 +11,13 @@ from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.clock import clock_breaches
 from contact_sim_pkg.scene.schema.law_rules import law_breaches
-from contact_sim_pkg.scene.schema.road import BumpRoad, CleatRoad, Iso8608RoadSection, PotholeRoad
+from contact_sim_pkg.scene.schema.road import (
+    BumpRoad,
+    CleatRoad,
+    Iso8608RoadSection,
+    PotholeRoad,
+    SelfAffineRoadSection,
+)
 from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.vibration import (
     HalfSineSection,
@@ -93,6 +99,10 @@ def _road(scene: Scene) -> Iterator[Breach]:
             yield from _rising(
                 "road", "texture.shortest_wavelength", shortest, "shortest_wavelength", road.shortest_wavelength, "m"
             )
+    elif isinstance(road, SelfAffineRoadSection):
+        yield from _rising(
+            "road", "shortest_wavelength", road.shortest_wavelength, "longest_wavelength", road.longest_wavelength, "m"
+        )
     elif isinstance(road, BumpRoad | CleatRoad | PotholeRoad):
         if road.period is not None and road.period < road.length:
             sentence = f"{show(road.period)} m is shorter than the obstacle's length of {show(road.length)} m"

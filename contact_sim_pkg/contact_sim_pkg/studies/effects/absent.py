@@ -32,4 +32,4 @@ def sentence_of_absent(scene: ResolvedScene) -> str:
     if not by_reason:
         return ""
     parts = [f"{reason}, without {' or '.join(names)}" for reason, names in by_reason.items()]
-    return f"{'; '.join(parts)}: `bench effects` measures what that changes"
+    return f"{'; '.join(parts)} (see `bench effects`)"

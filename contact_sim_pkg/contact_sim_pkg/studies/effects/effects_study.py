@@ -33,6 +33,12 @@ class EffectRow(NamedTuple):
     changes: tuple[Change, ...]  # largest first; empty where nothing was measured, or is judged
     other: float | None  # [ms] of CPU per simulated second of the scene without it, or with it
     why: str  # what calls for it, what is different beside it, or why nothing was measured
+    added: tuple[str, ...] = ()  # effects that come with one that is off: its changes are theirs too
+
+    @property
+    def name(self) -> str:
+        """Name of the effect and of those that come with it."""
+        return f"{self.effect.name} with {' and '.join(self.added)}" if self.added else self.effect.name
 
     @property
     def largest(self) -> Change | None:
@@ -72,8 +78,9 @@ def study(scene_name: str, notify: Notify, values: Sequence[str] = ()) -> Study:
     return study_of(load_resolved(scene_name, *values), notify)
 
 
-def study_of(scene: ResolvedScene, notify: Notify, only: str = "") -> Study:
-    """Study of a resolved scene, or of ``only`` one effect of it, ``CONTACT.EFFECT``.
+def study_of(scene: ResolvedScene, notify: Notify, only: str = "", *, off: bool = True) -> Study:
+    """Study of a resolved scene, or of ``only`` one effect of it, ``CONTACT.EFFECT``; of those that
+    are ``off`` where these are of interest.
 
     Raises RunError where its run ends.
     """
@@ -85,9 +92,9 @@ def study_of(scene: ResolvedScene, notify: Notify, only: str = "") -> Study:
         notify(f"  {each.span.shown * length:g} to {each.span.end * length:g} s: {each.reason}")
     rows = []
     for contact, effect in effects_of(scene):
-        if only not in ("", f"{contact.name}.{effect.name}"):
-            continue
         on = is_on(scene, contact, effect)
+        if only not in ("", f"{contact.name}.{effect.name}") or not (on or off):
+            continue
         notify(f"{contact.name}: {'without' if on else 'with'} {effect.name}")
         rows.append(_row_on(base, contact, effect, notify) if on else _row_off(base, contact, effect, notify))
     return Study(base, tuple(rows))
@@ -123,9 +130,9 @@ def _row_off(base: Base, contact: Contact, effect: Effect, notify: Notify) -> Ef
         return EffectRow(contact, effect, False, verdicts.UNAVAILABLE, (), None, f"with it {_reason(error)}")
     called_for = "" if other.replaced or other.removed else effect.called_for(base.scene)
     verdict = verdicts.verdict_off(changes, base.request, called_for)
-    if observes(contact, effect) and not any(each.size > 0.0 for each in changes):
-        verdict = "would observe"
-    return EffectRow(contact, effect, False, verdict, changes, cost, called_for or _different(other))
+    if observes(contact, effect) and (other.beside or not any(each.size > 0.0 for each in changes)):
+        verdict = verdicts.WOULD_OBSERVE
+    return EffectRow(contact, effect, False, verdict, changes, cost, called_for or _different(other), other.beside)
 
 
 def _different(other: Alternative) -> str:

@@ -27,7 +27,7 @@ def answer(study: Study) -> str:
     )
     found = [f"{title}: {', '.join(each(study, row) for row in rows)}" for title, rows, each in groups if rows]
     on = sum(bool(rows) for _title, rows, _each in groups[:2])
-    if not groups[2][1]:
+    if not groups[2][1] and not all(row.on for row in study.rows):
         found.insert(on, "none that is off is needed")
     if not on and not groups[4][1]:
         found.insert(0, "every effect that acts is needed")
@@ -38,7 +38,7 @@ def table(study: Study) -> list[Section]:
     """One line an effect."""
     rows = [
         {
-            "effect": f"{row.contact.name} {row.effect.name}",
+            "effect": f"{row.contact.name} {row.name}",
             "is": "on" if row.on else "off",
             "verdict": row.verdict,
             "largest change": "-" if row.largest is None else f"{verdicts.shown(row.largest)}, {_where(row.largest)}",
@@ -63,7 +63,7 @@ def parts(study: Study) -> list[Section]:
     """Every change by contact or body and kind; reasons; outputs."""
     changes = [
         {
-            "effect": f"{row.contact.name} {row.effect.name}", "at": each.place, "kind": each.kind,
+            "effect": f"{row.contact.name} {row.name}", "at": each.place, "kind": each.kind,
             "change": number_of(each.size), "error of it": number_of(each.error), "where": _where(each),
         }
         for row in study.rows for each in row.changes if each.size > 0.0
@@ -117,6 +117,7 @@ def _facts(study: Study, row: EffectRow) -> dict[str, Any]:
         "cost_ms_per_s": cost,
         "cost_share": None if cost is None else cost / study.cost,
         "why": row.why,
+        "added": list(row.added),
         "topics": [f"{row.contact.name}/{topic}" for topic in row.effect.feeds],
     }
 
@@ -140,9 +141,9 @@ def _change(study: Study, row: EffectRow) -> str:
 
 
 def _name(study: Study, row: EffectRow) -> str:
-    """Name of the effect, behind that of its contact where two contacts have it."""
+    """Name of the effect, and of those that come with it, behind that of its contact where two contacts have it."""
     several = sum(each.effect.name == row.effect.name for each in study.rows) > 1
-    return f"{row.contact.name} {row.effect.name}" if several else row.effect.name
+    return f"{row.contact.name} {row.name}" if several else row.name
 
 
 def facts_of_reduced(found: Reduced, path: Path) -> dict[str, Any]:

@@ -41,8 +41,8 @@ class Reduced(NamedTuple):
 
     @property
     def saving(self) -> float:
-        """Part of the time [1] that is saved."""
-        return 1.0 - self.cost / self.full_cost
+        """Part of the time [1] that is saved; 0 where none is."""
+        return max(0.0, 1.0 - self.cost / self.full_cost)
 
 
 def reduced(study: Study, notify: Notify, *, observers: bool = True) -> Reduced:
@@ -119,7 +119,9 @@ def _comment(name: str, found: Reduced, request: float) -> list[str]:
     lines += [f"Left out: {_reason(row)}" for row in found.left_out]
     lines += [f"Kept, for it changes too much beside the others: {row.effect.name}" for row in found.put_back]
     if largest is not None:
-        lines.append(f"All together: {verdicts.shown(largest)}, saves {100.0 * found.saving:.0f} % of the time.")
+        lines.append(
+            f"All together: changes {verdicts.shown(largest)}, saves {100.0 * found.saving:.0f} % of the time."
+        )
     return lines
 
 

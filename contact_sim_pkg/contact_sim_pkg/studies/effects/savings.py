@@ -37,14 +37,16 @@ def table_of(scenes: Sequence[str], notify: Callable[[str], None]) -> list[str]:
         resolved = load_resolved(name)
         lines += _of_scene(f"`{name}`", resolved, notify, (True, False))
         if name in FROM_ALL:
-            lines += _of_scene(f"`{name}` from all", all_together(resolved), notify, (True,))
+            lines += _of_scene(f"`{name}` from all", all_together(resolved), notify, (True,), off=False)
     return lines
 
 
-def _of_scene(name: str, scene: ResolvedScene, notify: Callable[[str], None], ways: Sequence[bool]) -> Iterator[str]:
+def _of_scene(
+    name: str, scene: ResolvedScene, notify: Callable[[str], None], ways: Sequence[bool], *, off: bool = True
+) -> Iterator[str]:
     """Lines of a scene with and without its observers; the second only where that is another scene."""
     began = time.process_time()
-    study, before = study_of(scene, notify), -1
+    study, before = study_of(scene, notify, off=off), -1
     for observers in ways:
         found = reduced(study, notify, observers=observers)
         if len(found.left_out) != before:

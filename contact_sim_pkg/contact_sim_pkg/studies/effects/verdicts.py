@@ -7,7 +7,7 @@ its change is a figure. One that only observes has a price and no verdict.
 
 A change is measured between two runs at one level finer than requested; what it says is uncertain
 by the error of their numbers, and where that could turn the verdict *the error of the numbers
-decides*.
+decides*. What lies below `ROUNDING` is no change.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ __all__ = [
     "OFF_NEEDED",
     "UNAVAILABLE",
     "WITHIN",
+    "WOULD_OBSERVE",
     "Change",
     "changes_of",
     "largest",
@@ -36,9 +37,11 @@ __all__ = [
 
 NEEDED, WITHIN, NOT_NEEDED = "needed", "within the accuracy", "not needed"
 OBSERVES, CARRIES = "observes", "carries the load"
-OFF_NEEDED, UNAVAILABLE = "off but needed", "not available"
+OFF_NEEDED, UNAVAILABLE, WOULD_OBSERVE = "off but needed", "not available", "would observe"
 NUMBERS = "the error of the numbers decides"
 THIRD = 1.0 / 3.0
+ROUNDING = 1e-12
+"""Of the scale: what doubles that are summed in another order differ by."""
 
 
 class Change(NamedTuple):
@@ -67,7 +70,7 @@ def changes_of(
         Change(
             each.place,
             each.kind,
-            each.error,
+            each.error if each.error > ROUNDING else 0.0,
             max(errors.get((each.place, each.kind), 0.0), not_below.get(each.kind, 0.0)),
             each.column,
             each.time,
@@ -106,6 +109,9 @@ def verdict_off(changes: Sequence[Change], request: float, called_for: str) -> s
 
 
 def shown(change: Change) -> str:
-    """Kind and size, as ``force 13 %``."""
+    """Kind and size, as ``force 13 %``; ``nothing`` where there is none."""
+    if not change.size > 0.0:
+        return "nothing"
     words = {"peak": "peak pressure", "area": "contact area"}
-    return f"{words.get(change.kind, change.kind)} {100.0 * change.size:.2g} %"
+    percent = 100.0 * change.size
+    return f"{words.get(change.kind, change.kind)} {percent:{'.0f' if percent >= 10.0 else '.2g'}} %"

@@ -50,6 +50,24 @@ def test_amplitudes_and_phase_give_the_material_back():
     assert found.loss_tangent == pytest.approx(0.2, rel=1e-14)
 
 
+def test_a_standard_solid_has_the_complex_modulus_that_it_is_made_for():
+    """J* = 1/G*; its ends are Maxwell's and Kelvin and Voigt's model."""
+    modulus, tangent, frequency = 3e6, 0.4, 1700.0
+    for ratio in (1.001, 2.0, 50.0):
+        found = creep.standard_solid_at(modulus, tangent, frequency, ratio)
+        assert 1.0 / creep.complex_compliance(found, frequency) == pytest.approx(modulus * (1.0 + 0.4j), rel=1e-9)
+        assert 1.0 / found.glassy == pytest.approx(ratio * modulus * (1.0 + tangent**2), rel=1e-14)
+    solid = creep.standard_solid_at(modulus, tangent, frequency, 1e6)
+    assert solid.times[0] == pytest.approx(tangent / frequency, rel=2e-6)
+    assert solid.compliances[0] == pytest.approx(1.0 / modulus, rel=2e-6)
+    times = numpy.linspace(0.0, 2e-3, 9)
+    fluid = creep.maxwell(modulus * 1.16, modulus * 1.16 / (frequency * tangent))
+    near = creep.compliance(creep.standard_solid_at(modulus, tangent, frequency, 1.0 + 1e-7), times)
+    assert near == pytest.approx(creep.compliance(fluid, times), rel=1e-5)
+    with pytest.raises(ImpactError, match="instant ratio"):
+        creep.standard_solid_at(modulus, tangent, frequency, 1.0)
+
+
 @pytest.mark.parametrize("model", MODELS)
 def test_the_recursion_is_the_quadrature_of_every_segment(model):
     times = numpy.concatenate(([0.0], numpy.cumsum(numpy.geomspace(1e-5, 2e-3, 60))))

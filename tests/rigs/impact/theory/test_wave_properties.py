@@ -16,11 +16,10 @@ from tests.rigs.impact.theory import test_viscoelasticity_properties as viscoela
 from tests.rigs.impact.theory.solved_impacts import IMPACT
 
 from contact_sim_pkg.rigs.impact import theory as package
-from contact_sim_pkg.rigs.impact.theory import motion
-from contact_sim_pkg.rigs.impact.theory.closed_form import micro_front, stress, surface_wave
+from contact_sim_pkg.rigs.impact.theory import micro_front, motion, stress, surface_wave
 from contact_sim_pkg.rigs.impact.theory.closed_form import scalings as closed_forms
 
-MODULES = ("closed_form.micro_front", "closed_form.stress", "closed_form.surface_wave")
+MODULES = ("micro_front", "stress", "surface_wave")
 TABLE = Table()
 PREFIX = f"{package.__name__}."
 holds = TABLE.holds

@@ -6,8 +6,8 @@ import numpy
 import pytest
 from scipy.integrate import solve_ivp
 
+from contact_sim_pkg.rigs.impact.theory import micro_front, surface_wave
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
-from contact_sim_pkg.rigs.impact.theory.closed_form import micro_front, surface_wave
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.motion import course, solve_impact
 

@@ -24,6 +24,7 @@ def track(waves=2, amplitude=50.0, lowered=0.0, checked=0.0, error=0.0):
         radius=0.005,
         height=numpy.zeros(CELLS),
         load=load,
+        axial=numpy.zeros(0),
         lowered=lowered,
         range=0.0,
         free=0.0,

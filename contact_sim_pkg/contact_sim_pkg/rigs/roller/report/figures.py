@@ -1,5 +1,5 @@
-"""Pictures of the roller rig in time: contact, motion, track, spectrogram of the load, stability
-over load and speed.
+"""Pictures of the roller rig in time: contact, motion, spectrogram of the load, stability over load
+and speed.
 """
 
 from __future__ import annotations
@@ -8,12 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.records.messages import RollerTrack
-from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, draw_series, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, INK, Picture, draw_series, new_figure, picture
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.rigs.roller.model import build_roller
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries
-from contact_sim_pkg.rigs.roller.report.warnings import LARGEST_ERROR
 from contact_sim_pkg.rigs.roller.theory.stability import RollerError, stability
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -73,67 +71,6 @@ def motion_over_time(roller: RollerSeries) -> Picture | None:
     return picture("roller-motion", figure, "Tilt, yaw and heave over time", f"Motion of the roller.{known}")
 
 
-def track_pictures(roller: RollerSeries) -> list[Picture]:
-    """Heights round each body's circumference over cycles, and the error of the time acceleration
-    where it was looked at.
-    """
-    bodies = dict.fromkeys(each.body for each in roller.tracks)
-    tracks = {body: [each for each in roller.tracks if each.body == body] for body in bodies}
-    found = [_track_over_cycles(body, rows) for body, rows in tracks.items() if len(rows) > 1]
-    checked = [each for each in next(iter(tracks.values()), []) if each.checked > 0.0]
-    return found + ([_acceleration_error(checked)] if checked else [])
-
-
-def _track_over_cycles(body: str, tracks: list[RollerTrack]) -> Picture:
-    cycles = np.array([each.cycles for each in tracks])
-    heights = np.array([each.height for each in tracks]) * 1e6
-    length = 2.0 * np.pi * tracks[0].radius * 1e3
-    figure, (left, right) = new_figure(3.2, 1, 2)
-    largest = float(np.abs(heights).max()) or 1.0
-    places = np.linspace(0.0, length, heights.shape[1])
-    image = left.pcolormesh(places, cycles, heights, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
-    figure.colorbar(image, ax=left, label="height, µm")
-    left.set_xlabel("along the circumference, mm")
-    left.set_ylabel("cycles")
-    right.semilogy(cycles, [each.range * 1e6 for each in tracks], color=ACCENT, label="range of heights")
-    if tracks[-1].lowered > 0.0:
-        right.semilogy(cycles, [each.lowered * 1e6 for each in tracks], color=MUTED, label="lost by the mean")
-    right.locator_params(axis="x", nbins=4)
-    right.set_xlabel("cycles")
-    right.set_ylabel("µm")
-    right.legend(loc="lower left", bbox_to_anchor=(-0.12, 1.0), ncols=2, fontsize=7.5, handlelength=1.2)
-    last = tracks[-1]
-    # The strongest wave round the track, without its mean.
-    strength = np.abs(np.fft.rfft(last.height))
-    waves = int(strength[1:].argmax()) + 1
-    caption = (
-        f"Heights of the {body}'s track round its circumference over {last.cycles:.6g} cycles, {last.turns:.6g} turns ridden: "
-        f"range {tracks[0].range * 1e6:.4g} to {last.range * 1e6:.4g} µm, at the end strongest {waves} waves round it "
-        f"({length / waves:.4g} mm long); contact lost for {100.0 * last.free:.3g} % of the last turn. "
-        "The paper's own measured waves (figures 3 and 4) are drawn there without numbers; these are simulated."
-    )
-    return picture(f"roller-track-{body}", figure, f"Heights round the {body} over cycles", caption)
-
-
-def _acceleration_error(checked: list[RollerTrack]) -> Picture:
-    figure, (axes,) = new_figure(2.4)
-    cycles, errors = [each.cycles for each in checked], [each.check_error for each in checked]
-    axes.semilogy(cycles, errors, color=ACCENT, marker="o", markersize=4, linewidth=0.9)
-    axes.axhline(LARGEST_ERROR, color=MUTED, linestyle=(0, (4, 3)), linewidth=0.8, label="warned beyond")
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7.5)
-    axes.set_xlabel("cycles")
-    axes.set_ylabel("error of the change")
-    finite = [error for error in errors if np.isfinite(error)]
-    worst = f"{min(finite):.2g} to {max(finite):.2g}" if finite else "none could be measured"
-    first = checked[0]
-    caption = (
-        f"Each turn that is ridden stands for {first.cycles / first.turns:.6g}. At {len(checked)} places of the run the next "
-        f"{first.checked:.6g} turns were ridden by that time acceleration and turn by turn; the difference of the heights' "
-        f"change over the change turn by turn, rms: {worst}. While waves grow, the errors of the intervals add up over the run."
-    )
-    return picture("roller-acceleration", figure, "Interval procedure beside every turn ridden", caption)
-
-
 def load_spectrogram(roller: RollerSeries) -> Picture | None:
     """Amplitudes of the load over frequency and time; None where it does not change or the run is
     short.
@@ -179,7 +116,9 @@ def stability_map(roller: RollerSeries, scene: dict[str, Any]) -> Picture | None
             turned = model.roller._replace(spin=float(spin))
             # A load without static angles leaves its cell blank.
             try:
-                growth[i, j] = stability(turned, curvatures, model.bending, model.modulus, float(load)).growth_rate
+                growth[i, j] = stability(
+                    turned, curvatures, model.bending_at(0.0), model.modulus, float(load)
+                ).growth_rate
             except RollerError:
                 continue
     figure, (axes,) = new_figure(3.0)

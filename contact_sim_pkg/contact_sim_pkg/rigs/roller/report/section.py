@@ -10,10 +10,10 @@ from contact_sim_pkg.rigs.roller.report.figures import (
     load_spectrogram,
     motion_over_time,
     stability_map,
-    track_pictures,
 )
 from contact_sim_pkg.rigs.roller.report.figures_programme import programme_over_time
 from contact_sim_pkg.rigs.roller.report.figures_stress import stress_pictures
+from contact_sim_pkg.rigs.roller.report.figures_track import track_pictures
 from contact_sim_pkg.rigs.roller.report.series import roller_of
 from contact_sim_pkg.rigs.roller.report.tables import stability_table, volume_tables
 
@@ -33,7 +33,7 @@ def roller_sections(number: int, recording: Recording) -> list[Section]:
     return [
         Section("roller", "Rolling contact", [each for each in first if each is not None], []),
         Section("stability", "Stability of tilt and yaw", [stable] if stable else [], [table] if table else []),
-        Section("track", "Track", track_pictures(roller), []),
+        Section("track", "Track", track_pictures(roller, scene), []),
         Section(
             "stress", "Stress and dangerous volumes", stress_pictures(roller, scene), volume_tables(roller.volumes)
         ),

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.effect import Effect, without_loss
 
 if TYPE_CHECKING:
@@ -14,11 +15,43 @@ if TYPE_CHECKING:
 
 __all__ = ["SEAT_EFFECTS"]
 
+LOOK_SECONDS = 0.005  # between two looks at a recording, which a seat follows up to some 20 Hz
+NOTICED = 1.0 / 3.0
+"""Fore-aft acceleration over gravity, in requested accuracies, from which on friction may carry it."""
+
 
 def _friction(scene: ResolvedScene) -> str:
-    vibration = scene.vibration
-    shaken = vibration is not None and vibration.kind != "recorded" and vibration.axis == "x"
+    from contact_sim_pkg.scene.schema.accuracy import requested
+
+    shaken = _fore_aft(scene) > NOTICED * requested(scene.accuracy) * GRAVITY
     return "the floor shakes fore and aft" if shaken else ""
+
+
+def _fore_aft(scene: ResolvedScene) -> float:
+    """Fore-aft acceleration [m/s^2] of the floor during the run: amplitude, rms of noise, peak of a
+    recording. None in a recording that cannot be read: the run refuses it, or has its blocks from a
+    bag.
+    """
+    vibration = scene.vibration
+    if vibration is None:
+        return 0.0
+    if vibration.kind == "recorded":
+        import numpy
+
+        from contact_sim_pkg.excitation.errors import ExcitationError
+        from contact_sim_pkg.run.sources import make_vibration
+        from contact_sim_pkg.scene.errors import SceneError
+
+        try:
+            forward, _up = make_vibration(scene).signal.acceleration(
+                numpy.arange(0.0, scene.duration, LOOK_SECONDS, dtype=numpy.float64)
+            )
+        except (ExcitationError, SceneError):
+            return 0.0
+        return float(numpy.abs(forward).max())
+    if vibration.axis != "x":
+        return 0.0
+    return abs(vibration.rms if vibration.kind == "noise" else vibration.amplitude)
 
 
 _SCHEMA, _LAWS = f"{__package__}.schema", "contact_sim_pkg.scene.schema.laws"

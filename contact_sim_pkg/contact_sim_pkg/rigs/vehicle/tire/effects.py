@@ -3,7 +3,7 @@
 A scene calls for the pressure field by road waves and obstacles shorter than about three patch
 lengths, or as sharply curved as the wheel; for the envelopment by those shorter than one; for the
 brush by slip; for a loss where none acts. Waves so low that they cannot carry the requested
-accuracy call for nothing.
+accuracy call for nothing, nor does an obstacle beyond the end of the run.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def _short(scene: ResolvedScene, limit: float, lengths: str) -> str:
     from contact_sim_pkg.scene.schema.accuracy import requested
 
     road, least = scene.road, NOTICED * requested(scene.accuracy) * APPROACH
-    if road is None or road.kind == "flat":
+    if road is None or road.kind == "flat" or not _way(scene):
         return ""
     if road.kind == "opencrg":
         return f"a measured road holds waves below {lengths}"
@@ -57,8 +57,11 @@ def _short(scene: ResolvedScene, limit: float, lengths: str) -> str:
         shortest = road.shortest_wavelength if road.texture is None else road.texture.shortest_wavelength
         noticed = shortest < limit and _height(road, shortest, limit) > least
         return f"the road has waves of {shortest:g} m, shorter than {lengths}" if noticed else ""
+    if road.kind == "self_affine":
+        noticed = road.shortest_wavelength < limit and road.rms > least
+        return f"the road has waves of {road.shortest_wavelength:g} m, shorter than {lengths}" if noticed else ""
     height = abs(road.depth if road.kind == "pothole" else road.height)
-    if height <= least:
+    if height <= least or not _reached(scene, road):
         return ""
     length = min(road.length, road.edge) if road.kind in ("cleat", "pothole") else road.length
     if length < limit:
@@ -73,6 +76,27 @@ def _short(scene: ResolvedScene, limit: float, lengths: str) -> str:
     if road.kind == "bump" and RADIUS * 0.5 * height * (2.0 * math.pi / length) ** 2 > 1.0:
         return f"the bump of {length:g} m is {height:g} m high: it curves more sharply than the wheel"
     return ""
+
+
+def _way(scene: ResolvedScene) -> float:
+    """Way [m] of the wheel over the road during the run."""
+    from contact_sim_pkg.run.sources import make_travel
+
+    first, last = make_travel(scene).extent(0.0, scene.duration)
+    return last - first
+
+
+def _reached(scene: ResolvedScene, road: Any) -> bool:
+    """Whether the wheel comes to an obstacle, or to the next one of a row, during the run."""
+    from contact_sim_pkg.run.sources import make_travel
+
+    first, last = make_travel(scene).extent(0.0, scene.duration)
+    beside = 0.5 * road.length + RADIUS
+    period = getattr(road, "period", None)
+    place = road.position
+    if period is not None:  # the last one that is not beyond
+        place += period * math.floor((last + beside - place) / period)
+    return bool(first - beside <= place <= last + beside)
 
 
 def _height(road: Any, shortest: float, longest: float) -> float:

@@ -1,1 +1,1 @@
-"""Closed forms of the impact: scalings, flight, stress, surface wave."""
+"""Closed forms of the impact: force, scalings, flight, severity."""

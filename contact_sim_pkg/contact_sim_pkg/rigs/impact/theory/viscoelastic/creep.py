@@ -16,7 +16,15 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.impact.theory.checks import check_not_negative, check_number, check_positive, check_values
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 
-__all__ = ["Creep", "complex_compliance", "compliance", "kelvin_voigt", "maxwell", "standard_solid"]
+__all__ = [
+    "Creep",
+    "complex_compliance",
+    "compliance",
+    "kelvin_voigt",
+    "maxwell",
+    "standard_solid",
+    "standard_solid_at",
+]
 
 
 class Creep(NamedTuple):
@@ -50,6 +58,26 @@ def standard_solid(glassy_modulus: float, delayed_modulus: float, retardation_ti
     """
     check_positive("glassy modulus", glassy_modulus, "Pa")
     return kelvin_voigt(delayed_modulus, retardation_time)._replace(glassy=1.0 / glassy_modulus)
+
+
+def standard_solid_at(storage_modulus: float, loss_tangent: float, frequency: float, instant_ratio: float) -> Creep:
+    """The standard solid of complex shear modulus ``G' (1 + i tan(beta))`` at a frequency w, with
+    the instantaneous modulus ``G0 = r G' (1 + tan^2(beta))``.
+
+    ``J* = (1 - i tan(beta))/(G' (1 + tan^2(beta))) = 1/G0 + 1/(G1 (1 + i w tau))`` gives G1 and
+    ``w tau = tan(beta)/(1 - 1/r)``. r to 1 is Maxwell's model, a large r Kelvin and Voigt's.
+
+    G' [Pa], tan(beta) [1], w [rad/s] above 0, r above 1; raises ImpactError otherwise. Source:
+    Ferry, Viscoelastic Properties of Polymers, 3.
+    """
+    check_positive("storage modulus", storage_modulus, "Pa")
+    check_positive("loss tangent", loss_tangent)
+    check_positive("frequency", frequency, "rad/s")
+    check_number("instant ratio", instant_ratio, above=1.0)
+    stiff = storage_modulus * (1.0 + loss_tangent**2)
+    share = 1.0 - 1.0 / instant_ratio
+    lag = loss_tangent / share
+    return standard_solid(instant_ratio * stiff, stiff / (share * (1.0 + lag**2)), lag / frequency)
 
 
 def compliance(creep: Creep, times: Vector) -> Vector:

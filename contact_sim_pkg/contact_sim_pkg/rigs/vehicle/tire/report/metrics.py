@@ -86,19 +86,21 @@ def _conditions(recording: Recording) -> dict[str, float | str]:
 def _load(ride: _Ride) -> Iterator[Metric]:
     """Variation and mean of the load, time off the road."""
     normal, rate, count = ride.contact.normal, 1.0 / ride.contact.sample_period, ride.contact.normal.size
+    # The asperities carry a share of the weight beside the contact.
+    carried = normal + ride.contact.impulses if ride.contact.impulses.size else normal
     doubts = _short(ride)
     lifted = 100.0 * float((normal <= 0.0).mean())
     lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
     if ride.standing is not None:
-        coefficient = float(normal.std()) / ride.standing
+        coefficient = float(carried.std()) / ride.standing
         yield ride.make(
             "dlc", "dynamic load coefficient", coefficient, "", quantity="dynamic_load", broken=doubts, count=count
         )
     yield ride.make("lift_off", "time off the road", lifted, "%", quantity="lift_off", broken=doubts, count=count,
                     remark=f"{lifts} times")  # fmt: skip
     band = None if ride.standing is None else near(ride.standing, 0.05, "weight, mean over the run")
-    yield ride.make("load", "load, mean", normal.mean(), "N", band=band, broken=doubts, count=count,
-                    spread=spread_of_mean(normal, rate), remark=f"{normal.min():.4g} to {normal.max():.4g} N")  # fmt: skip
+    yield ride.make("load", "load, mean", carried.mean(), "N", band=band, broken=doubts, count=count,
+                    spread=spread_of_mean(carried, rate), remark=f"{carried.min():.4g} to {carried.max():.4g} N")  # fmt: skip
 
 
 def _short(ride: _Ride) -> tuple[str, ...]:

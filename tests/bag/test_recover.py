@@ -7,8 +7,8 @@ import pytest
 from rosbags.rosbag2 import Reader
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.mcap.recover import recover
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.recover import recover
 
 Record = Callable[..., Path]
 

@@ -6,12 +6,12 @@ import numpy
 import pytest
 from scipy.integrate import quad
 
+from contact_sim_pkg.rigs.impact.theory import stress
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
-from contact_sim_pkg.rigs.impact.theory.closed_form import stress
-from contact_sim_pkg.rigs.impact.theory.closed_form.micro_front import front_time
-from contact_sim_pkg.rigs.impact.theory.closed_form.surface_wave import shear_speed
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
+from contact_sim_pkg.rigs.impact.theory.micro_front import front_time
 from contact_sim_pkg.rigs.impact.theory.motion import course, solve_impact
+from contact_sim_pkg.rigs.impact.theory.surface_wave import shear_speed
 
 IMPACT = solve_impact(Sphere(0.02, 0.01), Material(8e6, 0.2), 2.0)
 FRONT = front_time(IMPACT, shear_speed(8e6 / 3, 1100.0))

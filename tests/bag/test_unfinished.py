@@ -6,10 +6,10 @@ import pytest
 from ruamel.yaml import YAML
 from tests.nodes.blocks import LENGTH, vibration
 
-from contact_sim_pkg.bag.mcap.recover import recover
-from contact_sim_pkg.bag.mcap.unfinished import leave_metadata
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.recover import recover
+from contact_sim_pkg.bag.unfinished import leave_metadata
 from contact_sim_pkg.bag.writer import BagWriter
 
 TOPIC = "platform/vibration"

@@ -1,7 +1,7 @@
 """Latency of a recorded run at real time: from the moment at which the last excitation of a block is
 sent until the last force of that block has arrived, at a subscriber of its own process.
 
-    python -m contact_sim_pkg.nodes.processes.latency SCENE SECONDS
+    python -m contact_sim_lab.nodes.latency SCENE SECONDS
 
 It runs the scene as a user does, on nodes, and prints one JSON object. Both moments are time stamps
 of the middleware on this machine; the waiting of the subscriber's own Python does not count.
@@ -10,29 +10,15 @@ of the middleware on this machine; the waiting of the subscriber's own Python do
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
-import tempfile
-import time
-from pathlib import Path
 from typing import Any
 
 import numpy
-import rclpy
-from rclpy.node import Node
 
+from contact_sim_lab.nodes.outside import follow_run
 from contact_sim_pkg.bag.messages import stamp_of
-from contact_sim_pkg.nodes.processes.environment import set_default_environment
-from contact_sim_pkg.nodes.processes.process import handle_messages, make_executor
-from contact_sim_pkg.nodes.processes.scene_file import block_length_ns, queue_depth
-from contact_sim_pkg.nodes.protocol.endpoints import informed_subscription, raise_kept
-from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.run.bag_content import input_names, result_names
 from contact_sim_pkg.scene.resolve import load_resolved
-from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-
-SETTLE_SECONDS = 1.0  # of the run, before the subscriber joins: it must not pass for the logger
-GATHER_SECONDS = 0.02
 
 
 class Latencies:
@@ -70,43 +56,11 @@ class Latencies:
 def measure(name: str, seconds: float) -> dict[str, float]:
     """Figures of a run of the scene over this simulated time, [s]; ValueError where it fails."""
     scene = load_resolved(name)
-    set_default_environment()
-    rclpy.init(args=[])
-    node = Node("latency", start_parameter_services=False, enable_rosout=False)
-    try:
-        with tempfile.TemporaryDirectory() as folder:
-            bag = Path(folder) / "bag"
-            command = python_command("contact_sim_pkg.cli.main", "run", name, "--duration", str(seconds))
-            command += ["--pace", "realtime", "--allow-long", "--json", "--out", str(bag)]
-            with subprocess.Popen(
-                command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-            ) as process:
-                while not bag.is_dir() and process.poll() is None:
-                    time.sleep(GATHER_SECONDS)
-                time.sleep(SETTLE_SECONDS)
-                latencies = _follow(node, scene, process)
-                if process.returncode != 0:
-                    lines = process.stderr.read().strip().splitlines() if process.stderr is not None else []
-                    raise ValueError((lines or ["no reason given"])[-1])
-        return latencies.figures()
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-def _follow(node: Node, scene: ResolvedScene, process: subprocess.Popen[str]) -> Latencies:
-    """Follow a run that is under way until its process has ended."""
     forces = [topic for topic in result_names(scene) if topic.endswith("/force")]
-    latencies = Latencies(block_length_ns(scene), len(forces))
-    executor = make_executor()
-    executor.add_node(node)
-    followed = [(topic, latencies.on_input) for topic in input_names(scene)]
-    followed += [(topic, latencies.on_force) for topic in forces]
-    kept = [informed_subscription(node, topic, callback, queue_depth(scene)) for topic, callback in followed]
-    while kept and process.poll() is None:
-        handle_messages(executor, GATHER_SECONDS, GATHER_SECONDS)
-        raise_kept(node)
-    return latencies
+    latencies = Latencies(scene.block_length_ns, len(forces))
+    callbacks = dict.fromkeys(input_names(scene), latencies.on_input) | dict.fromkeys(forces, latencies.on_force)
+    follow_run(name, scene, ("--duration", str(seconds), "--pace", "realtime"), callbacks)
+    return latencies.figures()
 
 
 def main() -> int:

@@ -1,0 +1,1 @@
+"""*Contact Area*: its record, figures, equations and errata."""

@@ -1,0 +1,1 @@
+"""*Driver and Seat*: its record, figures, equations and errata."""

@@ -1,0 +1,1 @@
+"""*Identifiability*: its record, figures, equations and errata."""

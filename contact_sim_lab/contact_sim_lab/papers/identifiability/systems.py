@@ -1,0 +1,33 @@
+"""Systems of *Identifiability*, and the command that reaches each."""
+
+from __future__ import annotations
+
+from contact_sim_lab.records.paper import Parameter, System
+
+__all__ = ["SYSTEMS"]
+
+SYSTEMS = (
+    System("rigid body with frictional contact in time, by complementarity", "2-9", "bench run block_fall"),
+    System("block with four corners: gap functions, sliding and sticking in closed form", "10-18, 32-34, 40-45",
+           "bench paper identifiability --figure 1"),
+    System("inertia and impulses from a motion, what is identifiable", "19-31, 35-39", "bench identify BAG --box 0.1 0.1 0.1"),
+    System(
+        "ten inertial parameters by a regressor, batch and recursive least squares", "1",
+        "bench paper identifiability --system inertia examples/papers/inertia.csv", name="inertia",
+        run="contact_sim_lab.papers.identifiability.system_inertia:inertia",
+        input="a bag with Imu and WrenchStamped, AccelStamped where there is one, all in body axes at the sensor; or a CSV file of "
+              "the same, as examples/papers/inertia.csv",
+    ),
+    System(
+        "principal moments of a body whose principal axes are known: three unknowns", "19-31",
+        "bench paper identifiability --system axes BAG --set box=0.2,0.12,0.08", name="axes",
+        run="contact_sim_lab.papers.identifiability.system_axes:axes",
+        input="a bag with the motion of a box, as bench identify takes it",
+        parameters=(
+            Parameter("box", "m", (0.1, 0.1, 0.1), above=0.0, most=1e3, help="lengths of the box, along its axes"),
+            Parameter("axes", "rad", (0.0, 0.0, 0.0), least=-10.0, most=10.0,
+                      help="rotation vector from the axes of the box to the principal axes"),
+            Parameter("gravity", "m/s²", 9.81, least=0.0, most=1e3),
+        ),
+    ),
+)  # fmt: skip

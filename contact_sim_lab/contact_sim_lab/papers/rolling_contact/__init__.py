@@ -1,0 +1,1 @@
+"""*Rolling Contact*: its record, figures, equations and errata."""

@@ -1,0 +1,9 @@
+"""Errata of *Rolling Contact*."""
+
+from __future__ import annotations
+
+from contact_sim_lab.records.paper import Erratum
+
+__all__ = ["ERRATA"]
+
+ERRATA: tuple[Erratum, ...] = ()

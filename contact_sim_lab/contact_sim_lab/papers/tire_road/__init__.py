@@ -1,0 +1,1 @@
+"""*Tire/Road Contact*: its record, figures, equations and errata."""

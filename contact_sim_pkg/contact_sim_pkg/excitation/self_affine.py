@@ -1,0 +1,71 @@
+"""Self-affine road: an isotropic random surface of spectrum `S(q) ~ q^-(2 + 2 H)` between two
+wavelengths, H Hurst's exponent, scaled to its root mean square height.
+
+The irregular road of Tire/Road Contact (section 3), which gives no numbers: H 0.8, waves of 5 to
+200 mm and 0.5 mm rms are a choice. Source of the spectrum: Persson et al., J. Phys.: Condens.
+Matter 17 (2005) R1, eq 6.
+"""
+
+from math import isfinite
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.excitation.iso8608_texture import Texture
+
+__all__ = ["SelfAffineRoad"]
+
+STRIP = (2.0, 1.0)  # [m] along the road and across it
+
+
+class SelfAffineRoad:
+    """The surface repeats after 2 m along the road and is 1 m wide."""
+
+    def __init__(
+        self, hurst: float, rms: float, longest: float, shortest: float, seed: int, lattice_cell: float = 0.0
+    ) -> None:
+        """Draw the waves.
+
+        Args:
+            hurst: H, 0 to 1. rms: of the heights, [m], 0 to 0.05. longest, shortest: wavelengths,
+            [m]; the longest at most 1 m. seed: of the phases.
+            lattice_cell: cell of the lattice that will carry the road, [m]; waves below two cells
+            are left out.
+
+        Raises:
+            ExcitationError: a value out of range, or no wave between both wavelengths.
+        """
+        for name, value, low, high in (("hurst", hurst, 0.0, 1.0), ("rms", rms, 0.0, 0.05)):
+            if not (isfinite(value) and low <= value <= high):
+                raise ExcitationError(f"{name} of the self-affine road is {value}; allowed: {low:g} to {high:g}")
+        self.hurst, self.seed, self._notes = hurst, seed, list[str]()
+        resolved = max(shortest, 2.0 * lattice_cell)
+        if resolved > shortest:
+            self._notes.append(
+                f"Waves of the road below {resolved:g} m (two cells) are left out; {shortest:g} m was requested."
+            )
+        if not 1e-3 <= resolved < longest:
+            raise ExcitationError(
+                f"the self-affine road has no wave: its shortest wavelength is {resolved:g} m, its longest {longest:g} m"
+            )
+        self._surface = Texture(1.0, 1.0 + 2.0 * hurst, longest, resolved, seed, STRIP)
+        self._surface.scale_to(rms)
+
+    def heights(self, x: NDArray[numpy.float64], y: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """Heights in [m], [len(x), len(y)]. See blocks.Surface."""
+        return self._surface.heights(x, y)
+
+    def describe(self) -> dict[str, Any]:
+        """See blocks.Surface."""
+        surface = self._surface
+        return {
+            "kind": "self_affine",
+            "hurst": self.hurst,
+            "seed": self.seed,
+            "shortest_wavelength_m": surface.shortest,
+            "longest_wavelength_m": surface.longest,
+            "rms_m": surface.rms,
+            "notes": [*self._notes, f"The road repeats after {STRIP[0]:g} m."],
+        }

@@ -1,0 +1,1 @@
+"""The bench's messages as standard messages of ROS, for RViz, Foxglove, PlotJuggler and rqt. Without ROS."""

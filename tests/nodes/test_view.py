@@ -1,0 +1,183 @@
+"""`bench_view` over the real middleware: nothing is subscribed or made that nobody reads; what is read is right."""
+
+import time
+
+import numpy
+import pytest
+from tests.bench_process import Nodes, needs_ros, resolved
+
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.run.offline import run_offline
+
+pytestmark = needs_ros
+
+G = 9.81  # [m/s^2]
+VIEW = "bench_view"
+OFFERED = {"/tf", "/view/markers", "/view/imu/seat", "/view/imu/floor", "/view/joints", "/view/seat/load"}
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory):
+    path = tmp_path_factory.mktemp("viewed") / "bag"
+    run_offline(resolved("seat_ride", "duration=0.5", "pace=max"), path)
+    return path
+
+
+@pytest.fixture
+def nodes(bag, tmp_path):
+    """A view and a replay without end; both end with the test."""
+    started = Nodes(resolved("seat_ride"), tmp_path)
+    started.view = started.start(VIEW)
+    started.start("bag_replay", bag=bag, loop="true")
+    yield started
+    started.end()
+
+
+class Reader:
+    """A node of another tool."""
+
+    def __init__(self):
+        import rclpy
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.node import Node
+        from rclpy.signals import SignalHandlerOptions
+
+        self._context = rclpy.Context()
+        rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
+        self.node = Node("rviz", context=self._context, start_parameter_services=False, enable_rosout=False)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+
+    def read(self, topic, type_name):
+        """A list that fills as this node spins, and the subscription."""
+        from contact_sim_pkg.nodes.protocol.endpoints import message_type
+
+        heard: list = []
+        return heard, self.node.create_subscription(message_type(type_name), topic, heard.append, 100)
+
+    def spin_until(self, condition, seconds=60.0):
+        limit = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < limit, "timed out"
+            self._executor.spin_once(timeout_sec=0.02)
+
+    def spin(self, seconds):
+        limit = time.monotonic() + seconds
+        self.spin_until(lambda: time.monotonic() > limit)
+
+    def topics_of_view(self, direction):
+        """Names that the view publishes or subscribes to; none before it is in the graph."""
+        try:
+            names = getattr(self.node, f"get_{direction}_names_and_types_by_node")(VIEW, "/")
+        except Exception:  # noqa: BLE001  # of rclpy: no such node yet
+            return set()
+        return {name for name, _types in names if not name.startswith(("/parameter_events", "/rosout", f"/{VIEW}"))}
+
+    def wait_for_view(self):
+        self.spin_until(lambda: self.topics_of_view("publisher") >= OFFERED)
+
+    def close(self):
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self._context.try_shutdown()
+
+
+@pytest.fixture
+def reader():
+    one = Reader()
+    yield one
+    one.close()
+
+
+def test_nothing_is_subscribed_while_nobody_reads_and_what_is_read_alone(nodes, reader):
+    reader.wait_for_view()
+    assert not [name for name in reader.topics_of_view("publisher") if "tire" in name or "axle" in name]
+    reader.spin(2.0)
+    assert reader.topics_of_view("subscriber") == set()
+
+    heard, one = reader.read("view/seat/load", "std_msgs/msg/Float64")
+    reader.spin_until(lambda: len(heard) > 3)
+    assert reader.topics_of_view("subscriber") == {"/seat/force"}
+    _, other = reader.read("/tf", "tf2_msgs/msg/TFMessage")
+    reader.spin_until(lambda: reader.topics_of_view("subscriber") == {"/seat/force", "/bench/motion", "/bench/scene"})
+    for subscription in (one, other):
+        reader.node.destroy_subscription(subscription)
+    reader.spin_until(lambda: reader.topics_of_view("subscriber") == set())
+    assert reader.node.count_subscribers("seat/force") == 0
+
+
+def test_what_is_read_is_the_recorded_run_at_twenty_hertz(bag, nodes, reader):
+    reader.wait_for_view()
+    imu, _ = reader.read("view/imu/seat", "sensor_msgs/msg/Imu")
+    tree, _ = reader.read("/tf", "tf2_msgs/msg/TFMessage")
+    reader.spin_until(lambda: len(imu) > 20 and len(tree) > 20)
+    began, before = time.monotonic(), len(imu)
+    reader.spin(3.0)
+    assert (len(imu) - before) / (time.monotonic() - began) < 22.0  # at most, whatever the machine does
+    acceleration, position = {}, {}
+    for time_ns, motion in open_bag(bag).decoded("bench/motion"):
+        row = motion.bodies.index("seat_frame_z")
+        acceleration[time_ns] = numpy.reshape(motion.acceleration, (-1, motion.samples))[row, 0]
+        position[time_ns] = numpy.reshape(motion.position, (-1, motion.samples))[row, 0]
+    for message in imu:
+        stamp = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+        assert message.linear_acceleration.z == acceleration[stamp] + G
+        assert message.orientation_covariance[0] == -1.0
+    heights = {}
+    for message in tree:
+        (seat,) = [each for each in message.transforms if each.child_frame_id == "seat_frame"]
+        stamp = seat.header.stamp.sec * 10**9 + seat.header.stamp.nanosec
+        heights[stamp] = seat.transform.translation.z - position[stamp]
+    assert max(heights.values()) - min(heights.values()) < 1e-12  # one rest place
+
+
+def test_a_signal_ends_it_with_status_0(nodes, reader):
+    reader.wait_for_view()
+    nodes.view.request_end()
+    assert nodes.wait(VIEW) == {VIEW: 0}
+
+
+def test_it_pauses_and_goes_on_as_a_lifecycle_node(nodes, reader):
+    from lifecycle_msgs.msg import Transition
+    from lifecycle_msgs.srv import ChangeState
+
+    reader.wait_for_view()
+    heard, _ = reader.read("view/seat/load", "std_msgs/msg/Float64")
+    reader.spin_until(lambda: len(heard) > 3)
+    client = reader.node.create_client(ChangeState, f"{VIEW}/change_state")
+    reader.spin_until(client.service_is_ready)
+
+    def change(transition):
+        answer = client.call_async(ChangeState.Request(transition=Transition(id=transition)))
+        reader.spin_until(answer.done)
+        return answer.result().success
+
+    assert change(Transition.TRANSITION_DEACTIVATE)
+    reader.spin(0.5)
+    count = len(heard)
+    reader.spin(1.0)
+    assert len(heard) == count
+    assert change(Transition.TRANSITION_ACTIVATE)
+    reader.spin_until(lambda: len(heard) > count)
+
+
+def test_a_run_is_recorded_whole_beside_a_view_that_was_there_before(tmp_path, reader):
+    """A viewer's subscription is no recorder's: the run waits for the logger's own."""
+    nodes = Nodes(resolved("seat_ride", "duration=1", "pace=max"), tmp_path / "run")
+    try:
+        nodes.start(VIEW)
+        heard, _ = reader.read("view/seat/load", "std_msgs/msg/Float64")
+        direct, _ = reader.read("seat/force", "contact_msgs_defs/msg/ContactForce")
+        for node in ("contact_simulator", "vibration"):
+            nodes.start(node)
+        reader.spin_until(lambda: reader.node.count_subscribers("seat/force") > 1, 120.0)  # the view's too
+        reader.spin(1.0)
+        assert not direct
+        nodes.start("bag_logger")
+        reader.spin_until(lambda: (nodes.bag / "metadata.yaml").exists(), 120.0)
+        recorded = open_bag(nodes.bag)
+        assert recorded.complete
+        assert recorded.count("seat/force") == 100
+        reader.spin_until(lambda: len(heard) > 0)
+    finally:
+        nodes.end()

@@ -1,0 +1,63 @@
+"""System *axes*: impacts of rigid bodies by Newton and Euler, and a recorded motion of a box."""
+
+import numpy
+import pytest
+from tests.identify import foreign_bag, motions
+
+from contact_sim_lab.papers.driver_seat.system_distance import rotation_about
+from contact_sim_lab.papers.identifiability.system_axes import axes, moments_of
+from contact_sim_lab.records.paper import PaperError
+from contact_sim_pkg.identify.contact.two_point import impact_equations
+
+MOMENTS = numpy.array([0.004, 0.007, 0.009])
+TURN = rotation_about(numpy.array([0.3, -0.2, 0.4]))
+BASIS = numpy.einsum("ik,jk->kij", TURN, TURN)
+
+
+def impact(seed, moment=None):
+    """Equations of a random impact: the change of the spin from a known moment of the impulse over the mass."""
+    random = numpy.random.default_rng(seed)
+    rotation = rotation_about(random.normal(size=3))
+    reach, push = random.normal(size=3), random.normal(size=3)
+    if moment is not None:
+        # A reach and an impulse with this moment: it is normal to both.
+        along = rotation @ TURN @ moment
+        reach = numpy.cross(along, random.normal(size=3))
+        push = numpy.cross(along, reach) / (reach @ reach)
+    turned = rotation @ TURN
+    change = turned @ ((turned.T @ numpy.cross(reach, push)) / MOMENTS)
+    velocity, spin = random.normal(size=3), random.normal(size=3)
+    return impact_equations(BASIS, rotation, (velocity, spin), (velocity + push, spin + change), reach)
+
+
+def test_one_impact_gives_all_three_moments():
+    matrix, right = impact(1)
+    found = moments_of([matrix], [right])
+    assert found.rank == 3
+    assert found.values == pytest.approx(MOMENTS, rel=1e-11)
+
+
+def test_a_moment_without_a_part_about_an_axis_hides_that_axis():
+    """Of the body-frame components of the moment none may vanish (Identifiability, below eq 31)."""
+    matrix, right = impact(2, numpy.array([0.0, 0.3, -0.5]))
+    found = moments_of([matrix], [right])
+    assert found.rank == 2
+    assert numpy.isfinite(found.deviations).tolist() == [False, True, True]
+    assert found.values[1:] == pytest.approx(MOMENTS[1:], rel=1e-10)
+    again = moments_of(*zip(impact(2, numpy.array([0.0, 0.3, -0.5])), impact(3), strict=True))
+    assert again.rank == 3
+    assert again.values == pytest.approx(MOMENTS, rel=1e-10)
+
+
+def test_the_motion_of_a_box_gives_its_moments(tmp_path):
+    foreign_bag.write_odometry(tmp_path / "bag", motions.states_of(motions.spatial()))
+    values = {"box": tuple(motions.LENGTHS), "axes": (0.0, 0.0, 0.0), "gravity": 9.81}
+    result = axes(tmp_path / "bag", values)
+    found = [row["I_over_m_m2"] for row in result.rows]
+    assert found == pytest.approx(numpy.diag(motions.SPATIAL_INERTIA), rel=1e-6)
+    assert "rank 3 of 3" in result.note
+
+
+def test_three_lengths_and_an_impact_are_needed(tmp_path):
+    with pytest.raises(PaperError, match="box and axes take three numbers each"):
+        axes(tmp_path, {"box": (0.1, 0.1), "axes": (0.0, 0.0, 0.0), "gravity": 9.81})
