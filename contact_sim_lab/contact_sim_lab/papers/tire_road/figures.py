@@ -68,7 +68,8 @@ class Solved(NamedTuple):
 
 
 def _centres(count: int, side: float) -> Field:
-    return (numpy.arange(count) + 0.5) * (side / count) - 0.5 * side
+    places: Field = (numpy.arange(count, dtype=numpy.float64) + 0.5) * (side / count) - 0.5 * side
+    return places
 
 
 def _solve(road: Road, load: float, grid: tuple[int, int, float, float]) -> Solved:
@@ -144,7 +145,7 @@ def _reference_numbers(flat: Solved) -> list[Number]:
 
 def _pressure_numbers(road: Road, found: Solved, flat: Solved) -> list[Number]:
     small, level = (_solve(each, found.load, SMALL) for each in (road, FlatRoad()))
-    matrix = dense_influence(*small.pressure.shape, *small.cells, MODULUS)
+    matrix = dense_influence(*SMALL[:2], *small.cells, MODULUS)
     dense = pressure_at_approach(matrix, small.gap, small.approach)
     dense_level = pressure_at_approach(matrix, level.gap, level.approach)
     error = float(abs(small.pressure - dense).max() / dense_level.max())
