@@ -155,7 +155,8 @@ def _pressure_numbers(road: Road, found: Solved, flat: Solved) -> list[Number]:
         Number("largest p/p_ref,max, 48 × 36 cells", "", float(small.pressure.max() / level.pressure.max()),
                float(dense.max() / dense_level.max()), 1e-2, origin, relative=True),
         *_conditions(found),
-        Number("largest p/p_ref,max", "", float(found.pressure.max() / flat.pressure.max()), None, 0.0, "", note="on the fine grid"),
+        Number("largest p/p_ref,max", "", float(found.pressure.max() / flat.pressure.max()), None, 0.0, "",
+        note="on the fine grid"),
     ]  # fmt: skip
 
 
