@@ -12,11 +12,11 @@ SYSTEMS = (
     System("sticking and sliding of the back", "7, 9", "bench run seat_slip"),
     System(
         "back as a doubly curved thin shell, its modes over the seat back", "3, 6",
-        "bench run seat_slap --set effects.backrest.shell_modes={}",
+        "bench run seat_shell",
     ),
     System(
         "search for the contact points by the genetic algorithm", "1, 2, text",
-        "bench run seat_slap --set effects.backrest.shell_modes={} --set effects.backrest.contact_search={}",
+        "bench run seat_shell",
     ),
     System("Lamé domain of the contact: area, parametrisation, fit", "4, 5", "bench paper driver-seat --figure 3"),
     System(
