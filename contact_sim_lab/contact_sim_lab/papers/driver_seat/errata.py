@@ -37,7 +37,7 @@ ERRATA: tuple[Erratum, ...] = (
         'B "from restitution", no formula',
         "d(1+e) = ln[(1+d)/(1-de)], d = λ v0",
         "number",
-        "the usual 1.5(1-e)/v0 gives e = 0.663 when 0.5 is asked for",
+        "the usual 1.5(1-e)/v0 gives e = 0.663 when 0.5 is requested",
     ),
     Erratum("9", "unbounded F_t", "Coulomb limit", "limit", "otherwise a slip phase cannot exist"),
     Erratum(

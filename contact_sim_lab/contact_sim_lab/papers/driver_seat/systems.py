@@ -14,9 +14,7 @@ SYSTEMS = (
         "back as a doubly curved thin shell, its modes over the seat back", "3, 6",
         "bench run seat_shell --set effects.backrest.contact_search=null",
     ),
-    System(
-        "search for the contact point of the bent shell", "1, 2", "bench run seat_shell",
-    ),
+    System("search for the contact point of the bent shell at every step", "1, 2", "bench run seat_shell"),
     System("Lamé domain of the contact: area, parametrisation, fit", "4, 5", "bench paper driver-seat --figure 3"),
     System(
         "minimum distance or interference of two bodies of one's own, by the genetic algorithm too", "1, 2, text",

@@ -105,7 +105,8 @@ def _conditions(found: Solved) -> list[Number]:
     scale = float(abs(found.approach)) or 1.0
     area = found.cells[0] * found.cells[1]
     return [
-        Number("load, ∬ p", "N", float(found.pressure.sum() * area), found.load, 1e-6, "eq 2: the load asked for", relative=True),
+        Number("load, ∬ p", "N", float(found.pressure.sum() * area), found.load, 1e-6, "eq 2: the prescribed load",
+               relative=True),
         Number("smallest p", "Pa", float(found.pressure.min()), 0.0, 0.0, "eq 3: p ≥ 0"),
         Number("largest |clearance| in the contact over Δ", "", float(abs(clearance[pressed]).max()) / scale, 0.0, 1e-6, "eq 3"),
         Number("cells outside the contact with a clearance below zero", "",
