@@ -4,6 +4,8 @@ interpolation.
 With N points a shortest wavelength the lattice step is h = wavelength / N, and the relative error
 of a wave of that length is at most (2 pi / N)^4 / 384: 7.6e-7 for N = 48; it falls with the fourth
 power of the wavelength for longer waves.
+
+Source: de Boor, A Practical Guide to Splines, IV.
 """
 
 import numpy

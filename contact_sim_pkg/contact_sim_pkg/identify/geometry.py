@@ -3,6 +3,8 @@
 A body is the convex hull of points in body axes (origin: centre of mass), grown by a radius: box,
 polygon, hull (radius 0), sphere (one point). The ground is a plane. Gap of point i: `phi_i = n.(x +
 R p_i) - radius - height`.
+
+Source: Identifiability eqs 10, 11 and 40.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Where an event function of the rig changes its sign within a step."""
+"""Where an event function of the rig changes its sign within a step.
+
+Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.6.
+"""
 
 from __future__ import annotations
 

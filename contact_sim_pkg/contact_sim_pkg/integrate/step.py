@@ -1,5 +1,7 @@
 """One step of the integrator by the pair that its workspace holds: its result, its error, and the
 state inside it.
+
+Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.4 to II.6.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 ``contact``: ``laws/parameters.Contact`` or None; approach in [m], its rate in [m/s], closing
 positive; state and derivative: [states] of the rig, which hold the hysteresis variable of a foam.
+
+Source: Driver and Seat eqs 7 to 9.
 """
 
 from __future__ import annotations

@@ -4,6 +4,8 @@
 hysteresis variable follows the stored energy u alone and is known in closed form: over a part of
 the motion in which u rises by w, ``1 - z`` falls by ``exp(-w/u_0)``, where it falls by w, ``1 + z``
 does. Small amplitudes: ``K = F_el' + s F_el^2/u_0``, damping ``lambda F_el``.
+
+Source: Nayfeh and Mook, Nonlinear Oscillations, 2.3.4 (harmonic balance).
 """
 
 from __future__ import annotations

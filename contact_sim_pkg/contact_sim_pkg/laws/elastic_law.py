@@ -6,6 +6,8 @@ The functions are those of ``laws/normal_elastic.py``, and call them for a ``Nor
 ``laws/tabulated_elastic.py``). Rigs and dissipative laws call these. Called
 from Python they check what they are given: a law within its range (``laws/parameters.py``), an
 argument that is a number, a result within the range of numbers; compiled they check nothing.
+
+Source: Driver and Seat eqs 7 and 8.
 """
 
 from __future__ import annotations

@@ -5,6 +5,8 @@ The factor multiplies the elastic pressure of each cell as well as the elastic f
 contact, so that the force stays the integral of the pressure. No force jump at first contact, no
 tension (end rule ``force``). In a free impact at v0, with d = damping v0: ``d (1 + e) = ln[(1 +
 d)/(1 - d e)]``, whatever A, n and mass.
+
+Source: Hunt and Crossley, J. Appl. Mech. 42 (1975) 440; Driver and Seat eq 8.
 """
 
 from __future__ import annotations

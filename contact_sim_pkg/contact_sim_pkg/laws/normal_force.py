@@ -6,6 +6,8 @@ rig calls ``normal_force`` for the force, ``tension_event`` for the event that e
 gap opens, ``normal_force_rate`` where friction needs dF/dt. ``hysteresis_factor`` multiplies the
 elastic part: 1, or what ``laws/foam_hysteresis.py`` gives. Called from Python they raise ValueError
 for a law outside its range, an argument that is nan, and a result beyond the range of numbers.
+
+Source: Driver and Seat eqs 7 and 8.
 """
 
 from __future__ import annotations

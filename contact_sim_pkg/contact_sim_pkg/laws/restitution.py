@@ -3,6 +3,8 @@ speeds.
 
 In a free impact at speed v0, d = damping v0: ``d (1 + e) = ln[(1 + d)/(1 - d e)]``, whatever
 stiffness, exponent and mass.
+
+Source: Hunt and Crossley, J. Appl. Mech. 42 (1975) 440; Driver and Seat eqs 8 and 11.
 """
 
 from __future__ import annotations

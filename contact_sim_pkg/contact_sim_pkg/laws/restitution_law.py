@@ -13,6 +13,8 @@ Where p > n and q is small, friction holds the mass: for q = 0 as soon as ``X**n
 largest approach X, for q > 0 it creeps at ``(x**(n-p)/Z)**(1/q)``. A mass is held where it needs
 more than 1000 L/v0 for that. For q = 0 the law reaches restitutions down to ``sqrt((p-n)/(p+n+2))``
 only.
+
+Source: Driver and Seat eqs 8, 10 and 11.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 Plane: x, z, angle; v_x, v_z, omega. Space: x, y, z, a quaternion (w, x, y, z) of any length; v in
 world axes, omega in body axes.
+
+Source: Identifiability eq 4.
 """
 
 from __future__ import annotations

@@ -28,4 +28,8 @@ PAPER = Paper(
     figures=FIGURES,
     equations=EQUATIONS,
     errata=ERRATA,
+    not_shown=(
+        "Figures 1 to 3 are drawings of the geometry and of the machine; their relations are equations 1 to 42."
+    ),
+    left_open=("Figure 5 as numbers: the photograph has no scales.",),
 )

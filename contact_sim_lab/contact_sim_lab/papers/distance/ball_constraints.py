@@ -1,5 +1,7 @@
 """What bounds a ball inside two bodies: all their constraints in relative lengths, depths below
 them, supporting planes.
+
+Source: Driver and Seat eq 2.
 """
 
 from __future__ import annotations

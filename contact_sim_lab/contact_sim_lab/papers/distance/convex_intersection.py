@@ -3,6 +3,8 @@ from.
 
 That point is the centre of the largest ball inside (`papers/distance/touching_ball.py`), bounded by
 a box for bodies without bounds.
+
+Source: Driver and Seat eqs 1 and 2 (bounding surface constraints).
 """
 
 from __future__ import annotations

@@ -3,6 +3,8 @@ linear program over directions.
 
 An ellipsoid is its centre [3] and its matrix Q [3, 3], `(p - c)^T Q (p - c) <= 1`; its support
 function is `h(n) = n . c + sqrt(n^T Q^-1 n)`.
+
+Source: Driver and Seat eqs 1 and 2, by other ways.
 """
 
 from __future__ import annotations

@@ -5,6 +5,8 @@ A round solves for the largest ball under all supporting planes so far, its cent
 about the best centre. The box shrinks where the planes promise more than the constraints hold and
 grows where they hold. Each round ends with Newton steps from the planes that hold that ball; the
 search ends where the conditions are met.
+
+Source: Driver and Seat eq 2; Boyd and Vandenberghe, Convex Optimization, 8.5.1.
 """
 
 from __future__ import annotations

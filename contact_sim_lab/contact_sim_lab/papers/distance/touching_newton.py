@@ -8,6 +8,8 @@ n_k the outward normal:
 
 They stay regular through r = 0, and where the nearest boundary point jumps, since every foot has a
 point of its own.
+
+Source: Driver and Seat eq 2.
 """
 
 from __future__ import annotations

@@ -25,4 +25,15 @@ PAPER = Paper(
     figures=FIGURES,
     equations=EQUATIONS,
     errata=ERRATA,
+    not_shown="Figures 1 and 2 are sketches.",
+    left_open=(
+        (
+            "Nonlinear normal modes of the shell: the paper names them and gives none; linear modes with "
+            "the nonlinear contact force take their place."
+        ),
+        (
+            "Figures 4 to 7 as numbers: the paper gives the band of the spine and no other value; mass, "
+            "law, friction and amplitudes are chosen."
+        ),
+    ),
 )

@@ -92,11 +92,13 @@ def _lcp(m11: float, m12: float, m21: float, m22: float, q1: float, q2: float) -
     work = make_lemke_workspace(2)
     work.M[:2, :2], work.q[:2] = [[m11, m12], [m21, m22]], [q1, q2]
     status = lemke(work, 2)
-    return work.z[:2].copy(), int(status), float(complementarity_residual(work, 2))
+    return work.z[:2].copy(), int(status), float(complementarity_residual(work, 2))  # type: ignore[no-untyped-call]
 
 
 def _gyroscopic(inertia: Array, body_spin: Array, step: float) -> tuple[Array, Array]:
-    return numpy.array(gyroscopic_rate(inertia, *body_spin)), numpy.array(gyroscopic_step(*inertia, *body_spin, step))
+    values = [float(each) for each in (*inertia, *body_spin, step)]
+    rate, after = gyroscopic_rate(inertia, *values[3:6]), gyroscopic_step(*values)  # type: ignore[no-untyped-call]
+    return numpy.array(rate), numpy.array(after)
 
 
 def _two_point(side: float, angle: float, before: Array, after: Array) -> tuple[float, float, float, float]:
@@ -112,20 +114,23 @@ def _two_point(side: float, angle: float, before: Array, after: Array) -> tuple[
     return 1.0 / ratio, ratio, float(after[0] - before[0]), float(after[1] - before[1])
 
 
+LCP = tuple(
+    Parameter(name, "", value)
+    for name, value in (("m11", 2.0), ("m12", 1.0), ("m21", 1.0), ("m22", 2.0), ("q1", -5.0), ("q2", -6.0))
+)
 RULE = Parameter("rule", "", "newton", choices=("newton", "poisson", "energetic"))
 BLOCK = (SIDE, MASS, ANGLE, FRICTION, RESTITUTION, RULE, *VELOCITY)
 EQUATIONS: tuple[Equation, ...] = (
     Equation("2", "linear complementarity problem of two unknowns, by Lemke's pivots", "w = M z + q ≥ 0, z ≥ 0, wᵀz = 0",
              "contact_sim_pkg.rigid.contact.lemke:lemke",
-             tuple(Parameter(name, "", value) for name, value in (("m11", 2.0), ("m12", 1.0), ("m21", 1.0), ("m22", 2.0),
-             ("q1", -5.0), ("q2", -6.0))),
+             LCP,
              (("z", ""), ("status", ""), ("residual", "")), _lcp),
     Equation("9", "one planar contact by the rule of restitution, and by a twin", "0 ≤ c_n ⊥ J_nᵀv⁺ + ε min(0, J_nᵀv) ≥ 0",
              "contact_sim_pkg.rigid.impact.planar_impact:planar_impact", (*CONTACT, RULE), (*IMPULSE, ("c_n twin", "N s"),
              ("c_t twin", "N s")),
              _by_rule),
     Equation("17", "sliding and sticking of one contact in closed form (eqs 12-18, 32-34)",
-    "c_n = −[(1+ε) J_nᵀv + …]/(A_nn + μ A_nd)",
+             "c_n = −[(1+ε) J_nᵀv + …]/(A_nn + μ A_nd)",
              "contact_sim_pkg.rigid.impact.planar_impact:contact_modes", CONTACT, IMPULSE, _one_step),
     Equation("23", "gyroscopic change of the spin", "I0 dω/dt = −ω × I0 ω", "contact_sim_pkg.rigid.rotation:gyroscopic_rate",
              (*INERTIA, Parameter("step", "s", 1e-3, above=0.0, most=1.0)), (("rate", "rad/s²"), ("spin after the step",
@@ -134,11 +139,11 @@ EQUATIONS: tuple[Equation, ...] = (
              "contact_sim_pkg.rigid.body:contact_kinematics", (SIDE, ANGLE, Parameter("height", "m", 0.2)),
              (("φ", "m"), ("J_n", ""), ("J_t", "")), _jacobians),
     Equation("43", "impact of the block on its corner", "c_n, c_t and v⁺",
-    "contact_sim_pkg.rigid.impact.planar_impact:planar_impact", BLOCK,
+             "contact_sim_pkg.rigid.impact.planar_impact:planar_impact", BLOCK,
              (*IMPULSE, ("v⁺", "m/s, rad/s")), _block),
     Equation("44", "ratios found from one planar impact (eqs 44, 45)", "m/J = Δω/(r × π), c/m = Δv",
              "contact_sim_pkg.identify.table:estimate_from_impacts",
-             (SIDE, ANGLE, Parameter("before", "m/s, rad/s", (0.5, -2.0, 0.0)), Parameter("after", "m/s, rad/s", (0.216, -0.93,
-             17.9))),
+             (SIDE, ANGLE, Parameter("before", "m/s, rad/s", (0.5, -2.0, 0.0)),
+              Parameter("after", "m/s, rad/s", (1.019516835753669, -0.2682772141544365, -22.2237080418872))),
              (("m/J", "1/m²"), ("J/m", "m²"), ("c_t/m", "m/s"), ("c_n/m", "m/s")), _two_point),
 )  # fmt: skip

@@ -25,4 +25,5 @@ PAPER = Paper(
     figures=FIGURES,
     equations=EQUATIONS,
     errata=ERRATA,
+    left_open=("Further drawings: the text announces three more and has none.",),
 )

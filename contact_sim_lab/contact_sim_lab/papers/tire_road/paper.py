@@ -25,4 +25,6 @@ PAPER = Paper(
     figures=FIGURES,
     equations=EQUATIONS,
     errata=ERRATA,
+    not_shown="Figure 1 is a sketch.",
+    left_open=("Figures 2 to 5 as numbers: the paper gives none; tire, bump and irregular road are chosen.",),
 )

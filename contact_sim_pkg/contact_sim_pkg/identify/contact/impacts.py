@@ -1,5 +1,7 @@
 """Instant and point of an impact: the root of the gap on the incoming flight, and on the outgoing
 one where it lasts.
+
+Source: Identifiability eqs 10 and 19 to 31.
 """
 
 from __future__ import annotations

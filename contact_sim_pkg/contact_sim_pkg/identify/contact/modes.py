@@ -1,4 +1,7 @@
-"""Mode of one contact from its velocities and impulse, with friction and restitution."""
+"""Mode of one contact from its velocities and impulse, with friction and restitution.
+
+Source: Identifiability eqs 12 to 18 and 32 to 34.
+"""
 
 from __future__ import annotations
 

@@ -5,6 +5,8 @@ keeps `|pi_t| <= mu pi_n`, and `-sum(d pi_t) / sum(pi_n) <= mu` for any unit vec
 ground. It is mu where all points slip along one d all the time, a lower bound where the slip turns,
 reverses, or differs between points. Pushes are taken along d, the direction of the mean slip, since
 the noise of |pi_t| would add up; along one d all but that of the first and last velocity cancels.
+
+Source: Identifiability eqs 5 and 42.
 """
 
 from __future__ import annotations

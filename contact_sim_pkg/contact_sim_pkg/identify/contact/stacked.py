@@ -6,6 +6,8 @@ the states are eliminated through the balances, and what is left is a whitened r
 parameters alone: rank, estimate and covariance come from its singular values. A Gauss-Newton step
 is exact least squares; velocity, spin, position and orientation all carry their noise, so that
 large noise does not pull the estimate down as a plain regression does.
+
+Source: Identifiability eqs 19 to 39, with errors in all variables.
 """
 
 from __future__ import annotations

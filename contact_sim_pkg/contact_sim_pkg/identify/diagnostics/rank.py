@@ -1,5 +1,7 @@
 """The combinations of parameters that measurements identify: singular values of the whitened,
 scaled regressor.
+
+Source: Golub and Van Loan, Matrix Computations, 5.5.
 """
 
 from __future__ import annotations

@@ -4,6 +4,8 @@ parameters.
 State: (position, velocity, rotation, angular velocity) in world axes; a change of it is 12 numbers
 (dx, dv, small rotation in world axes, dw). Parameters p: I0/m = sum p_i E_i, then 1/m where a
 wrench is known.
+
+Source: Identifiability eqs 4 and 39.
 """
 
 from __future__ import annotations

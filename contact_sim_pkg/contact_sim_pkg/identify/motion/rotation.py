@@ -1,4 +1,7 @@
-"""Rotations as matrices that take body axes to world axes."""
+"""Rotations as matrices that take body axes to world axes.
+
+Source: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 2.2.
+"""
 
 from __future__ import annotations
 

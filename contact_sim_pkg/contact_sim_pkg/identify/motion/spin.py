@@ -3,6 +3,8 @@
 S = I0/m and kappa = 1/m. Solved by Picard iteration on Chebyshev nodes over segments in which the
 body turns by half a radian: errors of rounding size, and many copies with perturbed starts or
 parameters at once.
+
+Source: Identifiability eq 4, corrected (Euler's equation).
 """
 
 from __future__ import annotations

@@ -4,6 +4,8 @@ In flight the angular momentum over the mass is `R S R^T w = L0 + kappa int tau 
 six numbers of S = I0/m and in kappa = 1/m. What is left of it about its mean over each flight is
 made least at a fixed trace of S, weighted by the noise, with the guess as it is where the motion
 does not identify it: five numbers of a body that tumbles in all directions.
+
+Source: Identifiability eqs 19 to 31 without an impulse.
 """
 
 from __future__ import annotations

@@ -3,6 +3,8 @@ yardstick of the integrator.
 
 ``m z'' = F(x, x') - m g``, ``x = A sin(w t) - z``. State [z, v]; event functions: the approach x,
 and the tension margin.
+
+Source: Driver and Seat eqs 7, 8, 10 and 11.
 """
 
 from __future__ import annotations

@@ -1,5 +1,7 @@
 """Runs of the one-mass rigs with one requested tolerance, for the studies: state at given times,
 and what it took.
+
+Source: Driver and Seat eqs 7, 8, 10 and 11.
 """
 
 from __future__ import annotations

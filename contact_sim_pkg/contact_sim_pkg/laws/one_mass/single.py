@@ -1,5 +1,7 @@
 """Compiled entries of the one-mass rigs: integrate from event to event or over a time, for tests
 and studies.
+
+Source: Driver and Seat eqs 7 to 11.
 """
 
 from __future__ import annotations

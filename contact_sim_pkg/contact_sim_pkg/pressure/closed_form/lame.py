@@ -3,6 +3,8 @@ contact patch.
 
 n = 2 is the ellipse, n = 1 the rhombus, n -> infinity the rectangle. The radial variable
 `rho = (|x/a|^n + |y/b|^n)^(1/n)` is computed through logarithms, so no power under- or overflows.
+
+Source: Driver and Seat eqs 4 and 5; Tire/Road Contact eqs 5 and 6.
 """
 
 from __future__ import annotations

@@ -5,6 +5,8 @@ Taken are the corners of the hull and the points on its sides, about the centroi
 hull is convex, so the exponent comes out at 1 or above but for scatter; concave domains need the
 cells (`lame.fit_patch`). Points inside the true border, as those of a coarse lattice, give half
 axes that are short by up to one spacing.
+
+Source: Driver and Seat eqs 4 and 5, figure 3.
 """
 
 from __future__ import annotations

@@ -15,6 +15,8 @@ place of a second filter.
 Clipping at p >= 0 adds line sums e that the direction did not have. The belt would yield under
 them: the rows are scaled down by their part `A W e`, else most of the next step would be spent on
 it.
+
+Source: Pacejka, Tire and Vehicle Dynamics, 9; Tire/Road Contact eqs 3 and 4.
 """
 
 from __future__ import annotations

@@ -22,6 +22,8 @@ It ends when the residual is at most the tolerance and the last correction chang
 most `CHANGE` times the tolerance in L2. The second is the better measure of the error: the error
 was 0.4 to 0.9 of the change where it was measured (tire on rough roads), while the residual weighs
 a clearance by its depth and hardly sees the short waves of the pressure.
+
+Source: Tire/Road Contact eqs 1 to 4; Polonsky and Keer, Wear 231 (1999) 206.
 """
 
 from __future__ import annotations

@@ -1,5 +1,7 @@
 """One instant of a rolling pressure field in one compiled entry: predict, correct, certify, look
 outside the window, store.
+
+Source: Tire/Road Contact eqs 1 to 4.
 """
 
 from __future__ import annotations

@@ -1,4 +1,8 @@
-"""Start without a field before: the field on a grid of half as many cells each way as a start."""
+"""Start without a field before: the field on a grid of half as many cells each way as a start.
+
+Source: Tire/Road Contact eqs 1 to 4; nested iteration: Hackbusch, Multi-Grid Methods and
+Applications, 5.
+"""
 
 from __future__ import annotations
 

@@ -6,6 +6,8 @@ than its lowest gap plus the displacement that the pressure of each block inside
 largest distance between the two. Only cells of blocks where that bound fails are evaluated, from
 the influence table. A belt, which may lift the surface far from its load, displaces a row as a whole:
 that is evaluated for each row, and the bound is of the half-space alone.
+
+Source: Tire/Road Contact eqs 1 and 4.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Resultants of a pressure field on a grid: load, peak, mean, area and centre of pressure."""
+"""Resultants of a pressure field on a grid: load, peak, mean, area and centre of pressure.
+
+Source: Tire/Road Contact eq 2.
+"""
 
 from __future__ import annotations
 

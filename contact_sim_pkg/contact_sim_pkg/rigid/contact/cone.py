@@ -3,6 +3,8 @@
 Cone: ``|c_t| <= mu c_n``. Polyhedral cone: its base is the regular polygon with vertices at angles
 ``2 pi k / facets`` on the disc of radius ``mu c_n``. ``facets = 0`` stands for the disc; in the
 plane the second tangent is 0 and both are the same.
+
+Source: Identifiability eqs 5 to 7.
 """
 
 from __future__ import annotations

@@ -1,5 +1,7 @@
 """Projected Gauss-Seidel: sweep over the contacts, each normal impulse cut off at its floor, each
 friction impulse at the cone.
+
+Source: Jourdan, Alart and Jean, Comput. Methods Appl. Mech. Eng. 155 (1998) 31.
 """
 
 from __future__ import annotations

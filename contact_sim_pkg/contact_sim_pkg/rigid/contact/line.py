@@ -1,5 +1,7 @@
 """A force of a contact that is known but for a part along a line, which redundant contacts leave
 open: where it is in its cone.
+
+Source: Identifiability eq 5.
 """
 
 from __future__ import annotations

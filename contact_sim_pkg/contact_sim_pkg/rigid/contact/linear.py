@@ -1,4 +1,7 @@
-"""Linear systems that may be singular but have a solution: elimination with complete pivoting."""
+"""Linear systems that may be singular but have a solution: elimination with complete pivoting.
+
+Source: Golub and Van Loan, Matrix Computations, 3.4.
+"""
 
 from __future__ import annotations
 

@@ -10,6 +10,8 @@ mass at the point. Below ``slowest`` the speed counts as that, so that a resting
 State: [place and turn] [v, omega] (`rigid/body_state.py`) [spring deflection of each point]
 [impulse of each point, normal then tangents, in N s] [work dissipated or lent to friction springs,
 in J]. Mode: lambda of each point.
+
+Source: Driver and Seat eqs 7 to 9.
 """
 
 from __future__ import annotations

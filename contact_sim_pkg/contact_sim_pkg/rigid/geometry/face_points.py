@@ -3,6 +3,8 @@ small tensors in these axes.
 
 Axes (normal, tangents) of the contacts, which all have the same; arms r about the centre of mass,
 rho about their mean.
+
+Source: Identifiability eqs 10, 11, 41 and 42.
 """
 
 from __future__ import annotations

@@ -1,5 +1,7 @@
 """What both time-stepping schemes share: work space, free flight, displacement, the contact problem
 of the points that touch.
+
+Source: Identifiability eqs 3, 4 and 9.
 """
 
 from __future__ import annotations

@@ -6,6 +6,8 @@ Flight, and active points that a closed form solves (a face, an edge in the plan
 the sub-step. For everything else, an impact or a sub-step that needs the general solvers or holds
 an event, the call returns with a request; `rigid/motion/located.py` does that step and calls again.
 So the general solvers are compiled once, on their own.
+
+Source: Identifiability eqs 3, 4 and 8.
 """
 
 from __future__ import annotations

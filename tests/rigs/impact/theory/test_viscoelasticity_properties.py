@@ -64,6 +64,14 @@ def _(found, glassy_modulus, delayed_modulus, retardation_time):
     assert 1.0 / creep.complex_compliance(found, omega) == close(operator_form.modulus_at(same, omega), rel=1e-12)
 
 
+@holds(creep.standard_solid_at, storage_modulus=MODULUS, loss_tangent=positive(1e-3, 2.0), frequency=positive(1.0, 1e5),
+       instant_ratio=st.floats(1.001, 1e3), outside=({"instant_ratio": 1.0}, {"loss_tangent": 0.0}))  # fmt: skip
+def _(found, storage_modulus, loss_tangent, frequency, instant_ratio):
+    assert 1.0 / creep.complex_compliance(found, frequency) == close(
+        storage_modulus * (1.0 + 1j * loss_tangent), rel=1e-8
+    )
+
+
 CREEP = st.builds(
     lambda glassy, fluidity, parts: creep.Creep(glassy, fluidity, *zip(*parts, strict=True)),
     positive(1e-12, 1e-3), st.just(0.0) | positive(1e-12, 1e-3),

@@ -7,6 +7,8 @@ one, between the loss of force and the end of the overlap, is a parabola: the sa
 without pushing, and turns what it still stores into heat. A sphere that falls back before the
 overlap has ended is caught by the sample as soon as the law pushes again, ``A x + B x' > 0``. A
 sphere that comes to rest never parts: such a contact is followed in phases of bounded length.
+
+Source: Goloshchapov eqs 8, 9 and 54.
 """
 
 from __future__ import annotations

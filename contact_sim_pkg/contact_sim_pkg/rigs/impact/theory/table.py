@@ -4,6 +4,8 @@ series in ``sqrt(tan(beta))``.
 In that variable the results are smooth down to no loss: contact ends at ``u = sqrt(zeta k)``. Made
 at first use from 41 solutions. Largest error seen over both tables: 1.6e-14 in k, T_c and X_m,
 6.3e-12 in the peak force.
+
+Source: Goloshchapov eqs 54 and 61 to 71.
 """
 
 from __future__ import annotations

@@ -1,5 +1,7 @@
 """Impulses of the road's asperities over one block: the sites of the strip that came, and their
 resultant over the travel.
+
+Source: Tire/Road Contact eq 10.
 """
 
 from __future__ import annotations

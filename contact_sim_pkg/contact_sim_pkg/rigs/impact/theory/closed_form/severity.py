@@ -5,6 +5,8 @@ own, ``w = pi/tau``.
 ``force`` the right-hand side rises for all zeta (seen up to 1000), so every loss tangent has one
 solution. With ``gap`` it has a largest value, 0.40373 at zeta = 2.2354: above it there is none
 (`FoldError`), below it two, of which the smaller is taken: it begins at the elastic impact.
+
+Source: Goloshchapov eqs 54, 55 and 60.
 """
 
 from __future__ import annotations

@@ -4,6 +4,8 @@ most one cell at a time.
 A bristle with the label m stands `phase` cells behind the centre of row m, 0 <= phase <= 1: in the
 cell m as long as phase <= 1/2, then in the cell m - 1. Labels shift by whole cells, values are
 never mixed, so nothing is smeared on the way.
+
+Source: Pacejka, Tire and Vehicle Dynamics, 3.
 """
 
 from __future__ import annotations
