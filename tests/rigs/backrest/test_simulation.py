@@ -139,3 +139,19 @@ def test_the_map_of_a_moving_point_carries_its_force_and_the_point_lies_on_the_b
 def test_a_moving_point_is_refused_where_the_back_has_many_bumps():
     with pytest.raises(SceneError, match="several bumps"):
         resolved("seat_slap", *SEARCHED, "effects.backrest.shell_modes.modes=25")
+
+
+def test_the_shell_of_its_scene_slaps_at_one_point_and_its_ledger_closes():
+    """Twenty-one periods of 5.25 Hz in 4 s, of which the first ones settle."""
+    _scene, messages = run("seat_shell")
+    points = of(messages, "backrest/points", ContactPoints)
+    assert all(len(block.normal) <= 1 for block in points)
+    force = numpy.concatenate([block.normal for block in of(messages, "backrest/force", ContactForce)])
+    assert 0.1 < (force == 0.0).mean() < 0.4
+    assert force.min() >= 0.0
+    # The mean force is the preload; the exciting force has none over whole periods.
+    period = round(len(force) / (4.0 * 5.25))
+    assert force[-10 * period :].mean() == pytest.approx(20.0, rel=0.03)
+    ledgers = of(messages, "bench/energy", EnergyLedger)
+    moved = max(abs(each.supplied) + each.dissipated for each in ledgers)
+    assert max(abs(each.residual) for each in ledgers) < 1e-5 * moved

@@ -83,6 +83,21 @@ def test_impulses_carry_their_share_of_the_load_on_an_even_road():
     assert wrench.force.z == pytest.approx(forces(found)[30] + impulses[30])
 
 
+def test_the_mean_load_of_the_irregular_road_is_the_weight_with_its_asperities(tmp_path):
+    """The asperities carry a tenth of the weight beside the contact."""
+    from contact_sim_pkg.bag.reader import open_bag
+    from contact_sim_pkg.report.reading import read_recording
+    from contact_sim_pkg.rigs.vehicle.tire.report.metrics import tire_metrics
+    from contact_sim_pkg.run.offline import run_offline
+
+    run_offline(resolved("tire_irregular_road"), tmp_path / "bag")
+    recording = read_recording(open_bag(tmp_path / "bag"))
+    metrics = {each.key: each for each in tire_metrics(recording)}
+    assert metrics["tire.load"].value == pytest.approx(WEIGHT, rel=0.01)
+    assert metrics["tire.load"].verdict == "good"
+    assert recording.contacts["tire"].normal.mean() == pytest.approx(0.9 * WEIGHT, rel=0.02)
+
+
 def test_impulses_do_not_push_a_tire_that_is_off_the_road():
     found = messages_of(resolved("tire_bump", "duration=1.4", "road.height=0.1", "effects.tire.asperity_impulses={}"))
     normal, impulses = forces(found), forces(found, "impulses")
