@@ -170,7 +170,7 @@ def _figure(paper: Paper, figure: Figure, numbers: Sequence[Number]) -> str:
             f"{figure.note}".rstrip()
         ),
         _prose(
-            f"Made by {', '.join(_link(each) for each in figure.made_by)}. `bench paper {paper.key} --figure {figure.number}`"
+            f"Made by {', '.join(_link(each, short=True) for each in figure.made_by)}. `bench paper {paper.key} --figure {figure.number}`"
         ),
         _table(_HEAD, (_number(each) for each in numbers)),
     ]
