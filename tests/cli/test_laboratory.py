@@ -14,7 +14,7 @@ def alone(monkeypatch):
 
 @pytest.mark.parametrize(
     "arguments",
-    [["hard"], ["hard", "--accuracy"], ["goals"], ["growth"], ["validation"], ["accuracy", "tire"],
+    [["hard"], ["paper"], ["hard", "--accuracy"], ["goals"], ["growth"], ["validation"], ["accuracy", "tire"],
      ["accuracy", "tire_bump", "--parts"]],
 )  # fmt: skip
 def test_its_commands_name_what_to_install(alone, capsys, arguments):

@@ -18,6 +18,7 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("validation", "page"): ["--page", "FILE"],
     ("growth", "page"): ["--page", "FILE"],
     ("growth", "plot"): ["--plot", "FILE"],
+    ("paper", "output"): ["contact-area", "--figure", "5", "--output", "FILE"],
     ("report", "out"): ["BAG", "--out", "FILE"],
     ("export", "out"): ["BAG", "--csv", "--out", "FILE"],
     ("run", "out"): ["seat_ride", "--offline", "--out", "FILE"],

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import textwrap
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 from contact_sim_lab.papers.drawing import made_here, picture
-from contact_sim_lab.records.paper import JUDGED, Equation, Figure, Number, Paper, System
+from contact_sim_lab.records.paper import JUDGED, Equation, Erratum, Figure, Number, Paper, System
 from contact_sim_pkg.files import check_output, new_file
 
 __all__ = ["write_pages"]
@@ -86,13 +86,14 @@ def _write(path: Path, content: bytes, overwrite: bool) -> None:
 def page(paper: Paper, shown: Sequence[tuple[Figure, Sequence[Number]]]) -> str:
     """The page of a paper."""
     parts = [
-        f"# {paper.title}\n",
-        _prose(f"*{paper.short}*. Authors: {paper.authors}. Year: {paper.year}. Made by `{COMMAND}`."),
+        f"# {paper.short}\n",
+        _prose(f'"{paper.title}". Authors: {paper.authors}. Year: {paper.year}.'),
+        _prose(f"Page made by `{COMMAND}`."),
         _prose(paper.models),
         _prose("Contents: [systems](#systems), [figures](#figures), [equations](#equations), [errata](#errata)."),
-        "## Systems\n\n| system | equations | command |\n|---|---|---|",
-        *(_system(each) for each in paper.systems),
-        "\n## Figures\n",
+        "## Systems\n",
+        _table("| system | equations | command |\n|---|---|---|", (_system(each) for each in paper.systems)),
+        "## Figures\n",
         _prose(
             f"Drawn by `bench paper {paper.key} --figure N [--set KEY=VALUE] [--output PNG]`, which prints the same numbers. "
             "The expected values come from elsewhere than the bench; dangerous volumes, for which there is no other value, are "
@@ -108,13 +109,12 @@ def page(paper: Paper, shown: Sequence[tuple[Figure, Sequence[Number]]]) -> str:
         _prose(
             f"`bench paper {paper.key} --equation N [--set KEY=VALUE]` evaluates one; `bench paper {paper.key}` lists their keys."
         ),
-        "| eq | what | formula | lives in |\n|---|---|---|---|",
-        *(_equation(each) for each in paper.equations),
-        "\n## Errata\n\n| eq | printed | corrected | found by | reason, effect |\n|---|---|---|---|---|",
-        *(
-            f"| {each.equation} | {_cell(each.printed)} | {_cell(each.corrected)} | {each.found} | {_cell(each.effect)} |"
-            for each in paper.errata
+        _table("| eq | what | formula | lives in |\n|---|---|---|---|", (_equation(each) for each in paper.equations)),
+        "## Errata\n",
+        _prose(
+            "Equation, what is printed, what the bench uses, how the error was found, and its reason or effect on a number."
         ),
+        *(_erratum(each) for each in paper.errata),
     ]
     if paper.left_open:
         parts += ["\n## Left open\n", *(_item(each) for each in paper.left_open)]
@@ -132,23 +132,29 @@ def index(papers: Sequence[Paper], rows: Sequence[dict[str, Any]]) -> str:
             f"Made by `{COMMAND}`. {len(rows)} figures are drawn: {', '.join(f'{count} {kind}' for kind, count in kinds.items())}. "
             "`bench paper` lists them."
         ),
-        "| paper | models | systems | figures | equations | errata |\n|---|---|---|---|---|---|",
-        *(
-            f"| [{each.short}]({each.page}) | {_cell(each.models.split('. ')[0].rstrip('.'))} | {len(each.systems)} "
-            f"| {len(each.figures)} | {len(each.equations)} | {len(each.errata)} |"
-            for each in papers
+        *(_item(f"[{each.short}]({each.page}): {each.models}") for each in papers),
+        "",
+        _table(
+            "| paper | systems | figures | equations | errata |\n|---|---|---|---|---|",
+            (
+                f"| [{each.short}]({each.page}) | {len(each.systems)} | {len(each.figures)} | {len(each.equations)} "
+                f"| {len(each.errata)} |"
+                for each in papers
+            ),
         ),
-        "\n## Figures\n\n| figure | what | verdict | inside | outside | not reached | no reference |",
-        "|---|---|---|---|---|---|---|",
-        *(
-            f"| [{paper.short} {row['figure']}]({paper.page}#figure-{row['figure']}) | {_cell(row['what'])} | {row['verdict']} | "
-            f"{row['inside']} | {row['outside']} | {row['not reached']} | {row['no reference']} |"
-            for paper in papers
-            for row in rows
-            if row["paper"] == paper.key
+        "## Figures\n",
+        _table(
+            "| figure | what | verdict | inside | outside | not reached | no reference |\n|---|---|---|---|---|---|---|",
+            (
+                f"| [{paper.short} {row['figure']}]({paper.page}#figure-{row['figure']}) | {_cell(row['what'])} "
+                f"| {row['verdict']} | {row['inside']} | {row['outside']} | {row['not reached']} | {row['no reference']} |"
+                for paper in papers
+                for row in rows
+                if row["paper"] == paper.key
+            ),
         ),
     ]
-    return "\n".join(parts) + "\n"
+    return "\n".join(parts).rstrip() + "\n"
 
 
 def _system(system: System) -> str:
@@ -158,17 +164,17 @@ def _system(system: System) -> str:
 def _figure(paper: Paper, figure: Figure, numbers: Sequence[Number]) -> str:
     lines = [
         f"### Figure {figure.number}\n",
-        f"![{figure.title[0].upper()}{figure.title[1:]}]({picture_name(paper, figure)})\n",
+        f"![Figure {figure.number}]({picture_name(paper, figure)})\n",
         _prose(
             f"*{figure.title[0].upper()}{figure.title[1:]}.* {figure.kind[0].upper()}{figure.kind[1:]}: {figure.judged_by}. "
             f"{figure.note}".rstrip()
         ),
         _prose(
-            f"Made by {', '.join(_link(each) for each in figure.made_by)}. `bench paper {paper.key} --figure {figure.number}`"
+            f"Made by {', '.join(_link(each, short=True) for each in figure.made_by)}. `bench paper {paper.key} --figure {figure.number}`"
         ),
-        _HEAD,
+        _table(_HEAD, (_number(each) for each in numbers)),
     ]
-    return "\n".join([*lines, *(_number(each) for each in numbers), ""])
+    return "\n".join(lines)
 
 
 def _number(number: Number) -> str:
@@ -188,13 +194,30 @@ def _equation(equation: Equation) -> str:
     )
 
 
-def _link(place: str) -> str:
+def _link(place: str, *, short: bool = False) -> str:
     """A scene as text, a ``module:name`` as a link to its file."""
     if place.startswith("scene "):
         return f"scene `{place.removeprefix('scene ')}`"
     module, _, name = place.partition(":")
     path = module.replace(".", "/")
-    return f"[`{module.rpartition('.')[2]}.{name}`]({SOURCES}/{module.partition('.')[0]}/{path}.py)"
+    shown = name if short else f"{module.rpartition('.')[2]}.{name}"
+    return f"[`{shown}`]({SOURCES}/{module.partition('.')[0]}/{path}.py)"
+
+
+def _erratum(erratum: Erratum) -> str:
+    printed, corrected, effect = (_plain(text) for text in (erratum.printed, erratum.corrected, erratum.effect))
+    return _item(f"{erratum.equation}: *printed* {printed}; *corrected* {corrected}. By {erratum.found}: {effect}.")
+
+
+def _table(head: str, rows: Iterable[str]) -> str:
+    """A table that a command makes, marked as such."""
+    return "\n".join(
+        [f"<!-- tables made from {COMMAND}: begin -->\n", head, *rows, f"\n<!-- tables made from {COMMAND}: end -->\n"]
+    )
+
+
+def _plain(text: str) -> str:
+    return text.replace("*", "\\*").replace("_", "\\_").replace("<", "&lt;")
 
 
 def _cell(text: str) -> str:

@@ -11,7 +11,7 @@ ERRATA: tuple[Erratum, ...] = (
         "1",
         "r² = 2Rx - x² for two spheres",
         "exact for sphere on plane; two spheres: r² = R1² - d1², d1=(D²+R1²-R2²)/(2D), D=R1+R2-x",
-        "number",
+        "a number",
         (
             "series: second-order coefficient is -(R1²-R1R2+R2²)/(R1+R2)², i.e. -1 for a plane but -1/4 for equal "
             "spheres"
@@ -26,19 +26,21 @@ ERRATA: tuple[Erratum, ...] = (
     ),
     Erratum("3", "(R2² - (x2+h_x))²", "(R2 - (x2+h_x))²", "units", "dimension"),
     Erratum("19", "1/κ1'", "1/K1'", "reading", "symbol"),
-    Erratum("26 (numbers)", "α_h = 0.04186, h_x = 0.952 x1", "0.04180, 0.979 x1", "number", "sqrt(1-0.0418) = 0.97888"),
+    Erratum(
+        "26 (numbers)", "α_h = 0.04186, h_x = 0.952 x1", "0.04180, 0.979 x1", "a number", "sqrt(1-0.0418) = 0.97888"
+    ),
     Erratum(
         "27 with 29",
         "k_c ≈ k_p at D1 = 0.8",
         "allowed, as k_c = k_p",
-        "number",
+        "a number",
         "eq 29 gives k_c = 1.120 k_p there: α_h = 0.03732, h_x = 0.9812 x1",
     ),
     Erratum(
         "after 40",
         '"Variant 1", α_h = 0.03739 ≈ 0.047',
         "variant 2, 0.0374; h_x = 0.9626 x1 is right",
-        "number",
+        "a number",
         "see the figures",
     ),
     Erratum("34", "E1' missing in the last term, R1 for R", "as in eq 35", "units", "units"),
@@ -55,7 +57,7 @@ ERRATA: tuple[Erratum, ...] = (
         "56",
         "B_x = (16/5)…",
         "B_x = 2.4408 k_pE''√(R x_m)/ω_x",
-        "number",
+        "a number",
         (
             "equal viscous work along the damped-sine velocity: 4·∫√s√(1-s²)ds/∫√(1-s²)ds; 16/5 supposes ẋ ∝ x, "
             "i.e. zero speed at first touch. Printed is 31 % high"
@@ -84,14 +86,14 @@ ERRATA: tuple[Erratum, ...] = (
         "66 (text)",
         "zero restitution at tanβ = π/2",
         "at tanβ = π/3 = 1.0472; valid range 0 ≤ tanβ < π/3",
-        "limit",
+        "a limit",
         "numerator π - 3tanβ",
     ),
     Erratum(
         "71",
         "(5m/8…)^{4/5}",
         "(15m/16…)^{4/5}",
-        "number",
+        "a number",
         (
             "eqs 65, 67, 69, 70 combined give 2(15/16)^{4/5} = 1.899, printed 2(5/8)^{4/5} = 1.373; τ printed is "
             "15 % short of the paper's own system"
@@ -109,14 +111,14 @@ ERRATA: tuple[Erratum, ...] = (
         "76, 89",
         "singular at t = 0",
         "the stress is limited at x_s and flagged; the total force stays zero because the area vanishes faster",
-        "limit",
+        "a limit",
         "F_b ∝ √x",
     ),
     Erratum(
         "82-85",
         "σ_c = 1.5 σ_m for a parabola",
         "2 σ_m",
-        "number",
+        "a number",
         (
             "line average used instead of area average: the printed stress carries only 75 % of the force; 1.5 "
             "belongs to sqrt(1-ρ²)."
@@ -136,7 +138,7 @@ ERRATA: tuple[Erratum, ...] = (
         "103",
         "root of squares at every instant",
         "sum σ_cn+σ_bn is the instantaneous stress; the root is the amplitude in steady harmonic motion",
-        "limit",
+        "a limit",
         "eq 54 adds the forces",
     ),
     Erratum("103 (text)", "σ_bn = σ'", "σ_cn = σ'", "derivation", "the second σ_bn = σ'' is right"),
@@ -144,13 +146,13 @@ ERRATA: tuple[Erratum, ...] = (
         "104, 105",
         "5.03",
         "5.3033 = (15/16)2^{5/2}",
-        "number",
+        "a number",
         (
             "eqs 62, 63, 67. Against the exact elastic impact the method overestimates E' by 2.15 because eq 62 "
             "is poor: the exact constant at k = 1 is 13.93/(τ^{5/2}…) instead of 30.0. The bench has all three"
         ),
     ),
-    Erratum("107", "2.3, gas constant named twice", "ln 10, R_g", "number", "0.11 %"),
+    Erratum("107", "2.3, gas constant named twice", "ln 10, R_g", "a number", "0.11 %"),
     Erratum("108, 112, 113", "ε(t'), dF(t)/dt'", "ε(t), dF(t')/dt'", "derivation", "integration variable"),
     Erratum(
         "112", "3(1-ν)/4 with J = 1/G + …", "3(1-ν)/8 with that J", "derivation", "at t = 0+ eq 112 gives twice eq 110"

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy
+from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from contact_sim_lab.records.paper import SHAPE_ONLY, Drawn, Figure, Number, Parameter, Values
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Canvas
 
 __all__ = ["FIGURES"]
+
+Array = NDArray[numpy.float64]
 
 ORIGIN = "scipy (DOP853, 1e-13) of eq 54 at its own frequency"
 INSIDE = 1e-5
@@ -35,16 +38,16 @@ PARAMETERS = (
 def _solved(values: Values) -> tuple[FreeImpact, ImpactCourse]:
     sphere = Sphere(values["mass"], values["radius"])
     impact = solve_impact(sphere, Material(values["storage_modulus"], values["loss_tangent"]), values["speed"])
-    return impact, course(impact, numpy.linspace(0.0, impact.duration, 401))
+    return impact, course(impact, numpy.linspace(0.0, impact.duration, 401, dtype=numpy.float64))
 
 
-def _forces_of_twin(values: Values, frequency: float, times: numpy.ndarray) -> numpy.ndarray:
+def _forces_of_twin(values: Values, frequency: float, times: Array) -> Array:
     """F_c and F_b [2, times] [N] of eqs 8 and 9 on scipy's motion."""
     shape = math.sqrt(2.0) * math.sqrt(values["radius"])
     elastic = 4.0 / 3.0 * shape * values["storage_modulus"]
     viscous = 4.0 * shape * values["storage_modulus"] * values["loss_tangent"] / frequency
 
-    def rates(time: float, state: numpy.ndarray) -> list[float]:
+    def rates(time: float, state: Array) -> list[float]:
         root = math.sqrt(max(state[0], 0.0))
         return [state[1], -root * (elastic * state[0] + viscous * state[1]) / values["mass"]]
 

@@ -197,8 +197,8 @@ def _figure_6(values: Values) -> Drawn:
 def _share(approach: Array, force: Array) -> Array:
     """S/S_ref [samples] of the domain: the ellipse of the paraboloid at the approach, over that at rest."""
     half = [[math.sqrt(2.0 * radius * max(float(x), 1e-12)) for radius in RADII] for x in approach]
-    reference = lame_area(*(math.sqrt(2.0 * radius * REST) for radius in RADII), 2.0)
-    area = numpy.array([lame_area(a, b, 2.0) for a, b in half]) / reference
+    rest = [math.sqrt(2.0 * radius * REST) for radius in RADII]
+    area = numpy.array([lame_area(a, b, 2.0) for a, b in half]) / lame_area(rest[0], rest[1], 2.0)
     return numpy.where(force > 0.0, area, 0.0)
 
 

@@ -92,11 +92,13 @@ def _lcp(m11: float, m12: float, m21: float, m22: float, q1: float, q2: float) -
     work = make_lemke_workspace(2)
     work.M[:2, :2], work.q[:2] = [[m11, m12], [m21, m22]], [q1, q2]
     status = lemke(work, 2)
-    return work.z[:2].copy(), int(status), float(complementarity_residual(work, 2))
+    return work.z[:2].copy(), int(status), float(complementarity_residual(work, 2))  # type: ignore[no-untyped-call]
 
 
 def _gyroscopic(inertia: Array, body_spin: Array, step: float) -> tuple[Array, Array]:
-    return numpy.array(gyroscopic_rate(inertia, *body_spin)), numpy.array(gyroscopic_step(*inertia, *body_spin, step))
+    values = [float(each) for each in (*inertia, *body_spin, step)]
+    rate, after = gyroscopic_rate(inertia, *values[3:6]), gyroscopic_step(*values)  # type: ignore[no-untyped-call]
+    return numpy.array(rate), numpy.array(after)
 
 
 def _two_point(side: float, angle: float, before: Array, after: Array) -> tuple[float, float, float, float]:

@@ -53,7 +53,7 @@ ERRATA: tuple[Erratum, ...] = (
         "23, 26, 38, 39",
         "lower block without the gyroscopic change of ω",
         "add hΠ(ω×Π⁻¹ω) on the left",
-        "limit",
+        "a limit",
         "eq 18 contains it; zero only in the plane",
     ),
     Erratum("30", "J̌n without transpose", "J̌nᵀ", "derivation", "no number changes"),
@@ -71,7 +71,9 @@ ERRATA: tuple[Erratum, ...] = (
     ),
     Erratum("35, 36, 38, 39", "RᵀmI0⁻¹R", "R mI0⁻¹Rᵀ", "derivation", "eq 19 (R body to world)"),
     Erratum("38", "J (6 entries) with a 3x3 matrix", "J̌", "units", "size"),
-    Erratum("38", "1/Δ", "1/(m²Δ)", "number", "its products are m times those in Δ; checked: error 0 against order 1"),
+    Erratum(
+        "38", "1/Δ", "1/(m²Δ)", "a number", "its products are m times those in Δ; checked: error 0 against order 1"
+    ),
     Erratum(
         "39",
         "h RᵀmI0⁻¹R τ",
@@ -83,7 +85,7 @@ ERRATA: tuple[Erratum, ...] = (
         "29",
         "as it stands",
         "correct after ξ3 → -ξ3 and h → -h in the right sides, (1+ε) in ξ3, and Ξ̌ with the gyroscopic term",
-        "number",
+        "a number",
         "numerator of eq 17 changes sign as a whole; residual 1e-16, with ξ3 alone 1e-4",
     ),
     Erratum("42", "sign from x and θ", "opposite to the slip velocity J_tᵀv⁺", "derivation", "maximum dissipation"),

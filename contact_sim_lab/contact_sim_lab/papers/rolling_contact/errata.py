@@ -11,7 +11,7 @@ ERRATA: tuple[Erratum, ...] = (
         "2, 3, 4, 7",
         "∭T:E dV + ∬F·u dS = 0",
         "minus sign",
-        "limit",
+        "a limit",
         "both terms are positive; a sum of positives has no root",
     ),
     Erratum(
@@ -40,7 +40,9 @@ ERRATA: tuple[Erratum, ...] = (
         ),
     ),
     Erratum("8", "roman i", "inertia about the spin axis", "derivation", "looks like √-1"),
-    Erratum("8, 18", "no damping", "c_ψ, c_θ, ζ", "limit", "unbounded at resonance and always unstable with friction"),
+    Erratum(
+        "8, 18", "no damping", "c_ψ, c_θ, ζ", "a limit", "unbounded at resonance and always unstable with friction"
+    ),
     Erratum("10", "e²(Ω) = e(Ω(…))", "e² = polynomial", "derivation", "no number changes"),
     Erratum(
         "12",
@@ -96,7 +98,7 @@ ERRATA: tuple[Erratum, ...] = (
         "sect. 2 has R21 = 5 mm as the shaft radius, which curves along y",
     ),
     Erratum("24", "ω_ij for damage", "another letter", "derivation", "ω is the spin"),
-    Erratum("22", "σ_ij - σ_lim > 0", "|σ_ij|", "limit", "σ_zz is negative everywhere, the volume would be empty"),
+    Erratum("22", "σ_ij - σ_lim > 0", "|σ_ij|", "a limit", "σ_zz is negative everywhere, the volume would be empty"),
     Erratum(
         "sect. 5",
         "max σ_zz = p0 = -1.4e8; max|σ_xz| = -2e7",
@@ -108,7 +110,7 @@ ERRATA: tuple[Erratum, ...] = (
         "sect. 5",
         "|σ_xz| max 0.3 p0 at 0.27a",
         "0.19-0.25 p0",
-        "number",
+        "a number",
         (
             "orthogonal shear: circle 0.2139 p0 at z = 0.351a; b/a = 0.65: 0.230 p0 at 0.265a (minor-axis plane), "
             "0.190 p0 at 0.287a (major-axis plane); line limit 0.25 p0. 0.30-0.31 p0 is the maximum principal "

@@ -99,7 +99,8 @@ def _compute(time: float, values: Values) -> Drawn:
 
 
 def _planes(a: float) -> list[tuple[str, str, Points, Points, Callable[[Points, Points], Points]]]:
-    side, down = numpy.linspace(-2.0, 2.0, CELLS) * a, numpy.linspace(1e-3, 2.0, CELLS) * a
+    side: Points = numpy.linspace(-2.0, 2.0, CELLS, dtype=float) * a
+    down: Points = numpy.linspace(1e-3, 2.0, CELLS, dtype=float) * a
     return [
         ("z = 0.3 a", "y, mm", side, side, lambda u, v: numpy.stack([u, v, numpy.full_like(u, 0.3 * a)], axis=1)),
         ("y = 0", "z, mm", side, down, lambda u, v: numpy.stack([u, numpy.zeros_like(u), v], axis=1)),

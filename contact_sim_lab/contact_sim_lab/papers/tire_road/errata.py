@@ -38,7 +38,7 @@ ERRATA: tuple[Erratum, ...] = (
         "7",
         "Ē(arcsin(1-r), r k̄)^{-2/3} as the shape, r undefined (only r = ρ makes sense)",
         "sqrt(1-ρ²) for n = 2",
-        "number",
+        "a number",
         (
             "the printed shape grows like (1-r)^{-2/3} at the edge instead of vanishing and, with the right "
             "amplitude, carries 9.05 times the load (circle)"
@@ -48,14 +48,14 @@ ERRATA: tuple[Erratum, ...] = (
         "7",
         "k̄ = (n r̃ⁿ - 2bⁿ)^{1/n}/a, r̃ undefined",
         "r̃ⁿ = (aⁿ+bⁿ)/n, hence k̄ = (1-(b/a)ⁿ)^{1/n} for all n",
-        "limit",
+        "a limit",
         ("with r̃ⁿ=(aⁿ+bⁿ)/2 a square-symmetric domain (a=b) gives k̄ⁿ = n-2: imaginary for n < 2, above 1 for n > 3"),
     ),
     Erratum(
         "9",
         "E is Young's modulus",
         "E → shear modulus G (then it is exactly Hertz) or (3/2)²(1-ν²)²P²H/(π²E²)",
-        "number",
+        "a number",
         "as printed with Young's modulus δ is low by (2(1+ν))^{-2/3}: 0.481 at ν = 0.5, 0.529 at 0.3",
     ),
     Erratum("9", "δ a function of position", "it is the approach Δ, one number", "derivation", "no number changes"),
@@ -63,7 +63,7 @@ ERRATA: tuple[Erratum, ...] = (
         "10",
         'n = int(L/Δx) although n is the summation index, m "simultaneous contacts" as upper limit',
         "N = int(L/Δx) as limit; simultaneous ones are those inside Π",
-        "limit",
+        "a limit",
         "no number changes",
     ),
     Erratum("10", "δ again", "Dirac, unit 1/m: F_c is a line density", "derivation", "no number changes"),

@@ -68,7 +68,8 @@ class Solved(NamedTuple):
 
 
 def _centres(count: int, side: float) -> Field:
-    return (numpy.arange(count) + 0.5) * (side / count) - 0.5 * side
+    places: Field = (numpy.arange(count, dtype=numpy.float64) + 0.5) * (side / count) - 0.5 * side
+    return places
 
 
 def _solve(road: Road, load: float, grid: tuple[int, int, float, float]) -> Solved:
@@ -104,7 +105,8 @@ def _conditions(found: Solved) -> list[Number]:
     scale = float(abs(found.approach)) or 1.0
     area = found.cells[0] * found.cells[1]
     return [
-        Number("load, ∬ p", "N", float(found.pressure.sum() * area), found.load, 1e-6, "eq 2: the load asked for", relative=True),
+        Number("load, ∬ p", "N", float(found.pressure.sum() * area), found.load, 1e-6, "eq 2: the prescribed load",
+               relative=True),
         Number("smallest p", "Pa", float(found.pressure.min()), 0.0, 0.0, "eq 3: p ≥ 0"),
         Number("largest |clearance| in the contact over Δ", "", float(abs(clearance[pressed]).max()) / scale, 0.0, 1e-6, "eq 3"),
         Number("cells outside the contact with a clearance below zero", "",
@@ -144,7 +146,7 @@ def _reference_numbers(flat: Solved) -> list[Number]:
 
 def _pressure_numbers(road: Road, found: Solved, flat: Solved) -> list[Number]:
     small, level = (_solve(each, found.load, SMALL) for each in (road, FlatRoad()))
-    matrix = dense_influence(*small.pressure.shape, *small.cells, MODULUS)
+    matrix = dense_influence(*SMALL[:2], *small.cells, MODULUS)
     dense = pressure_at_approach(matrix, small.gap, small.approach)
     dense_level = pressure_at_approach(matrix, level.gap, level.approach)
     error = float(abs(small.pressure - dense).max() / dense_level.max())

@@ -1,0 +1,77 @@
+"""Figures that need no long run: every number inside its tolerance; the whole set is `bench paper --all`."""
+
+import json
+
+import pytest
+
+from contact_sim_lab.pages.paper_pages import write_pages
+from contact_sim_lab.papers.registry import figure_of, paper_of
+from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.files import FileRefusedError
+
+QUICK = [("contact-area", "4"), ("contact-area", "5"), ("rolling-contact", "9"), ("tire-road", "2")]
+
+
+@pytest.mark.parametrize(("key", "number"), QUICK)
+def test_a_figure_is_inside(key, number):
+    figure = figure_of(paper_of(key), number)
+    numbers = figure.compute({each.name: each.default for each in figure.parameters}).numbers
+    assert {each.what for each in numbers if each.verdict == "OUTSIDE"} == set()
+    assert any(each.verdict == "inside" for each in numbers)
+    assert all(each.origin for each in numbers if each.expected is not None)
+
+
+def test_a_figure_follows_its_values():
+    """Twice the speed: depth scales with V0^0.8, contact time with V0^-0.2."""
+    figure = figure_of(paper_of("contact-area"), "4")
+    values = {each.name: each.default for each in figure.parameters}
+    one, two = (
+        {each.what: each.obtained for each in figure.compute({**values, "speed": speed}).numbers}
+        for speed in (1.0, 2.0)
+    )
+    assert two["depth x_m"] / one["depth x_m"] == pytest.approx(2.0**0.8, rel=1e-9)
+    assert two["contact time"] / one["contact time"] == pytest.approx(2.0**-0.2, rel=1e-9)
+
+
+def test_pages_are_made_again_and_nothing_else_is(tmp_path):
+    paper = paper_of("contact-area")
+    rows = write_pages([paper], tmp_path)
+    assert {row["verdict"] for row in rows} == {"judged, inside", "shape only"}
+    first = (tmp_path / "contact-area.md").read_bytes()
+    assert write_pages([paper], tmp_path)
+    assert (tmp_path / "contact-area.md").read_bytes() == first
+    (tmp_path / "contact-area_4.png").write_bytes(b"a week's work")
+    with pytest.raises(FileRefusedError, match="exists already"):
+        write_pages([paper], tmp_path)
+
+
+def test_the_command_draws_and_prints(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["paper", "contact-area", "--figure", "5", "--set", "speed=1", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["values"]["speed"] == 1.0
+    assert {"quantity", "expected", "obtained", "difference", "verdict", "origin"} <= set(found["numbers"][0])
+    assert (tmp_path / found["output"]).read_bytes().startswith(b"\x89PNG")
+    assert main(["paper", "contact-area", "--equation", "115", "--set", "loss_tangent=0.5", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["results"]["time"] == pytest.approx(0.5 / 1750.0)
+    assert main(["paper"]) == main(["paper", "tire-road"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["contact_area"], "did you mean 'contact-area'"),
+        (["contact-area", "--figure", "1"], "'1': unknown"),
+        (["contact-area", "--equation", "115", "--set", "loss=1"], "--set 'loss': unknown"),
+        (["contact-area", "--equation", "115", "--set", "loss_tangent=-1"], "loss_tangent -1.0: "),
+        (["contact-area", "--figure", "4", "--equation", "5"], "do not go together"),
+        (["--figure", "4"], "needs a PAPER"),
+        (["contact-area", "--set", "a=1"], "--set needs"),
+        (["contact-area", "--system", "nothing"], "'nothing': unknown"),
+    ],
+)
+def test_what_is_wrong_is_refused(arguments, said, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["paper", *arguments]) == 2
+    assert said in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
