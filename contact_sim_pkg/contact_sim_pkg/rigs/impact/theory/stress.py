@@ -8,7 +8,7 @@ instead of an area): it carries 3/4 of the force.
 
 The viscous stress ``F_b/(pi r^2) ~ x'/sqrt(x)`` grows without bound towards first touch, while its
 force goes to 0. It is evaluated at a depth not below x_s, where the wave front has come down to the
-shear wave speed (`rigs/impact/theory/closed_form/micro_front.py`), and flagged above that.
+shear wave speed (`rigs/impact/theory/micro_front.py`), and flagged above that.
 """
 
 from __future__ import annotations
