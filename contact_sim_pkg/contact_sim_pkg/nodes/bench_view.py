@@ -18,6 +18,7 @@ from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.parameters import declare
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.nodes.protocol.endpoints import message_type, profile_of, viewing_subscription
+from contact_sim_pkg.nodes.protocol.pacing import RateLimit
 from contact_sim_pkg.nodes.protocol.states import DONE, NodeError
 from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.standard.convert import Converter, record_type
@@ -49,7 +50,7 @@ class BenchViewNode(LifecycleBenchNode):
         self._without: set[str] = set()  # standard topics whose type is not installed
         self._read: set[str] = set()  # standard topics with a reader
         self._sources: dict[str, Subscription] = {}
-        self._due: dict[str, float] = {}
+        self._limit = RateLimit(self._rate, 0.5 * self.gather)
         self._converter = Converter(())
         self._changed = self._knows_scene = False
         self._looked = float("-inf")
@@ -122,7 +123,7 @@ class BenchViewNode(LifecycleBenchNode):
 
     def _on_message(self, source: str, data: bytes) -> None:
         """Show one message, unless one of its topic was shown a moment ago."""
-        if not self.active or not self._is_due(source, time.monotonic()):
+        if not self.active or not self._limit.passes(source, time.monotonic()):
             return
         wanted = [
             name for name in self._read
@@ -131,15 +132,6 @@ class BenchViewNode(LifecycleBenchNode):
         record = decode(record_type(source), data)
         for shown in self._converter.convert(source, stamp_of(data), record, wanted):
             self._offered[shown.topic].publish(encoded(shown.message))
-
-    def _is_due(self, source: str, now: float) -> bool:
-        """Whether 1/rate [s] have passed, on average: what came a little early is no message less."""
-        period = 1.0 / self._rate
-        due = self._due.get(source, now)
-        if now < due - 0.5 * self.gather:
-            return False
-        self._due[source] = max(due, now - period) + period
-        return True
 
     def stop(self) -> None:
         """End at once."""

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from contact_sim_pkg.nodes.protocol.pacing import Lateness, Pacer, parse_pace
+from contact_sim_pkg.nodes.protocol.pacing import Lateness, Pacer, RateLimit, parse_pace
 
 
 @pytest.mark.parametrize(("text", "factor"), [("realtime", 1.0), ("max", math.inf), ("2.5", 2.5), (0.5, 0.5)])
@@ -93,3 +93,28 @@ def test_without_a_pace_nothing_is_late():
     lateness = Lateness(pacer)
     assert all(not lateness.block_done(block, 1e6, 0.1) for block in range(50))
     assert lateness.late == 0
+
+
+def passed(rate, times, early=0.0):
+    limit = RateLimit(rate, early)
+    return [time for time in times if limit.passes("tire/patch", time)]
+
+
+@pytest.mark.parametrize(("rate", "count"), [(20.0, 200), (100.0, 1000), (3.0, 30)])
+def test_of_a_hundred_messages_a_second_the_rate_passes_on_average(rate, count):
+    assert len(passed(rate, [0.01 * number for number in range(1000)], early=0.002)) == pytest.approx(count, abs=1)
+
+
+def test_a_batch_that_comes_a_little_early_is_none_less():
+    batches = [0.05 * number - 0.01 * (number % 2) for number in range(200)]  # every second one 10 ms early
+    assert len(passed(20.0, batches, early=0.025)) == 200
+
+
+def test_a_gap_is_not_made_up_for_by_a_burst():
+    times = [*(0.01 * number for number in range(100)), *(30.0 + 0.001 * number for number in range(100))]
+    assert len([time for time in passed(20.0, times) if time >= 30.0]) <= 3  # 0.1 s at 20 Hz, and one
+
+
+def test_each_topic_has_a_rate_of_its_own():
+    limit = RateLimit(20.0, 0.0)
+    assert [limit.passes(topic, 1.0) for topic in ("a", "b", "a")] == [True, True, False]

@@ -90,3 +90,20 @@ class Lateness:
         slow = behind - self._delays[0] > interval
         state = f"slower than its pace: {factor:.2g}x real time" if slow else "held with a constant delay"
         return f"{state}, {behind:.3g} s behind after block {block} ({self.late} blocks late)"
+
+
+class RateLimit:
+    """Lets at most so many messages of each topic a second pass; on average, so what comes a little early is none less."""
+
+    def __init__(self, rate: float, early: float) -> None:
+        """`rate` in [Hz]; `early` is how long before it is due a message may pass, [s]."""
+        self._period, self._early = 1.0 / rate, early
+        self._due: dict[str, float] = {}
+
+    def passes(self, topic: str, now: float) -> bool:
+        """Whether a message that comes at `now` of the steady clock, [s], is shown."""
+        due = self._due.get(topic, now)
+        if now < due - self._early:
+            return False
+        self._due[topic] = max(due, now - self._period) + self._period  # behind a gap, one period is made up for
+        return True
