@@ -162,6 +162,7 @@ def _system(system: System) -> str:
 
 
 def _figure(paper: Paper, figure: Figure, numbers: Sequence[Number]) -> str:
+    made_by = ", ".join(_link(each, short=True) for each in figure.made_by)
     lines = [
         f"### Figure {figure.number}\n",
         f"![Figure {figure.number}]({picture_name(paper, figure)})\n",
@@ -169,9 +170,7 @@ def _figure(paper: Paper, figure: Figure, numbers: Sequence[Number]) -> str:
             f"*{figure.title[0].upper()}{figure.title[1:]}.* {figure.kind[0].upper()}{figure.kind[1:]}: {figure.judged_by}. "
             f"{figure.note}".rstrip()
         ),
-        _prose(
-            f"Made by {', '.join(_link(each, short=True) for each in figure.made_by)}. `bench paper {paper.key} --figure {figure.number}`"
-        ),
+        _prose(f"Made by {made_by}. `bench paper {paper.key} --figure {figure.number}`"),
         _table(_HEAD, (_number(each) for each in numbers)),
     ]
     return "\n".join(lines)

@@ -203,7 +203,10 @@ ROW = numpy.linspace(-0.1, 0.1, 5)
             (lambda row=row: sitter.pan_gap(sitter.PERCENTILES[50], row, ROW), "x")
             for row in (ROW[:0], ROW[:1], -ROW, 1e3 * ROW)
         ),
-        *((lambda mass=mass: sitter.pan_weight(sitter.Sitter(mass, 1.0, 1.0)), "mass") for mass in (math.nan, -1.0)),
+        *(
+            (lambda mass=mass: sitter.pan_gap(sitter.Sitter(mass, 1.0, 1.0), ROW, ROW), "mass")
+            for mass in (math.nan, -1.0)
+        ),
         (lambda: sitter.back_gap(sitter.PERCENTILES[50], sitter.LumbarSupport(math.nan), ROW, ROW), "depth"),
         (lambda: bonded_layer.layer_influence(ROW, 0.1, math.nan), "modulus"),
         *(

@@ -30,9 +30,8 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.guards import require, require_fields, require_values
-from contact_sim_pkg.records.constants import GRAVITY
 
-__all__ = ["PERCENTILES", "LumbarSupport", "Sitter", "back_gap", "pan_gap", "pan_weight"]
+__all__ = ["PERCENTILES", "LumbarSupport", "Sitter", "back_gap", "pan_gap"]
 
 Field = NDArray[numpy.float64]
 BLEND = 0.004  # [m] width of the smooth minimum
@@ -53,9 +52,6 @@ class Sitter(NamedTuple):
 PERCENTILES = {5: Sitter(50.0, 0.86, 0.89), 50: Sitter(78.0, 1.0, 1.0), 95: Sitter(102.0, 1.14, 1.11)}
 """Percentile -> person: 5 a woman, 50 and 95 men."""
 
-PAN_SHARE = 0.73
-"""Of the body's weight that the pan carries: 70 to 75 % with the feet on the floor."""
-
 
 class LumbarSupport(NamedTuple):
     """Bulge of the seat back under the lumbar spine, as wide as the back."""
@@ -63,12 +59,6 @@ class LumbarSupport(NamedTuple):
     depth: float = 0.0  # [m] in its middle; 0: none
     height: float = 0.20  # [m] of its middle over the lower edge
     length: float = 0.06  # [m] of its standard deviation up the back
-
-
-def pan_weight(sitter: Sitter) -> float:
-    """Load [N] of the pan. Raises ValueError where a size is not above 0."""
-    _require_sitter(sitter)
-    return PAN_SHARE * sitter.mass * GRAVITY
 
 
 def pan_gap(sitter: Sitter, x: Field, y: Field, tilt: float = 0.0) -> Field:

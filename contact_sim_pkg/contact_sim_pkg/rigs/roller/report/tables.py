@@ -59,23 +59,6 @@ def _tables(volumes: list[RollerVolumes], what: str, of: Callable[[RollerVolumes
     ]
 
 
-def volume_facts(each: RollerVolumes) -> dict[str, Any]:
-    """Volumes [m³] and shares of an instant by component, for JSON."""
-    facts: dict[str, Any] = {
-        "time_s": each.time, "load_N": each.load, "working_volume_m3": each.working_volume,
-        "any_m3": float(each.volume[-1]), "share": float(each.volume[-1]) / each.working_volume,
-        "volume_m3": _named(each.volume),
-    }  # fmt: skip
-    if len(each.with_bending):
-        facts["with_bending_m3"] = _named(each.with_bending)
-        facts["share_with_bending"] = float(each.with_bending[-1]) / each.working_volume
-    return facts
-
-
-def _named(values: Any) -> dict[str, float]:
-    return {name: float(value) for name, value in zip(COMPONENTS, values, strict=True)}
-
-
 def _critical_load(each: RollerStability) -> str:
     return "any" if each.critical_load < ANY_LOAD * each.load else _or_none(each.critical_load)
 
