@@ -41,6 +41,8 @@ def test_waves_below_two_cells_are_left_out_with_a_note():
     assert "below 0.008 m (two cells) are left out" in road.describe()["notes"][0]
     with pytest.raises(ExcitationError, match="has no wave"):
         SelfAffineRoad(0.8, 5e-4, 0.2, 0.005, 1, lattice_cell=0.2)
+    with pytest.raises(ExcitationError, match=r"no wave between 0\.82 and 0\.83 m; take a wider range"):
+        SelfAffineRoad(0.8, 5e-4, 0.83, 0.82, 1)
     with pytest.raises(ExcitationError, match=r"hurst of the self-affine road is 1\.5"):
         SelfAffineRoad(1.5, 5e-4, 0.2, 0.005, 1)
 

@@ -58,6 +58,7 @@ BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with 
         ("tire_half_space", "effects.tire.envelopment={}"),
         ("tire_bump", "road={kind: step, position: 0.05, height: 0.01}"),
         ("tire_bump", "road={kind: pothole, position: 0.05, depth: 0.01, length: 0.2}"),
+        ("tire_irregular_road",),
     ),
     "seat": (
         ("seat_ride",),

@@ -51,6 +51,11 @@ class SelfAffineRoad:
                 f"the self-affine road has no wave: its shortest wavelength is {resolved:g} m, its longest {longest:g} m"
             )
         self._surface = Texture(1.0, 1.0 + 2.0 * hurst, longest, resolved, seed, STRIP)
+        if self._surface.rms == 0.0:
+            raise ExcitationError(
+                f"the self-affine road of {STRIP[0]:g} by {STRIP[1]:g} m has no wave between {resolved:g} and {longest:g} m; take "
+                "a wider range"
+            )
         self._surface.scale_to(rms)
 
     def heights(self, x: NDArray[numpy.float64], y: NDArray[numpy.float64]) -> NDArray[numpy.float64]:

@@ -103,6 +103,7 @@ def _draw(canvas: Canvas, result: Moments) -> None:
     known = numpy.isfinite(result.deviations)
     left.bar(numpy.flatnonzero(known), result.values[known], yerr=result.deviations[known], color="#136f96", width=0.5)
     left.set_xticks(range(3), ["x", "y", "z"])
+    left.set_xlim(-0.6, 2.6)
     left.set_xlabel("principal axis")
     left.set_ylabel("I/m, m²")
     for place, (name, colour) in enumerate(zip("xyz", ("#136f96", "#e08a2e", "#6b6b66"), strict=True)):
