@@ -96,8 +96,9 @@ def page(paper: Paper, shown: Sequence[tuple[Figure, Sequence[Number]]]) -> str:
         "## Figures\n",
         _prose(
             f"Drawn by `bench paper {paper.key} --figure N [--set KEY=VALUE] [--output PNG]`, which prints the same numbers. "
-            "The expected values come from elsewhere than the bench; dangerous volumes, for which there is no other value, are "
-            "judged by refinement. *Not reached*: the bench yields no such number, for the reason that is given."
+            "The expected values come from elsewhere than the bench; the union of dangerous "
+            "volumes alone, for which there is no other value, is judged by refinement. *Not reached*: the bench yields no such "
+            "number, for the reason that is given."
         ),
     ]
     for figure, numbers in shown:

@@ -7,7 +7,7 @@ import math
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_lab.records.paper import Equation, Parameter
+from contact_sim_lab.records.paper import Equation, PaperError, Parameter
 from contact_sim_lab.twins.rigid_impact import energetic_by_path, newton_by_enumeration, poisson_by_enumeration
 from contact_sim_pkg.identify.geometry import box
 from contact_sim_pkg.identify.table import ImpactTable, estimate_from_impacts, problem_of_impacts
@@ -72,17 +72,25 @@ def _block(
     return found.normal, found.tangential, found.mode, velocity + inverse @ rows.T @ numpy.array(found[:2])
 
 
+def _contact(a_nn: float, a_nt: float, a_tt: float, friction: float, restitution: float) -> PlanarContact:
+    if not a_nt**2 < a_nn * a_tt:
+        raise PaperError(
+            f"a_nt {a_nt:g} 1/kg: below {math.sqrt(a_nn * a_tt):.6g} = √(a_nn a_tt) in magnitude is needed"
+        )
+    return PlanarContact(a_nn, a_nt, a_tt, friction, restitution)
+
+
 def _one_step(
     a_nn: float, a_nt: float, a_tt: float, friction: float, restitution: float, u_n: float, u_t: float
 ) -> tuple[float, float, int]:
-    contact = PlanarContact(a_nn, a_nt, a_tt, friction, restitution)
+    contact = _contact(a_nn, a_nt, a_tt, friction, restitution)
     return contact_modes(contact, u_n + restitution * min(0.0, u_n), u_t, 0.0)
 
 
 def _by_rule(
     a_nn: float, a_nt: float, a_tt: float, friction: float, restitution: float, u_n: float, u_t: float, rule: str
 ) -> tuple[float, float, int, float, float]:
-    found = planar_impact(PlanarContact(a_nn, a_nt, a_tt, friction, restitution), RULE_NAMES[rule], u_n, u_t)
+    found = planar_impact(_contact(a_nn, a_nt, a_tt, friction, restitution), RULE_NAMES[rule], u_n, u_t)
     twin = {"newton": newton_by_enumeration, "poisson": poisson_by_enumeration, "energetic": energetic_by_path}[rule]
     other = twin(numpy.array([[a_nn, a_nt], [a_nt, a_tt]]), friction, restitution, numpy.array([u_n, u_t]))
     return found.normal, found.tangential, found.mode, float(other[0]), float(other[1])
