@@ -100,7 +100,7 @@ def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes,
     source = make_vibration(scene)
 
     def bad(number):
-        # One at every fifth block: the queue of 10 holds them and the 8 blocks that the logger may be behind
+        # One at every fifth block: the queue of the stand-in holds them and the blocks that the logger may be behind
         if number % 5:
             return []
         block = source.block(number)

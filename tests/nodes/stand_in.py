@@ -11,6 +11,7 @@ from tests.bench_process import LONGEST
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.nodes.protocol.endpoints import publisher, subscription
 from contact_sim_pkg.nodes.protocol.states import RunState
+from contact_sim_pkg.nodes.protocol.window import AHEAD
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
 
@@ -23,7 +24,7 @@ class StandIn:
         self.node = Node(name, context=self._context, start_parameter_services=False, enable_rosout=False)
         self.progress: BenchProgress | None = None
         self.recorded = -1  # last block that the logger has answered for
-        self.entry = publisher(self.node, topic)
+        self.entry = publisher(self.node, topic, 2 * AHEAD)  # the logger may be a window behind
         self._kept = [
             subscription(self.node, "bench/progress", self._on_progress),
             subscription(self.node, "bench/recorded", self._on_recorded),

@@ -22,7 +22,7 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 __all__ = ["Callbacks", "follow_run"]
 
 SETTLE_SECONDS = 1.0  # of the run, before the subscriber joins: it must not pass for the logger
-GATHER_SECONDS = 0.02
+GATHER_SECONDS = 0.01
 
 Callbacks = Mapping[str, Callable[[bytes, dict[str, Any]], None]]
 """By topic: what is called with each message and what the middleware knows of it."""

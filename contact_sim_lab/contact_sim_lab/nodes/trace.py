@@ -137,8 +137,7 @@ def shares(events: Events, schedule: Schedule) -> dict[str, float]:
     # At each moment: the block due, whether it was sent, and whether the logger let it be sent
     places = numpy.linspace(at[0], at[-1], 20_000)
     done, sent, recorded = (
-        numpy.interp(places, *events.steps(each), left=-1.0) // 1
-        for each in (events.done, events.sent, events.recorded)
+        _last_at(places, *events.steps(each)) for each in (events.done, events.sent, events.recorded)
     )
     lacking = sent < done + 1
     closed = lacking & (done + 1 > recorded + AHEAD)
@@ -147,6 +146,11 @@ def shares(events: Events, schedule: Schedule) -> dict[str, float]:
         "block_not_sent": float(lacking.mean()), "window_closed_by_logger": float(closed.mean()),
         "blocks_per_second": (blocks[-1] - blocks[0]) / (end - begin),
     }  # fmt: skip
+
+
+def _last_at(places: Values, times: Values, blocks: Values) -> Values:
+    """The last block at each of the `places`, all [s]; -1 before the first."""
+    return numpy.concatenate(([-1.0], blocks))[numpy.searchsorted(times, places, side="right")]
 
 
 def draw(events: Events, schedule: Schedule, picture: Path) -> None:

@@ -15,7 +15,7 @@ class Run:
     """A run of 100 blocks whose logger answers for those up to `recorded`."""
 
     def __init__(self, done: int, recorded: int, *, logged: bool = True):
-        self.window = BlockWindow(100, logged=logged)
+        self.window = BlockWindow(100, logged=logged, ahead=8)
         self.answers = LoggerAnswers(self.window, logged=logged)
         self.inputs = InputBlocks([VIBRATION], LENGTH, 100)
         if recorded >= 0:

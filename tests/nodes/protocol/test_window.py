@@ -2,7 +2,7 @@
 
 import pytest
 
-from contact_sim_pkg.nodes.protocol.window import LEAST_SECONDS, MOST_SECONDS, BlockWindow, Gather
+from contact_sim_pkg.nodes.protocol.window import AHEAD, LEAST_SECONDS, MOST_SECONDS, BlockWindow, Gather
 
 
 def sent(window: BlockWindow) -> list[int]:
@@ -12,12 +12,13 @@ def sent(window: BlockWindow) -> list[int]:
     return numbers
 
 
-def test_blocks_up_to_eight_ahead_are_sent_before_any_answer():
-    assert sent(BlockWindow(100, logged=True)) == [0, 1, 2, 3, 4, 5, 6, 7]
+def test_blocks_of_a_window_are_sent_before_any_answer():
+    assert sent(BlockWindow(100, logged=True)) == list(range(AHEAD))
+    assert sent(BlockWindow(100, logged=True, ahead=3)) == [0, 1, 2]
 
 
 def test_the_slower_of_simulator_and_logger_limits_the_window():
-    window = BlockWindow(100, logged=True)
+    window = BlockWindow(100, logged=True, ahead=8)
     sent(window)
     window.on_done(19)
     assert sent(window) == []
@@ -26,14 +27,14 @@ def test_the_slower_of_simulator_and_logger_limits_the_window():
 
 
 def test_without_a_logger_only_the_simulator_counts():
-    window = BlockWindow(100, logged=False)
+    window = BlockWindow(100, logged=False, ahead=8)
     sent(window)
     window.on_done(0)
     assert sent(window) == [8]
 
 
 def test_an_older_answer_changes_nothing():
-    window = BlockWindow(100, logged=False)
+    window = BlockWindow(100, logged=False, ahead=8)
     window.on_done(5)
     window.on_done(2)
     assert sent(window)[-1] == 13
