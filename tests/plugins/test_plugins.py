@@ -9,43 +9,13 @@ from pathlib import Path
 import numpy
 import pytest
 import scipy.signal
-from tests.bench_process import ENVIRONMENT, LONGEST_COMMAND, messages, needs_ros
+from tests.bench_process import ENVIRONMENT, messages, needs_ros
+from tests.plugins.bench_beside import Bench
 
 from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.records.plugins import OFF, VARIABLE
 
 EXAMPLE = Path(__file__).parents[2] / "examples/plugin_rig"
-
-
-class Bench:
-    """`bench` with packages of others beside it."""
-
-    def __init__(self, folder: Path) -> None:
-        self.beside, self.work = folder / "beside", folder / "work"
-        self.beside.mkdir()
-        self.work.mkdir()
-
-    def __call__(self, *arguments: object, status: int = 0, plugins: str = "") -> str:
-        """Both of its streams."""
-        kept = {name: value for name, value in ENVIRONMENT.items() if name != VARIABLE}
-        environment = {**kept, "PYTHONPATH": f"{self.beside}:{ENVIRONMENT['PYTHONPATH']}"}
-        done = subprocess.run(
-            python_command("contact_sim_pkg.cli.main", *map(str, arguments)), capture_output=True, text=True, cwd=self.work,
-            env={**environment, **({VARIABLE: plugins} if plugins else {})}, timeout=LONGEST_COMMAND,
-        )  # fmt: skip
-        printed = done.stdout + done.stderr
-        assert done.returncode == status, printed
-        return printed
-
-    def add(self, name: str, module: str, **groups: str) -> None:
-        """A package of one module that announces something."""
-        (self.beside / f"{name}.py").write_text(module)
-        described = self.beside / f"{name}-1.2.dist-info"
-        described.mkdir()
-        (described / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.2\n")
-        announced = "".join(f"[contact_sim_pkg.{group}]\n{entry}\n" for group, entry in groups.items())
-        (described / "entry_points.txt").write_text(announced)
 
 
 @pytest.fixture
@@ -207,7 +177,7 @@ def test_one_that_does_not_load_is_a_line_and_left_out(bench):
 
 RIG = """
 from contact_sim_pkg.records.rig import Rig
-RIGS = (Rig(name="{}", help="none", contacts=(), simulation="none:none"),)
+RIGS = (Rig(name="{}", help="none", contacts=(), simulation=f"{{__name__}}:Rig"),)
 """
 
 
@@ -230,7 +200,7 @@ def test_only_the_named_ones_are_let_in(bench):
 
 
 def test_a_command_of_ours_is_never_replaced(bench):
-    bench.add("greedy", "", commands="run = greedy:command")
+    bench.add("greedy", "command = None\n", commands="run = greedy:command")
     assert "two commands are named run" in bench("unheard_of", status=2)
 
 
