@@ -1,6 +1,7 @@
 """`bench` in a process of its own, with packages of others beside it."""
 
 import subprocess
+import sys
 from pathlib import Path
 
 from tests.bench_process import ENVIRONMENT, LONGEST_COMMAND
@@ -17,13 +18,31 @@ class Bench:
         self.beside.mkdir()
         self.work.mkdir()
 
+    @property
+    def environment(self) -> dict[str, str]:
+        """With the packages beside it on the search path, and all plug-ins let in."""
+        kept = {name: value for name, value in ENVIRONMENT.items() if name != VARIABLE}
+        return {**kept, "PYTHONPATH": f"{self.beside}:{ENVIRONMENT['PYTHONPATH']}"}
+
+    def python(self, program: str) -> tuple[str, str]:
+        """What a program prints, on each of its two streams."""
+        command = [sys.executable, "-c", program]
+        done = subprocess.run(
+            command,
+            cwd=self.work,
+            env=self.environment,
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=LONGEST_COMMAND,
+        )
+        return done.stdout, done.stderr
+
     def __call__(self, *arguments: object, status: int = 0, plugins: str = "") -> str:
         """Both of its streams."""
-        kept = {name: value for name, value in ENVIRONMENT.items() if name != VARIABLE}
-        environment = {**kept, "PYTHONPATH": f"{self.beside}:{ENVIRONMENT['PYTHONPATH']}"}
         done = subprocess.run(
             python_command("contact_sim_pkg.cli.main", *map(str, arguments)), capture_output=True, text=True, cwd=self.work,
-            env={**environment, **({VARIABLE: plugins} if plugins else {})}, timeout=LONGEST_COMMAND,
+            env={**self.environment, **({VARIABLE: plugins} if plugins else {})}, timeout=LONGEST_COMMAND,
         )  # fmt: skip
         printed = done.stdout + done.stderr
         assert done.returncode == status, printed

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy
 import pytest
 import scipy.signal
-from tests.bench_process import ENVIRONMENT, messages, needs_ros
+from tests.bench_process import messages, needs_ros
 from tests.plugins.bench_beside import Bench
 
 from contact_sim_pkg.bag.reader import open_bag
@@ -136,7 +136,19 @@ def test_one_that_writes_to_what_it_observes_changes_no_bit(bench):
 def test_a_bag_of_it_is_refused_by_name_where_it_is_missing(example):
     text = example("run", "--from-bag", "bag", "--offline", "--no-record", plugins=OFF, status=2)
     assert "uses the plug-in bouncer_rig 0.1.0, which is not installed" in text
+    assert "uses the plug-in bouncer_rig 0.1.0, which is not installed" in example(
+        "accuracy", "bag", plugins=OFF, status=2
+    )
     assert "there is no such scene" in example("run", "bouncer_drop", "--offline", plugins=OFF, status=2)
+
+
+def test_a_bag_of_it_is_read_where_it_is_missing(example):
+    bag = shutil.copytree(example.work / "bag", example.work / "read", ignore=shutil.ignore_patterns("*.html"))
+    assert len(open_bag(bag).columns("foot/force", ("normal",))["normal"]) > 0  # these tests hide all plug-ins
+    example("report", "read", plugins=OFF)
+    assert "foot" in (bag / "report.html").read_text()
+    example("metrics", "read", plugins=OFF)
+    example("compare", "read", "bag", plugins=OFF)
 
 
 def test_a_bag_of_another_version_of_it_is_read(example):
@@ -147,12 +159,9 @@ def test_a_bag_of_another_version_of_it_is_read(example):
         "text = open_bag('older').metadata['scene'].replace('bouncer_rig 0.1.0', 'bouncer_rig 0.0.9');"
         "assert '0.0.9' in text; print(read_resolved(text).data['plugins'])"
     )
-    kept = {name: value for name, value in ENVIRONMENT.items() if name != VARIABLE}
-    environment = {**kept, "PYTHONPATH": f"{example.beside}:{ENVIRONMENT['PYTHONPATH']}"}
-    done = subprocess.run(
-        [sys.executable, "-c", program], cwd=example.work, env=environment, capture_output=True, text=True, check=True
-    )
-    assert done.stdout == "bouncer_rig 0.1.0\n"
+    printed, said = example.python(program)
+    assert printed == "bouncer_rig 0.1.0\n"
+    assert "resolved with the plug-in bouncer_rig 0.0.9; it runs with bouncer_rig 0.1.0" in said
 
 
 def test_its_errors_are_our_sentences(example):

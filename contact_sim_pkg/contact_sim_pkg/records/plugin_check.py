@@ -70,7 +70,9 @@ def faults_of_rig(package: str, rig: Rig) -> Iterator[str]:
 def _faults_of_contact(where: str, contact: Contact) -> Iterator[str]:
     if contact.name in RESERVED:
         yield f"{where}: the bench uses this name in every scene or topic; rename the contact"
-    yield from _faults_of_key(where, contact.name, contact.section)
+    if not contact.carriers:
+        yield f"{where}: none of its effects carries the load; set carries=True in the one that does"
+    yield from _faults_of_key(where, contact.name, contact.section, may_be_absent=True)
     yield from _faults_of_places(where, contact.rules)
     for topic in contact.topics:
         yield from _faults_of_topic(where, topic)
@@ -97,8 +99,8 @@ def _faults_of_topic(where: str, topic: ContactTopic) -> Iterator[str]:
         yield f"{where}, topic {topic.name}: the bench has no message type {topic.type}"
 
 
-def _faults_of_key(where: str, name: str, section: str) -> Iterator[str]:
-    """Of a key of the scene and the class of its section."""
+def _faults_of_key(where: str, name: str, section: str, *, may_be_absent: bool = False) -> Iterator[str]:
+    """Of a key of the scene and the class of its section; one that may be absent has defaults alone."""
     yield from _faults_of_name(where, name)
     base: Any = load(_SECTION)
     if hasattr(base, name):
@@ -109,6 +111,8 @@ def _faults_of_key(where: str, name: str, section: str) -> Iterator[str]:
             yield f"{where}: section {section} is no class below Section"
         else:
             found.model_rebuild()  # type: ignore[attr-defined]
+            required = [key for key, field in found.model_fields.items() if may_be_absent and field.is_required()]  # type: ignore[attr-defined]
+            yield from (f"{where}: section {section}: its key {key} needs a default" for key in required)
     except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a stranger's module raises
         yield f"{where}: section {section} does not load ({type(error).__name__}: {error})"
 
