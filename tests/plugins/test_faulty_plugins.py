@@ -1,11 +1,14 @@
 """What is wrong in one plug-in is a line that names it, and takes nothing else down."""
 
 import pytest
+from tests.bench_process import needs_ros
 from tests.plugins.bench_beside import Bench
 
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.records.plugin_check import RESERVED
+from contact_sim_pkg.records.plugin_check import RESERVED, faults_of_rig
 from contact_sim_pkg.records.registry import contacts
+from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.rigs import PACKAGES
 from contact_sim_pkg.scene.schema.scene import Scene
 
 PRESS = """
@@ -104,6 +107,13 @@ def test_what_it_names_is_there_or_it_is_left_out(bench, old, new, cause):
     assert "tire_bump" in text
 
 
+@pytest.mark.parametrize("package", PACKAGES)
+def test_nothing_is_wrong_with_our_own_rigs(package):
+    """So a rig that shares one of our contacts, or is built like ours, is let in; names of keys and topics are ours."""
+    faults = [fault for rig in load(f"{package}:RIGS") for fault in faults_of_rig(package, rig)]
+    assert faults == []
+
+
 def test_one_of_whom_nothing_is_wrong_brings_its_rig(bench):
     press(bench)
     (bench.work / "press.yaml").write_text(SCENE)
@@ -184,6 +194,16 @@ def test_a_simulation_that_does_not_load_is_named_on_use(bench):
     cause = "press_simulation:Press does not load (ModuleNotFoundError: No module named 'absent_thing')"
     assert f"bench: plug-in press_kit 1.2: {cause}" in text
     assert "pip install" not in text
+    assert "Traceback" not in text
+
+
+@needs_ros
+def test_over_nodes_it_is_named_too(bench):
+    press(bench)
+    (bench.beside / "press_needs.py").write_text("import absent_thing\n")
+    (bench.work / "press.yaml").write_text(SCENE)
+    text = bench("run", "press.yaml", "--no-record", status=2)
+    assert "plug-in press_kit 1.2: press_simulation:Press does not load (ModuleNotFoundError" in text
     assert "Traceback" not in text
 
 
