@@ -109,7 +109,7 @@ def test_what_it_names_is_there_or_it_is_left_out(bench, old, new, cause):
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_nothing_is_wrong_with_our_own_rigs(package):
-    """So a rig that shares one of our contacts, or is built like ours, is let in; names of keys and topics are ours."""
+    """So a rig that shares one of our contacts, or is built like ours, is let in."""
     faults = [fault for rig in load(f"{package}:RIGS") for fault in faults_of_rig(package, rig)]
     assert faults == []
 
