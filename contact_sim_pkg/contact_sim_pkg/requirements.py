@@ -7,7 +7,7 @@ from importlib.metadata import PackageNotFoundError, requires, version
 from itertools import zip_longest
 from pathlib import Path
 
-__all__ = ["is_met", "package_sentence"]
+__all__ = ["canonical", "is_met", "is_of_ros", "package_sentence"]
 
 ROS = (
     "rclpy",
@@ -28,8 +28,8 @@ def package_sentence(error: BaseException) -> str:
     """What is missing and the cure, where an error comes from a package that is not there or not of
     a version that the bench needs; empty for any other error. The cure stands in two lines below.
     """
-    if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in ROS:
-        return f"{error.name} cannot be imported; source ros2_ws/setup.bash (`bench run --offline` needs no ROS)"
+    if isinstance(error, ImportError) and is_of_ros(error):
+        return f"{error.name} cannot be imported; source ros2_ws/setup.bash"
     foreign = not type(error).__module__.startswith("contact_sim_pkg")
     if unmet := _unmet() if isinstance(error, (ImportError, *OF_ANOTHER_VERSION)) and foreign else []:
         found = ", ".join(f"{name} is {here or 'missing'}, {bounds} is needed" for name, here, bounds in unmet)
@@ -38,6 +38,16 @@ def package_sentence(error: BaseException) -> str:
         wanted = [name + bounds for name, bounds in _needed() if _is_package_of(name, error.name)]
         return _with_cure(f"{error.name} cannot be imported ({error})", wanted or ["./contact_sim_pkg"])
     return ""
+
+
+def is_of_ros(error: ImportError) -> bool:
+    """Whether what cannot be imported comes with ROS 2 or the workspace."""
+    return (error.name or "").partition(".")[0] in ROS
+
+
+def canonical(package: str) -> str:
+    """The name of a package as pip compares it: press_kit and Press.Kit are press-kit."""
+    return re.sub(r"[-_.]+", "-", package).lower()
 
 
 def is_met(package: str) -> bool:
@@ -57,7 +67,7 @@ def _is_package_of(name: str, module: str) -> bool:
     """Whether a package, such as `ruamel.yaml`, is the one that a module, such as `ruamel`, belongs
     to.
     """
-    package, wanted = (re.sub(r"[-_.]+", "-", each).lower() for each in (name, module))
+    package, wanted = canonical(name), canonical(module)
     return f"{package}-".startswith(f"{wanted.partition('-')[0]}-") or package == wanted
 
 

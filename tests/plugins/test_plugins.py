@@ -9,43 +9,13 @@ from pathlib import Path
 import numpy
 import pytest
 import scipy.signal
-from tests.bench_process import ENVIRONMENT, LONGEST_COMMAND, messages, needs_ros
+from tests.bench_process import messages, needs_ros
+from tests.plugins.bench_beside import Bench
 
 from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.records.plugins import OFF, VARIABLE
 
 EXAMPLE = Path(__file__).parents[2] / "examples/plugin_rig"
-
-
-class Bench:
-    """`bench` with packages of others beside it."""
-
-    def __init__(self, folder: Path) -> None:
-        self.beside, self.work = folder / "beside", folder / "work"
-        self.beside.mkdir()
-        self.work.mkdir()
-
-    def __call__(self, *arguments: object, status: int = 0, plugins: str = "") -> str:
-        """Both of its streams."""
-        kept = {name: value for name, value in ENVIRONMENT.items() if name != VARIABLE}
-        environment = {**kept, "PYTHONPATH": f"{self.beside}:{ENVIRONMENT['PYTHONPATH']}"}
-        done = subprocess.run(
-            python_command("contact_sim_pkg.cli.main", *map(str, arguments)), capture_output=True, text=True, cwd=self.work,
-            env={**environment, **({VARIABLE: plugins} if plugins else {})}, timeout=LONGEST_COMMAND,
-        )  # fmt: skip
-        printed = done.stdout + done.stderr
-        assert done.returncode == status, printed
-        return printed
-
-    def add(self, name: str, module: str, **groups: str) -> None:
-        """A package of one module that announces something."""
-        (self.beside / f"{name}.py").write_text(module)
-        described = self.beside / f"{name}-1.2.dist-info"
-        described.mkdir()
-        (described / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.2\n")
-        announced = "".join(f"[contact_sim_pkg.{group}]\n{entry}\n" for group, entry in groups.items())
-        (described / "entry_points.txt").write_text(announced)
 
 
 @pytest.fixture
@@ -166,7 +136,19 @@ def test_one_that_writes_to_what_it_observes_changes_no_bit(bench):
 def test_a_bag_of_it_is_refused_by_name_where_it_is_missing(example):
     text = example("run", "--from-bag", "bag", "--offline", "--no-record", plugins=OFF, status=2)
     assert "uses the plug-in bouncer_rig 0.1.0, which is not installed" in text
+    assert "uses the plug-in bouncer_rig 0.1.0, which is not installed" in example(
+        "accuracy", "bag", plugins=OFF, status=2
+    )
     assert "there is no such scene" in example("run", "bouncer_drop", "--offline", plugins=OFF, status=2)
+
+
+def test_a_bag_of_it_is_read_where_it_is_missing(example):
+    bag = shutil.copytree(example.work / "bag", example.work / "read", ignore=shutil.ignore_patterns("*.html"))
+    assert len(open_bag(bag).columns("foot/force", ("normal",))["normal"]) > 0  # these tests hide all plug-ins
+    example("report", "read", plugins=OFF)
+    assert "foot" in (bag / "report.html").read_text()
+    example("metrics", "read", plugins=OFF)
+    example("compare", "read", "bag", plugins=OFF)
 
 
 def test_a_bag_of_another_version_of_it_is_read(example):
@@ -177,12 +159,9 @@ def test_a_bag_of_another_version_of_it_is_read(example):
         "text = open_bag('older').metadata['scene'].replace('bouncer_rig 0.1.0', 'bouncer_rig 0.0.9');"
         "assert '0.0.9' in text; print(read_resolved(text).data['plugins'])"
     )
-    kept = {name: value for name, value in ENVIRONMENT.items() if name != VARIABLE}
-    environment = {**kept, "PYTHONPATH": f"{example.beside}:{ENVIRONMENT['PYTHONPATH']}"}
-    done = subprocess.run(
-        [sys.executable, "-c", program], cwd=example.work, env=environment, capture_output=True, text=True, check=True
-    )
-    assert done.stdout == "bouncer_rig 0.1.0\n"
+    printed, said = example.python(program)
+    assert printed == "bouncer_rig 0.1.0\n"
+    assert "resolved with the plug-in bouncer_rig 0.0.9; it runs with bouncer_rig 0.1.0" in said
 
 
 def test_its_errors_are_our_sentences(example):
@@ -207,7 +186,7 @@ def test_one_that_does_not_load_is_a_line_and_left_out(bench):
 
 RIG = """
 from contact_sim_pkg.records.rig import Rig
-RIGS = (Rig(name="{}", help="none", contacts=(), simulation="none:none"),)
+RIGS = (Rig(name="{}", help="none", contacts=(), simulation=f"{{__name__}}:Rig"),)
 """
 
 
@@ -230,7 +209,7 @@ def test_only_the_named_ones_are_let_in(bench):
 
 
 def test_a_command_of_ours_is_never_replaced(bench):
-    bench.add("greedy", "", commands="run = greedy:command")
+    bench.add("greedy", "command = None\n", commands="run = greedy:command")
     assert "two commands are named run" in bench("unheard_of", status=2)
 
 

@@ -57,7 +57,7 @@ class LazyGroup(click.Group):
             return _of_laboratory(name)
         if name not in COMMANDS:
             foreign = _foreign().get(name)
-            return None if foreign is None else _foreign_command(foreign)
+            return None if foreign is None else _foreign_command(name, foreign)
         module, _, command = COMMANDS[name].partition(":")
         found: click.Command = getattr(import_module(f"contact_sim_pkg.cli.{module}"), command or "command")
         return found
@@ -81,24 +81,29 @@ def _of_laboratory(name: str) -> click.Command:
     try:
         found: click.Command = getattr(laboratory(f"cli.{module}", f"bench {name}"), command or "command")
     except AbsentError as error:
-        refusal_of_it = error
-
-        @click.command(
-            name,
-            help=f"{error.message}.",
-            short_help="Of the laboratory, which is not installed.",
-            context_settings={"ignore_unknown_options": True, "allow_extra_args": True},
-        )
-        def absent() -> None:
-            raise refusal_of_it
-
-        return absent
+        return _refusing(name, error, f"{error.message}.", "Of the laboratory, which is not installed.")
     return found
+
+
+def _refusing(name: str, error: Exception, text: str, short: str) -> click.Command:
+    """A command that is not there: whatever it is called with, an error."""
+
+    @click.command(
+        name,
+        help=text,
+        short_help=short,
+        context_settings={"ignore_unknown_options": True, "allow_extra_args": True},
+    )
+    def absent() -> None:
+        raise error
+
+    return absent
 
 
 def _foreign() -> dict[str, str]:
     """Commands that plug-ins bring, ``module:name`` by name; ours are never replaced."""
-    from contact_sim_pkg.records.plugins import CURE, PluginError, plugins
+    from contact_sim_pkg.records.plugins import CURE, plugins
+    from contact_sim_pkg.records.rig import PluginError
 
     found: dict[str, str] = {}
     origin: dict[str, object] = {}
@@ -112,10 +117,16 @@ def _foreign() -> dict[str, str]:
     return found
 
 
-def _foreign_command(place: str) -> click.Command:
-    from contact_sim_pkg.records.rig import load
+def _foreign_command(name: str, place: str) -> click.Command:
+    """A command of a plug-in; one that does not load refuses with the cause, as its help does."""
+    from contact_sim_pkg.records.rig import PluginError, load
 
-    command: click.Command = load(place)
+    try:
+        command = load(place)
+        if not isinstance(command, click.Command):
+            raise PluginError(f"the command {name} of a plug-in, {place}, is no click command")
+    except PluginError as error:
+        return _refusing(name, error, f"{error}.", "Of a plug-in; it does not load, --help shows why.")
     return command
 
 

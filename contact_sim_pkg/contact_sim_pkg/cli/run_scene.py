@@ -21,7 +21,8 @@ from contact_sim_pkg.cli.output.outcome import describe, print_outcome, state_of
 from contact_sim_pkg.cli.output.progress import RunDisplay
 from contact_sim_pkg.cli.output.tables import print_json
 from contact_sim_pkg.cli.scene_options import SceneOptions
-from contact_sim_pkg.requirements import is_met
+from contact_sim_pkg.files import RefusedError
+from contact_sim_pkg.requirements import is_met, is_of_ros, package_sentence
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -280,8 +281,13 @@ class Worker(threading.Thread, Generic[Result]):
 def _run_on_nodes(
     scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay, *, clock: bool
 ) -> RunEnd:
-    import rclpy  # noqa: F401  # refused here, with the cure, where ROS is not there
-    from contact_msgs_defs.msg import BenchProgress  # noqa: F401
+    try:
+        import rclpy  # noqa: F401  # refused here, with the cure, where ROS is not there
+        from contact_msgs_defs.msg import BenchProgress  # noqa: F401
+    except ImportError as error:
+        if not is_of_ros(error):
+            raise
+        raise RefusedError(f"{package_sentence(error)} (`bench run --offline` needs no ROS)") from error
 
     for name in ("numba", "rocket-fft"):  # which only the simulator's process imports
         if find_spec(name.replace("-", "_")) is None or not is_met(name):

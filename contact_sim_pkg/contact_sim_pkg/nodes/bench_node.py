@@ -10,8 +10,8 @@ from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackRet
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
+from contact_sim_pkg.files import RefusedError
 from contact_sim_pkg.nodes.parameters import declare
-from contact_sim_pkg.nodes.processes.process import REFUSALS
 from contact_sim_pkg.nodes.protocol.states import FAULT, REFUSED, NodeError
 from contact_sim_pkg.run.errors import RunError
 
@@ -70,7 +70,7 @@ class LifecycleBenchNode(LifecycleNode):
         self._endpoints_before = [*self.publishers, *self.subscriptions]
         try:
             self.configure()
-        except (NodeError, RunError, *REFUSALS) as error:
+        except (NodeError, RunError, RefusedError) as error:
             refusal = getattr(error, "exit_status", FAULT if isinstance(error, RunError) else REFUSED)
             self.get_logger().error(str(error))
             self._release()

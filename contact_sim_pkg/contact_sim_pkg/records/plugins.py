@@ -14,16 +14,24 @@ from __future__ import annotations
 
 import logging
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from importlib.metadata import Distribution, EntryPoint, distributions
 from typing import Any, NamedTuple, TypeVar
 
-from contact_sim_pkg.files import RefusedError
+from contact_sim_pkg.files import printable
 from contact_sim_pkg.records.effect import Effect
-from contact_sim_pkg.records.rig import Rig, load
+from contact_sim_pkg.records.plugin_check import (
+    fault_of_place,
+    faults_of_effects,
+    faults_of_rig,
+    places_of_effects,
+    places_of_rig,
+)  # fmt: skip
+from contact_sim_pkg.records.rig import BRINGERS, PluginError, Rig, load
+from contact_sim_pkg.requirements import canonical
 
-__all__ = ["CURE", "OFF", "VARIABLE", "Plugin", "PluginError", "plugins"]
+__all__ = ["CURE", "OFF", "VARIABLE", "Plugin", "plugins"]
 
 VARIABLE, OFF = "CONTACT_BENCH_PLUGINS", "off"
 GROUP = "contact_sim_pkg."
@@ -31,10 +39,6 @@ CURE = f"rename one, or set {VARIABLE} to the plug-ins that are wanted, or to {O
 
 _log = logging.getLogger(__name__)
 Record = TypeVar("Record")
-
-
-class PluginError(RefusedError, ValueError):
-    """Packages that cannot stand beside each other: a sentence."""
 
 
 class Plugin(NamedTuple):
@@ -52,39 +56,81 @@ class Plugin(NamedTuple):
         return f"{self.name} {self.version}"
 
 
+_loading: list[Plugin] = []  # the one whose modules are being imported, if any
+
+
 @cache
 def plugins() -> tuple[Plugin, ...]:
-    """The installed ones that `CONTACT_BENCH_PLUGINS` lets in, by name. One that fails to load is
-    reported in a line and left out.
+    """The installed ones that `CONTACT_BENCH_PLUGINS` lets in, by name. One that fails to load, or
+    names what is not there or not free, is reported in a line and left out.
+
+    Raises:
+        PluginError: a plug-in that is being loaded needs the rigs, which are being found.
     """
     wanted = os.environ.get(VARIABLE)
     if wanted == OFF:
         return ()
-    names = None if not wanted else {name.strip() for name in wanted.split(",")}
-    found: dict[str, Plugin] = {}
+    if _loading:
+        raise PluginError("its module needs the rigs while they are being found; import that where it is used")
+    names = None if not wanted else {canonical(name.strip()): name.strip() for name in wanted.split(",")}
+    found: dict[str, Plugin | None] = {}
     for distribution in distributions():
         entries = [each for each in distribution.entry_points if each.group.startswith(GROUP)]
         name = str(distribution.metadata["Name"]) if entries else ""
-        if entries and name not in found and (names is None or name in names):
-            made = _loaded(distribution, name, entries)
-            if made is not None:
-                found[name] = made
-    for name in sorted((names or set()) - set(found)):
-        _log.warning("%s names %s: no package of that name, as pip lists it, brings anything", VARIABLE, name)
-    return tuple(found[name] for name in sorted(found))
+        key = canonical(name)
+        if entries and key not in found and (names is None or key in names):
+            found[key] = _loaded(distribution, name, entries)
+    for key in sorted(set(names or ()) - set(found)):
+        _log.warning(
+            "%s names %s: no package of that name, as pip lists it, brings anything", VARIABLE, (names or {})[key]
+        )
+    return tuple(plugin for _key, plugin in sorted(found.items()) if plugin is not None)
 
 
 def _loaded(distribution: Distribution, name: str, entries: Iterable[EntryPoint]) -> Plugin | None:
+    """A package that announces something, checked; None, with a line on standard error, where it
+    does not load.
+    """
     plugin = Plugin(name, distribution.version, {}, {}, {}, [])
+    _loading.append(plugin)
+    try:
+        fault = next(_faults(plugin, entries), "")
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a stranger's record does
+        fault = f"its record cannot be read ({type(error).__name__}: {error})"
+    finally:
+        _loading.pop()
+    if fault:
+        _log.warning("%s", printable(f"plug-in {plugin} is left out: {fault}", 1000))
+        return None
+    for package in _packages(plugin, entries):
+        BRINGERS.setdefault(package, str(plugin))
+    return plugin
+
+
+def _packages(plugin: Plugin, entries: Iterable[EntryPoint]) -> set[str]:
+    """Outermost packages that a plug-in names, ours left out."""
+    rigs = (place for brought in plugin.rigs.values() for rig in brought for place in places_of_rig(rig))
+    effects = (place for brought in plugin.effects.values() for place in places_of_effects(brought))
+    named = (*(entry.value for entry in entries), *rigs, *effects)
+    return {place.partition(":")[0].partition(".")[0].strip() for place in named} - {__name__.partition(".")[0]}
+
+
+def _faults(plugin: Plugin, entries: Iterable[EntryPoint]) -> Iterator[str]:
+    """Add what the entry points name to a plug-in; what is wrong with it, a phrase each."""
     for entry in entries:
         try:
             _add(plugin, entry)
         except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a stranger's module raises
-            _log.warning(
-                "plug-in %s is left out: %s does not load (%s: %s)", plugin, entry.value, type(error).__name__, error
-            )
-            return None
-    return plugin
+            yield f"{entry.value} does not load ({type(error).__name__}: {error})"
+    for package, brought in plugin.rigs.items():
+        for rig in brought:
+            yield from faults_of_rig(package, rig)
+    for contact, effects in plugin.effects.items():
+        yield from faults_of_effects(f"contact {contact}", effects)
+    commands = ((f"command {name}", place) for name, place in plugin.commands.items())
+    for where, place in (*commands, *(("studies", place) for place in plugin.studies)):
+        if fault := fault_of_place(place):
+            yield f"{where}: {fault}"
 
 
 def _add(plugin: Plugin, entry: EntryPoint) -> None:

@@ -14,9 +14,9 @@ from pathlib import Path
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
-from contact_sim_pkg.records.plugins import CURE, Plugin, PluginError, plugins
+from contact_sim_pkg.records.plugins import CURE, Plugin, plugins
 from contact_sim_pkg.records.report import ContactReport
-from contact_sim_pkg.records.rig import Rig, load
+from contact_sim_pkg.records.rig import PluginError, Rig, load
 from contact_sim_pkg.records.topic import COMMON, Topic, recorded_topic
 
 __all__ = [
@@ -40,7 +40,9 @@ def rigs() -> dict[str, Rig]:
     extended: dict[Contact, Contact] = {}  # rigs may share one
     for _package, rig, bringer in _exported():
         if rig.name in found:
-            raise PluginError(f"two rigs are named {rig.name}: {origin[rig.name]} and {bringer}; {CURE}")
+            raise PluginError(
+                f"two rigs are named {rig.name}: that of {origin[rig.name]} and that of {bringer}; {CURE}"
+            )
         for contact in rig.contacts:
             extended.setdefault(contact, _extended(contact))
         found[rig.name] = replace(rig, contacts=tuple(extended[contact] for contact in rig.contacts))
@@ -55,9 +57,9 @@ def rigs() -> dict[str, Rig]:
 @cache
 def _exported() -> tuple[tuple[str, Rig, str], ...]:
     """Package, rig, and who brings it."""
-    ours = [(package, rig, f"that of {package}") for package in load(_PACKAGES) for rig in load(f"{package}:RIGS")]
+    ours = [(package, rig, package) for package in load(_PACKAGES) for rig in load(f"{package}:RIGS")]
     theirs = [
-        (package, rig, f"that of plug-in {plugin}")
+        (package, rig, f"plug-in {plugin}")
         for plugin in plugins()
         for package, brought in plugin.rigs.items()
         for rig in brought
@@ -111,10 +113,15 @@ def contacts() -> dict[str, Contact]:
         PluginError: two rigs have different contacts of the same name.
     """
     found: dict[str, Contact] = {}
+    origin: dict[str, str] = {}
+    bringers = {rig.name: f"the rig {rig.name} of {bringer}" for _package, rig, bringer in _exported()}
     for rig in rigs().values():
         for contact in rig.contacts:
+            first = origin.setdefault(contact.name, bringers[rig.name])
             if found.setdefault(contact.name, contact) is not contact:
-                raise PluginError(f"two contacts are named {contact.name}: one of the rig {rig.name}; {CURE}")
+                raise PluginError(
+                    f"two contacts are named {contact.name}: that of {first} and that of {bringers[rig.name]}; {CURE}"
+                )
     return found
 
 
@@ -146,11 +153,15 @@ def effects() -> dict[str, dict[str, Effect]]:
 @cache
 def contact_reports() -> dict[str, ContactReport]:
     """Reports of the contacts of all rigs, by contact; where rigs share a contact, that of the
-    first rig counts.
+    first rig counts. One of a plug-in that does not load is a line on standard error, and left out.
     """
     found: dict[str, ContactReport] = {}
     for name in dict.fromkeys(name for rig in rigs().values() for name in rig.report):
-        report: ContactReport = load(name)
+        try:
+            report: ContactReport = load(name)
+        except PluginError as error:
+            _log.warning("%s; its report is left out", error)
+            continue
         found.setdefault(report.contact, report)
     return found
 

@@ -11,9 +11,17 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, NamedTuple
 
+from contact_sim_pkg.files import RefusedError, printable
 from contact_sim_pkg.records.contact import Contact
 
-__all__ = ["Rig", "Standing", "TouchedBody", "load"]
+__all__ = ["BRINGERS", "PluginError", "Rig", "Standing", "TouchedBody", "load"]
+
+BRINGERS: dict[str, str] = {}
+"""Name and version of the plug-in that brings a package, by the package, once it is loaded."""
+
+
+class PluginError(RefusedError, ValueError):
+    """A package of others that does not work, or that cannot stand beside another: a sentence."""
 
 
 class TouchedBody(NamedTuple):
@@ -91,8 +99,15 @@ class Rig:
 
 def load(named: str) -> Any:
     """The object behind ``module:name``, or the module behind ``module``. Raises what its import
-    raises.
+    raises; of a plug-in that is loaded PluginError, which names it.
     """
     module, _, name = named.partition(":")
-    found = import_module(module)
-    return getattr(found, name) if name else found
+    try:
+        found = import_module(module)
+        return getattr(found, name) if name else found
+    except (Exception, SystemExit) as error:
+        plugin = BRINGERS.get(module.partition(".")[0])
+        if plugin is None or isinstance(error, PluginError):
+            raise
+        cause = printable(f"{type(error).__name__}: {error}", 500)
+        raise PluginError(f"plug-in {plugin}: {named} does not load ({cause})") from error

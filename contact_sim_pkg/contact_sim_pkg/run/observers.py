@@ -36,7 +36,7 @@ class Observer(Protocol):
 
     def observe(self, outputs: Sequence[Output]) -> Iterable[Output]:
         """Outputs of its own, on the topic that its effect announces, from all outputs of a block, whose
-        arrays are read-only; stamps [ns] as theirs.
+        arrays are contiguous and read-only; stamps [ns] as theirs.
         """
 
 
@@ -81,11 +81,11 @@ class _Observed:
 
 
 def _read_only(value: Any) -> Any:
-    """A record of a message as it is, those within it too, its arrays as views that cannot be
-    written to.
+    """A record of a message as it is, those within it too, its arrays as contiguous views, or copies,
+    that cannot be written to.
     """
     if isinstance(value, numpy.ndarray):
-        view = value.view()
+        view = numpy.asarray(value, order="C").view()
         view.setflags(write=False)
         return view
     if isinstance(value, list | tuple) and value and not isinstance(value[0], str):

@@ -24,16 +24,13 @@ from rclpy.logging import get_logger
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
-from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.files import RefusedError
 from contact_sim_pkg.nodes.processes.run_folder import leave
 from contact_sim_pkg.nodes.processes.scene_file import write_reason
 from contact_sim_pkg.nodes.protocol.endpoints import raise_kept
 from contact_sim_pkg.nodes.protocol.states import FAULT, REFUSED, NodeError
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.scene.errors import SceneError
 
-REFUSALS = (SceneError, ExcitationError, BagError)
 LONGEST_WAIT = 0.05  # [s] between two looks at signals and at the parent
 ANSWER_SECONDS = 0.5  # from a signal to the node's reaction; compiled code receives no signal
 _NEVER = Future()  # a future that is never done
@@ -190,7 +187,7 @@ def run(*make_nodes: Callable[[], Any], args: Sequence[str] | None = None) -> in
         _log_fatal(node, str(error))
         return error.exit_status
     except (
-        *REFUSALS,
+        RefusedError,
         ParameterException,
         NameValidationException,
     ) as error:  # the last two: rclpy's own parameters and names
@@ -244,7 +241,7 @@ def _guarded(node: Any, action: Callable[..., Any], *arguments: Any) -> Any:
     """Result of an action of a node; 0 where it failed: the node then ends, or ends its run."""
     try:
         return action(*arguments)
-    except (NodeError, RunError, *REFUSALS) as error:
+    except (NodeError, RunError, RefusedError) as error:
         node.fault(str(error), getattr(error, "exit_status", FAULT))
     except (ExternalShutdownException, rclpy_implementation.RCLError):
         raise

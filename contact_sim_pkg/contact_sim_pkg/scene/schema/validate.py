@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import copy
+import logging
 from collections.abc import Callable, Iterable, Iterator
+from functools import cache
 from typing import Any
 
 from pydantic import ValidationError
 
+from contact_sim_pkg.files import printable
 from contact_sim_pkg.records.plugins import plugins
+from contact_sim_pkg.requirements import canonical
 from contact_sim_pkg.scene.errors import Breach, Fault, SceneError
 from contact_sim_pkg.scene.renamed_keys import use_new_names
 from contact_sim_pkg.scene.schema.catalog import Entry, catalog, entry_of, key_of_word, place_of, without_kinds
@@ -19,6 +23,7 @@ from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.sentences import bad_value, missing, suggestion, too_near_zero, unknown_key
 from contact_sim_pkg.scene.yaml.nodes import ListNode, MappingNode, Mark, Node, ScalarNode, to_plain
 
+_log = logging.getLogger(__name__)
 Path = tuple[str | int, ...]
 Rule = Callable[[Scene], Iterable[Breach]]
 
@@ -63,12 +68,24 @@ def _missing_plugins(root: MappingNode) -> Iterator[Fault]:
     node = root.entries.get("plugins")
     if not isinstance(node, ScalarNode):
         return
-    there = {plugin.name for plugin in plugins()}
+    there = {canonical(plugin.name): plugin for plugin in plugins()}
     for each in str(node.value).split(","):
-        name = each.strip().partition(" ")[0]
-        if name and name not in there:
+        name, _, version = each.strip().partition(" ")
+        plugin = there.get(canonical(name))
+        if plugin is not None and version.strip() not in ("", plugin.version):
+            _caution(each.strip(), str(plugin))
+        if name and plugin is None:
             sentence = f"the scene uses the plug-in {each.strip()}, which is not installed; install it beside the bench"
             yield Fault(node.mark.source, node.mark.line, node.mark.column, "plugins", sentence)
+
+
+@cache
+def _caution(stated: str, there: str) -> None:
+    """A line on standard error, once a process."""
+    _log.warning(
+        "the scene was resolved with the plug-in %s; it runs with %s, which may give other numbers",
+        printable(stated), there,
+    )  # fmt: skip
 
 
 class _Validator:
