@@ -30,6 +30,7 @@ from contact_sim_pkg.nodes.processes.run_folder import leave
 from contact_sim_pkg.nodes.processes.scene_file import write_reason
 from contact_sim_pkg.nodes.protocol.endpoints import raise_kept
 from contact_sim_pkg.nodes.protocol.states import FAULT, REFUSED, NodeError
+from contact_sim_pkg.requirements import package_sentence
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.errors import SceneError
 
@@ -249,9 +250,19 @@ def _guarded(node: Any, action: Callable[..., Any], *arguments: Any) -> Any:
     except (ExternalShutdownException, rclpy_implementation.RCLError):
         raise
     except Exception as error:  # noqa: BLE001  # the boundary of a node: named once, the bag closed
-        node.get_logger().error(traceback.format_exc())
-        node.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
+        end_unexpectedly(node, error)
     return 0.0
+
+
+def end_unexpectedly(node: Any, error: Exception) -> None:
+    """End a node for an error that no one has foreseen, with its traceback; for a package that is missing or too old,
+    with its sentence.
+    """
+    if sentence := package_sentence(error):
+        node.fault(sentence, REFUSED)
+        return
+    node.get_logger().error("".join(traceback.format_exception(error)))
+    node.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
 
 
 def _run_on(nodes: Sequence[Any]) -> bool:
