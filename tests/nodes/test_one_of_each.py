@@ -50,7 +50,7 @@ def test_the_view_shows_the_recorded_load_while_somebody_reads(recorded, tmp_pat
     heard: list[Float64] = []
     nodes = Nodes(resolved("seat_ride"), tmp_path)
     try:
-        with StandIn("listener", "another/topic") as listener:
+        with StandIn("listener", "road/patch") as listener:
             view = nodes.start("bench_view")
             nodes.start("bag_replay", bag=recorded.path.parent, loop="true")
             listener.node.create_subscription(Float64, "view/seat/load", heard.append, 10)

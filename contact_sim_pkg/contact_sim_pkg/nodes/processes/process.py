@@ -26,6 +26,7 @@ from rclpy.task import Future
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.nodes.parameters import refuse_misspelt
 from contact_sim_pkg.nodes.processes.run_folder import leave
 from contact_sim_pkg.nodes.processes.scene_file import write_reason
 from contact_sim_pkg.nodes.protocol.endpoints import raise_kept
@@ -182,6 +183,7 @@ def run(*make_nodes: Callable[[], Any], args: Sequence[str] | None = None) -> in
             if node.computes:
                 signals.leave_what_computes(node)
                 use_usual_policy()
+            refuse_misspelt(node)
             node.start()
         signals.breaks_off = False
         return _spin(nodes, signals)
