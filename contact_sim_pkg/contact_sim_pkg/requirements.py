@@ -63,7 +63,9 @@ def package_sentence(error: BaseException) -> str:
         return f"{error.name} cannot be imported; source ros2_ws/setup.bash (`bench run --offline` needs no ROS)"
     foreign = not type(error).__module__.startswith("contact_sim_pkg")
     if unmet := _unmet() if isinstance(error, (ImportError, *OF_ANOTHER_VERSION)) and foreign else []:
-        found = ", ".join(f"{name} is {here or 'missing'}, {_in_words(bounds)} is needed" for name, here, bounds in unmet)
+        found = ", ".join(
+            f"{name} is {here or 'missing'}, {_in_words(bounds)} is needed" for name, here, bounds in unmet
+        )
         return _with_cure(found, [name + bounds for name, _, bounds in unmet])
     if isinstance(error, ImportError) and error.name and not error.name.startswith("contact_sim_pkg"):
         wanted = [name + bounds for name, bounds in _needed() if _is_package_of(name, error.name)]

@@ -37,6 +37,7 @@ FIRST_SCENE = "car_full_bench"  # where neither a scene nor a bag is given
 RENAMED = {"bag": "out", "record": "no_record", "publish_clock": "clock"}
 
 
+@packages_named()
 def start_nodes(context: LaunchContext) -> list[Node]:
     """Resolve the scene once, and start the nodes that it needs; the first one that ends badly ends all."""
     given = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}

@@ -24,6 +24,7 @@ with packages_named():
 ARGUMENTS = arguments_of(command)
 
 
+@packages_named()
 def start_node(context: LaunchContext) -> list[Node]:
     """Start the node of the replay."""
     refuse_misspelt(context.launch_configurations, ARGUMENTS)

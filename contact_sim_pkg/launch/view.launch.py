@@ -14,7 +14,6 @@ from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.events.process import ProcessExited
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
-from launch_ros.parameter_descriptions import ParameterValue
 
 from contact_sim_pkg.requirements import packages_named
 from launch import LaunchContext, LaunchDescription
@@ -31,6 +30,7 @@ ARGUMENTS = {
 }
 
 
+@packages_named()
 def start_nodes(context: LaunchContext) -> list[Node]:
     """Start the view, and RViz where it is wanted and there."""
     refuse_misspelt(context.launch_configurations, ARGUMENTS)
@@ -39,11 +39,19 @@ def start_nodes(context: LaunchContext) -> list[Node]:
         package="contact_sim_pkg",
         executable="bench_view",
         namespace=given["namespace"],
-        parameters=[{"rate": ParameterValue(given["rate"], value_type=float), "supervisor": os.getpid()}],
+        parameters=[{"rate": number("rate", given["rate"]), "supervisor": os.getpid()}],
         output="screen",
         on_exit=on_exit,
     )
     return [view, rviz(given["use_sim_time"])] if given["rviz"].lower() == "true" else [view]
+
+
+def number(name: str, text: str) -> float:
+    """The value of an argument; ValueError where it is no number."""
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(f"{name}:={text} is no number; write one such as {name}:={ARGUMENTS[name][0]}") from None
 
 
 def rviz(use_sim_time: str) -> Node:

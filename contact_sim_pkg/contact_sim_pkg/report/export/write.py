@@ -53,7 +53,8 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
         raise FileRefusedError(out, "exists already and is a file; --out names a folder with a file a topic")
     for name in names if out.exists() else ():
         check_output(out / f"{file_name(name)}.{form}", [bag.path], overwrite=overwrite)
-    tables = [table_of(bag, name) for name in names] if topics else _tables(bag, names)  # what is named is refused first
+    # a topic that is named and has no table is refused before the first file
+    tables = [table_of(bag, name) for name in names] if topics else _tables(bag, names)
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
