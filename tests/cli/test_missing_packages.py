@@ -142,7 +142,7 @@ def test_the_library_raises_an_error_that_holds_the_sentence(tmp_path, use):
     ended = subprocess.run(
         [sys.executable, str(tmp_path / "user.py")], env=environment, capture_output=True, text=True, timeout=LONGEST
     )
-    sentence, venv, pip = ended.stderr.splitlines()
+    sentence, _venv, pip = ended.stderr.splitlines()
     assert sentence.startswith("pydantic is 1.10.2, 2.6 to below 3 is needed; ")
     assert pip == "  pip install 'pydantic<3,>=2.6'"
 
