@@ -6,7 +6,8 @@ import pytest
 from tests.house.source import LABORATORY, PACKAGE, circles, imports, modules
 
 ORDER = (
-    ("files", "public", "python_process", "requirements"),
+    ("requirements",),
+    ("files", "public", "python_process"),
     ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid"), ("excitation",),
     ("scene",), ("bag",), ("run",), ("compare",), ("report",), ("library",), ("rigs", "identify"),
     ("studies", "standard"), ("nodes",), ("cli",),

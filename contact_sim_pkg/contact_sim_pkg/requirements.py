@@ -3,11 +3,23 @@
 from __future__ import annotations
 
 import re
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib.metadata import PackageNotFoundError, requires, version
 from itertools import zip_longest
 from pathlib import Path
+from types import TracebackType
 
-__all__ = ["canonical", "is_met", "is_of_ros", "package_sentence"]
+__all__ = [
+    "PackageError",
+    "canonical",
+    "end_with_sentence",
+    "is_met",
+    "is_of_ros",
+    "package_sentence",
+    "packages_named",
+]
 
 ROS = (
     "rclpy",
@@ -24,15 +36,44 @@ ENVIRONMENT = "python3 -m venv --system-site-packages ~/contact_bench_env && . ~
 _REQUIREMENT = re.compile(r"(?P<name>[\w.-]+)(?P<bounds>[^;]*)(?P<marker>;.*)?")
 
 
+class PackageError(ImportError):
+    """A package is missing or of another version than needed; the sentence holds the cure."""
+
+
+@contextmanager
+def packages_named() -> Iterator[None]:
+    """Raise PackageError in the place of what the use of a package ends in that is missing or of another version."""
+    try:
+        yield
+    except Exception as error:
+        if sentence := package_sentence(error):
+            raise PackageError(sentence) from error
+        raise
+
+
+def end_with_sentence(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+    """The `sys.excepthook` of a program that is started as a module: exit status 2 and the sentence where a package is
+    missing, any other error as usual.
+    """
+    if sentence := package_sentence(error):
+        sys.stderr.write(f"bench: {sentence}\n")
+        raise SystemExit(2)
+    sys.__excepthook__(kind, error, trace)
+
+
 def package_sentence(error: BaseException) -> str:
     """What is missing and the cure, where an error comes from a package that is not there or not of
     a version that the bench needs; empty for any other error. The cure stands in two lines below.
     """
+    if isinstance(error, PackageError):
+        return str(error)
     if isinstance(error, ImportError) and is_of_ros(error):
         return f"{error.name} cannot be imported; source ros2_ws/setup.bash"
     foreign = not type(error).__module__.startswith("contact_sim_pkg")
     if unmet := _unmet() if isinstance(error, (ImportError, *OF_ANOTHER_VERSION)) and foreign else []:
-        found = ", ".join(f"{name} is {here or 'missing'}, {bounds} is needed" for name, here, bounds in unmet)
+        found = ", ".join(
+            f"{name} is {here or 'missing'}, {_in_words(bounds)} is needed" for name, here, bounds in unmet
+        )
         return _with_cure(found, [name + bounds for name, _, bounds in unmet])
     if isinstance(error, ImportError) and error.name and not error.name.startswith("contact_sim_pkg"):
         wanted = [name + bounds for name, bounds in _needed() if _is_package_of(name, error.name)]
@@ -115,6 +156,12 @@ def _is_within(found: str, bounds: str) -> bool:
         if below == (sign == ">="):
             return False
     return True
+
+
+def _in_words(bounds: str) -> str:
+    """`<3,>=2.6` -> `2.6 to below 3`; bounds of another form stay as they are."""
+    found = dict(re.findall(r"(>=|<)\s*([\d.]+)", bounds))
+    return f"{found['>=']} to below {found['<']}" if len(found) == 2 else bounds
 
 
 def _numbers(text: str) -> list[int]:

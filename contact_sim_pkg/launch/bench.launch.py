@@ -17,29 +17,34 @@ from launch.events.process import ProcessExited
 from launch.substitutions import EnvironmentVariable, LaunchConfiguration
 from launch_ros.actions import Node
 
-from contact_sim_pkg.cli.launched import LaunchedRun, arguments_of, options_of
-from contact_sim_pkg.cli.run import command, refuse_without_bag
-from contact_sim_pkg.cli.run_scene import prepare
-from contact_sim_pkg.cli.scene_options import SceneOptions
-from contact_sim_pkg.nodes.processes.environment import LAUNCHED_ENVIRONMENT, plugin_environment
-from contact_sim_pkg.nodes.processes.run_folder import RunFolder
-from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
-from contact_sim_pkg.nodes.processes.scene_file import write_scene
-from contact_sim_pkg.nodes.processes.stop_requests import NODES_SECONDS, STOP_SECONDS
-from contact_sim_pkg.python_process import python_command
+from contact_sim_pkg.requirements import packages_named
 from launch import Action, LaunchContext, LaunchDescription
+
+with packages_named():
+    from contact_sim_pkg.cli.launched import LaunchedRun, arguments_of, options_of, refuse_misspelt
+    from contact_sim_pkg.cli.run import command, refuse_without_bag
+    from contact_sim_pkg.cli.run_scene import prepare
+    from contact_sim_pkg.cli.scene_options import SceneOptions
+    from contact_sim_pkg.nodes.processes.environment import LAUNCHED_ENVIRONMENT, plugin_environment
+    from contact_sim_pkg.nodes.processes.run_folder import RunFolder
+    from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
+    from contact_sim_pkg.nodes.processes.scene_file import write_scene
+    from contact_sim_pkg.nodes.processes.stop_requests import NODES_SECONDS, STOP_SECONDS
+    from contact_sim_pkg.python_process import python_command
 
 ARGUMENTS = arguments_of(command, without=("offline", "json"))
 FIRST_SCENE = "car_full_bench"  # where neither a scene nor a bag is given
 RENAMED = {"bag": "out", "record": "no_record", "publish_clock": "clock"}
 
 
+@packages_named()
 def start_nodes(context: LaunchContext) -> list[Node]:
     """Resolve the scene once, and start the nodes that it needs; the first one that ends badly ends all."""
     given = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}
     for old, new in RENAMED.items():
         if old in context.launch_configurations:
             raise ValueError(f"{old}:= is now {new}:=, as in `bench run`")
+    refuse_misspelt(context.launch_configurations, ARGUMENTS)
     if not given["scene"] and not given["from_bag"]:
         given["scene"] = FIRST_SCENE
     values = options_of(command, given)

@@ -11,18 +11,23 @@ from launch.events.process import ProcessExited
 from launch.substitutions import EnvironmentVariable, LaunchConfiguration
 from launch_ros.actions import Node
 
-from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.cli.launched import arguments_of, options_of
-from contact_sim_pkg.cli.replay import command, parameters_of, rules_of
-from contact_sim_pkg.nodes.processes.children import how_ended
-from contact_sim_pkg.nodes.processes.environment import LAUNCHED_ENVIRONMENT
+from contact_sim_pkg.requirements import packages_named
 from launch import LaunchContext, LaunchDescription
+
+with packages_named():
+    from contact_sim_pkg.bag.reader import open_bag
+    from contact_sim_pkg.cli.launched import arguments_of, options_of, refuse_misspelt
+    from contact_sim_pkg.cli.replay import command, parameters_of, rules_of
+    from contact_sim_pkg.nodes.processes.children import how_ended
+    from contact_sim_pkg.nodes.processes.environment import LAUNCHED_ENVIRONMENT
 
 ARGUMENTS = arguments_of(command)
 
 
+@packages_named()
 def start_node(context: LaunchContext) -> list[Node]:
     """Start the node of the replay."""
+    refuse_misspelt(context.launch_configurations, ARGUMENTS)
     given = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}
     values = options_of(command, given)
     remappings = rules_of(values.pop("remapped"), open_bag(values["bag"]))

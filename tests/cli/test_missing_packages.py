@@ -7,6 +7,7 @@ import sys
 import pytest
 from tests.bench_process import ENVIRONMENT, LONGEST, PACKAGE, needs_ros
 
+from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.requirements import package_sentence
 
 ABSENT = """
@@ -19,7 +20,7 @@ class Absent:
 
 sys.meta_path.insert(0, Absent())
 """
-NODES = ("bag_logger", "bag_replay", "contact_simulator", "road_profile", "vibration")
+NODES = ("bag_logger", "bag_replay", "bench_view", "contact_simulator", "road_profile", "vibration")
 RUN = "import sys; from contact_sim_pkg.cli.main import main; sys.exit(main(sys.argv[1:]))"
 START = "import sys; from contact_sim_pkg.nodes import start; sys.exit(getattr(start, sys.argv.pop(1))())"
 SHORT = ("run", "seat_ride", "--duration", "0.02", "--no-record")
@@ -89,16 +90,60 @@ def test_ros_that_is_there_but_not_sourced_has_the_same_cure():
     assert "source ros2_ws/setup.bash" in package_sentence(error)
 
 
+def put_old_pydantic(folder, content="BaseModel = object\n"):
+    (folder / "pydantic.py").write_text(content)
+    (folder / "pydantic-1.10.2.dist-info").mkdir()
+    (folder / "pydantic-1.10.2.dist-info" / "METADATA").write_text("Name: pydantic\nVersion: 1.10.2\n")
+
+
 @pytest.mark.parametrize("content", ["BaseModel = object\n", "from pydantic_core import nothing_of_that_name\n"])
 def test_an_old_pydantic_is_named_with_the_versions_that_do(tmp_path, content):
-    (tmp_path / "pydantic.py").write_text(content)
-    (tmp_path / "pydantic-1.10.2.dist-info").mkdir()
-    (tmp_path / "pydantic-1.10.2.dist-info" / "METADATA").write_text("Name: pydantic\nVersion: 1.10.2\n")
+    put_old_pydantic(tmp_path, content)
     for program, arguments, name in ((RUN, (*SHORT, "--offline"), "bench"), (RUN, ("list",), "bench")):
         sentence, venv, pip = run(tmp_path, program, *arguments).splitlines()
-        assert sentence.startswith(f"{name}: pydantic is 1.10.2, <3,>=2.6 is needed; ")
+        assert sentence.startswith(f"{name}: pydantic is 1.10.2, 2.6 to below 3 is needed; ")
         assert venv.strip().startswith("python3 -m venv --system-site-packages ")
         assert pip == "  pip install 'pydantic<3,>=2.6'"
+
+
+@needs_ros
+@pytest.mark.parametrize("node", ["contact_simulator", "vibration"])
+def test_a_node_with_an_old_pydantic_says_so_whatever_it_was_doing(tmp_path, node):
+    """The simulator imports it while it is configured, the vibration while it is made."""
+    put_old_pydantic(tmp_path)
+    *_, sentence, venv, pip = run(tmp_path, START, node, "--ros-args", "-p", "scene:=seat_ride").splitlines()
+    assert "pydantic is 1.10.2, 2.6 to below 3 is needed; " in sentence
+    assert venv.strip().startswith("python3 -m venv --system-site-packages ")
+    assert pip == "  pip install 'pydantic<3,>=2.6'"
+
+
+def test_a_node_started_as_a_module_names_what_it_lacks(tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(ABSENT.format(name="rclpy"))
+    environment = {**ENVIRONMENT, "PYTHONPATH": f"{tmp_path}:{ENVIRONMENT['PYTHONPATH']}"}
+    ended = subprocess.run(
+        python_command("contact_sim_pkg.nodes.bench_view"),
+        env=environment, capture_output=True, text=True, timeout=LONGEST,
+    )  # fmt: skip
+    assert ended.returncode == 2
+    assert ended.stderr == (
+        "bench: rclpy cannot be imported; source ros2_ws/setup.bash (`bench run --offline` needs no ROS)\n"
+    )
+
+
+@pytest.mark.parametrize("use", ["bench.load_scene", "bench.run('seat_ride')", "bench.series"])
+def test_the_library_raises_an_error_that_holds_the_sentence(tmp_path, use):
+    put_old_pydantic(tmp_path)
+    (tmp_path / "user.py").write_text(
+        "import contact_sim_pkg as bench\nfrom contact_sim_pkg import run\nbench.run = run\n"
+        f"try:\n    {use}\nexcept ImportError as error:\n    raise SystemExit(str(error))\n"
+    )
+    environment = {**ENVIRONMENT, "PYTHONPATH": f"{tmp_path}:{ENVIRONMENT['PYTHONPATH']}"}
+    ended = subprocess.run(
+        [sys.executable, str(tmp_path / "user.py")], env=environment, capture_output=True, text=True, timeout=LONGEST
+    )
+    sentence, _venv, pip = ended.stderr.splitlines()
+    assert sentence.startswith("pydantic is 1.10.2, 2.6 to below 3 is needed; ")
+    assert pip == "  pip install 'pydantic<3,>=2.6'"
 
 
 @pytest.mark.parametrize(
@@ -149,7 +194,7 @@ def test_every_bound_of_setup_py_is_stated_and_what_lies_below_is_named(monkeypa
             versions = {**lowest, name: found}
             monkeypatch.setattr(requirements, "_version", versions.__getitem__)
             sentence = package_sentence(AttributeError("something"))
-            expected = f"{name} is {found or 'missing'}, >={low}"
+            expected = f"{name} is {found or 'missing'}, {low} to below "
             assert sentence.startswith(expected) == (found != low), (name, found)
             assert requirements.is_met(name) == (found == low)
 
@@ -164,4 +209,4 @@ def test_a_checkout_without_metadata_knows_the_bounds_too(monkeypatch):
     assert dict(requirements._needed())["pydantic"] == ">=2.6,<3"
     assert package_sentence(AttributeError("something")) == ""
     monkeypatch.setattr(requirements, "_version", lambda name: "1.10.14" if name == "pydantic" else "999")
-    assert "pydantic is 1.10.14, >=2.6,<3 is needed" in package_sentence(AttributeError("something"))
+    assert "pydantic is 1.10.14, 2.6 to below 3 is needed" in package_sentence(AttributeError("something"))

@@ -141,6 +141,11 @@ def test_a_bag_that_exists_is_refused_before_a_node_is_started(launch_file, tmp_
     launch_file.start_nodes(context(launch_file, scene="seat_ride", no_record="true"))
     with pytest.raises(click.UsageError, match="--no-record writes none"):
         launch_file.start_nodes(context(launch_file, scene="seat_ride", no_record="true", check="true"))
+    with pytest.raises(ValueError, match="durration:= is no argument of this launch file; did you mean duration:="):
+        launch_file.start_nodes(context(launch_file, scene="seat_ride", durration="1"))
+    launch_file.start_nodes(
+        context(launch_file, scene="seat_ride", no_record="true", robot="of the file that includes")
+    )
     with pytest.raises(ValueError, match="bag:= is now out:="):
         launch_file.start_nodes(context(launch_file, scene="seat_ride", bag=str(tmp_path)))
 

@@ -43,6 +43,28 @@ def test_the_replay_sends_every_message_of_the_bag(recorded, tmp_path):
     assert f"{recorded.count()} of {recorded.count()} messages went out" in nodes.printed[-1]
 
 
+def test_the_view_shows_the_recorded_load_while_somebody_reads(recorded, tmp_path):
+    from std_msgs.msg import Float64
+    from tests.nodes.stand_in import StandIn
+
+    heard: list[Float64] = []
+    nodes = Nodes(resolved("seat_ride"), tmp_path)
+    try:
+        with StandIn("listener", "road/patch") as listener:
+            view = nodes.start("bench_view")
+            nodes.start("bag_replay", bag=recorded.path.parent, loop="true")
+            listener.node.create_subscription(Float64, "view/seat/load", heard.append, 10)
+            listener.spin_until(lambda: nodes.ended() or view.status is not None or len(heard) > 3)
+            assert view.status is None
+            view.process.send_signal(signal.SIGINT)
+            assert nodes.wait("bench_view") == {"bench_view": 0}
+    finally:
+        nodes.end()
+    loads = recorded.columns("seat/force")["normal"]
+    assert heard
+    assert {message.data for message in heard} <= set(loads.ravel().tolist())
+
+
 def test_the_road_is_offered_until_the_node_is_interrupted(tmp_path):
     from tests.nodes.stand_in import StandIn
 

@@ -94,3 +94,19 @@ def test_a_node_with_bad_arguments_ends_with_status_2_and_no_traceback(arguments
     ended = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=LONGEST)
     assert (ended.returncode, "Traceback" in ended.stderr) == (2, False)
     assert sentence in ended.stderr.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    ("node", "assignment", "meant"),
+    [("bench_view", "rat:=10.0", "rate"), ("vibration", "scen:=seat_ride", "scene"),
+     ("contact_simulator", "pase:=max", "pace")],
+)  # fmt: skip
+def test_a_misspelt_parameter_is_refused_with_the_one_that_it_resembles(node, assignment, meant):
+    given = ["-p", "scene:=seat_ride", "-p", "robot:=of_another_node", "-p", assignment]
+    ended = subprocess.run(
+        python_command(f"contact_sim_pkg.nodes.{node}", "--ros-args", *given),
+        env=ENVIRONMENT, capture_output=True, text=True, timeout=LONGEST,
+    )  # fmt: skip
+    name = assignment.partition(":")[0]
+    assert ended.returncode == 2
+    assert f"parameter {name} is none of this node; did you mean {meant}?" in ended.stderr

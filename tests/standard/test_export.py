@@ -6,6 +6,7 @@ from mcap.reader import make_reader
 from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 from ruamel.yaml import YAML
+from tests.bench_process import resolved
 from tests.standard.records import axle_of
 
 from contact_sim_pkg.bag.errors import BagError, MessageError
@@ -14,6 +15,7 @@ from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.wall_time import began_at, export_wall_time, wall_time_texts
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.standard.convert import sample_stamps
 from contact_sim_pkg.standard.export import export_standard
 from contact_sim_pkg.standard.places import places_of
@@ -230,3 +232,49 @@ def test_the_command_writes_both_beside_the_bag_and_never_over_one(recorded_car,
 def test_options_that_do_not_fit_are_refused(recorded_car, capsys, options, sentence):
     assert main(["export", str(recorded_car), *options]) == 2
     assert sentence in capsys.readouterr().err
+
+
+def test_tables_of_the_exported_bag_leave_out_what_has_none_and_say_so(exported_car, tmp_path, capsys):
+    assert main(["export", str(exported_car), "--csv", "--out", str(tmp_path / "all")]) == 0
+    printed = capsys.readouterr()
+    assert "/view/markers has no fields of numbers or texts to write into a table; it is left out" in printed.err
+    names = {path.name for path in (tmp_path / "all").iterdir()}
+    assert {"view_tire_load.csv", "view_imu_seat.csv", "seat_wrench.csv"} <= names
+    assert not {"view_markers.csv", "tf.csv"} & names
+
+    named = ["--topic", "view/tire/load", "--topic", "view/markers"]
+    assert main(["export", str(exported_car), "--csv", *named, "--out", str(tmp_path / "named")]) == 2
+    assert "/view/markers has no fields of numbers" in capsys.readouterr().err
+    assert not (tmp_path / "named").exists(), "refused before the first file"
+
+
+def test_a_bag_is_never_overwritten(exported_car, capsys):
+    assert main(["export", str(exported_car), "--ros-std", "--overwrite"]) == 2
+    assert "--overwrite replaces tables; --ros-std writes a bag, which needs a new --out" in capsys.readouterr().err
+
+
+def test_the_motion_of_a_seat_rig_without_a_tire_is_relative_to_its_floor_and_its_accelerations_are_not(tmp_path):
+    """As `docs/view.md` says: the floor rests in its frame; the second derivative of the way of a body is its
+    acceleration less that of the floor.
+    """
+    run_offline(resolved("seat_ride", "duration=1"), tmp_path / "bag")
+    blocks = [message for _, message in open_bag(tmp_path / "bag").decoded("bench/motion")]
+    bodies = blocks[0].bodies
+
+    def rows(field):
+        return numpy.concatenate([numpy.reshape(getattr(each, field), (len(bodies), -1)) for each in blocks], axis=1)
+
+    floor, seat = bodies.index("floor_z"), bodies.index("seat_frame_z")
+    accelerations = rows("acceleration")
+    assert not rows("position")[floor].any()
+    assert accelerations[floor].std() > 0.1
+    # the mean of an acceleration over ten samples against the change of the velocity
+    changes = numpy.diff(rows("velocity")[seat][::10]) / (10 * blocks[0].sample_period)
+
+    def error(acceleration):
+        means = [
+            0.5 * (a[:-1] + a[1:]).mean() for a in (acceleration[k : k + 11] for k in range(0, 10 * len(changes), 10))
+        ]
+        return numpy.abs(changes - means).max()
+
+    assert error(accelerations[seat] - accelerations[floor]) < 0.1 * error(accelerations[seat])

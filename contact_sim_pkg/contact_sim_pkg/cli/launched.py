@@ -18,9 +18,10 @@ import click
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.unfinished import leave_metadata
 from contact_sim_pkg.nodes.processes.children import how_ended
+from contact_sim_pkg.nodes.processes.misspelt import misspelt
 from contact_sim_pkg.nodes.processes.scene_file import read_reason, write_reason
 
-__all__ = ["Argument", "LaunchedRun", "arguments_of", "options_of"]
+__all__ = ["Argument", "LaunchedRun", "arguments_of", "options_of", "refuse_misspelt"]
 
 SWITCH = ("true", "false", "True", "False")
 TEXTS = {  # of what a command is called with, which has no help of its own
@@ -62,6 +63,14 @@ def options_of(command: click.Command, given: Mapping[str, str]) -> dict[str, An
             return dict(context.params)
     except click.ClickException as error:
         raise ValueError(error.format_message()) from None
+
+
+def refuse_misspelt(given: Iterable[str], known: Iterable[str]) -> None:
+    """Raise ValueError for a launch argument that no one declares and that resembles one of ours. Any other one may
+    belong to the launch file that includes ours.
+    """
+    for name, meant in misspelt(given, known).items():
+        raise ValueError(f"{name}:= is no argument of this launch file; did you mean {meant}:=?")
 
 
 def _name(option: click.Parameter) -> str:

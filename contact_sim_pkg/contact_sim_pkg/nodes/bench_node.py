@@ -4,14 +4,13 @@ itself unless `autostart` is false.
 
 from __future__ import annotations
 
-import traceback
-
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
 from contact_sim_pkg.files import RefusedError
 from contact_sim_pkg.nodes.parameters import declare
+from contact_sim_pkg.nodes.processes.process import end_unexpectedly
 from contact_sim_pkg.nodes.protocol.states import FAULT, REFUSED, NodeError
 from contact_sim_pkg.run.errors import RunError
 
@@ -77,8 +76,7 @@ class LifecycleBenchNode(LifecycleNode):
             self.exit_status = refusal if self._autostart else None
             return TransitionCallbackReturn.FAILURE
         except Exception as error:  # noqa: BLE001  # the lifecycle would swallow it without a word
-            self.get_logger().error(traceback.format_exc())
-            self.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
+            end_unexpectedly(self, error)
             return TransitionCallbackReturn.FAILURE
         return TransitionCallbackReturn.SUCCESS
 

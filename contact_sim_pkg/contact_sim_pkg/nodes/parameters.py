@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 
+from contact_sim_pkg.nodes.processes.misspelt import misspelt
 from contact_sim_pkg.nodes.protocol.pacing import parse_pace
 from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
 
@@ -55,6 +56,15 @@ def _checked(name: str, given: Any, default: Value, allowed: tuple[float, float]
     return value
 
 
+def refuse_misspelt(node: Node) -> None:
+    """Raise NodeError (refused) for a parameter that was given, that the node has not declared, and that resembles one
+    that it has. Any other may be meant for other nodes, as in a file of parameters for all of them.
+    """
+    given, declared = node._parameter_overrides, node._parameters  # rclpy has no public name for them
+    for name, meant in misspelt(given, declared).items():
+        raise NodeError(f"parameter {name} is none of this node; did you mean {meant}?", REFUSED)
+
+
 def declare_scene(node: Node) -> str:
     """The scene that a node works on."""
     scene = declare(node, "scene", "", "Scene: its name, the path of its YAML file, or the path of a resolved scene.")
@@ -75,6 +85,7 @@ def declare_pace(node: Node, of_scene: str | float) -> float:
         pace = str(node.get_parameter("pace").value)
     else:
         pace = _declare_fixed(node, "pace", str(_given(node, "pace", "")), text)
+        refuse_misspelt(node)  # again, with `pace`
     try:
         return parse_pace(pace or of_scene)
     except ValueError as error:

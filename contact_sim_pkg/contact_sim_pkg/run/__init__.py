@@ -8,9 +8,9 @@ from typing import Any
 class _Callable(ModuleType):
     def __call__(self, scene: Any, directory: Any = None) -> Any:
         """As `library.run`, under the name that `from contact_sim_pkg import run` gives it."""
-        from contact_sim_pkg.records.rig import load
+        from contact_sim_pkg.public import on_use
 
-        return load("contact_sim_pkg.library:run")(scene, directory)
+        return on_use("contact_sim_pkg", {"run": "contact_sim_pkg.library:run"})("run")(scene, directory)
 
 
 sys.modules[__name__].__class__ = _Callable

@@ -77,6 +77,10 @@ def _refuse_options_that_do_not_fit(
         "--overwrite": overwrite and not table,
     }
     for option in (option for option, is_wrong in wrong.items() if is_wrong):
+        if option == "--overwrite":
+            raise click.UsageError(
+                f"--overwrite replaces tables; {_named(form)} writes a bag, which needs a new --out."
+            )
         needs = {"--begin": "--wall-time", "--rate": "--ros-std"}.get(option, "")
         raise click.UsageError(
             f"{option} needs {needs}." if needs else f"{option} and {_named(form)} exclude each other."

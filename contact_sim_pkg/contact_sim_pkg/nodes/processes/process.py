@@ -25,10 +25,12 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from contact_sim_pkg.files import RefusedError
+from contact_sim_pkg.nodes.parameters import refuse_misspelt
 from contact_sim_pkg.nodes.processes.run_folder import leave
 from contact_sim_pkg.nodes.processes.scene_file import write_reason
 from contact_sim_pkg.nodes.protocol.endpoints import raise_kept
 from contact_sim_pkg.nodes.protocol.states import FAULT, REFUSED, NodeError
+from contact_sim_pkg.requirements import package_sentence
 from contact_sim_pkg.run.errors import RunError
 
 LONGEST_WAIT = 0.05  # [s] between two looks at signals and at the parent
@@ -178,6 +180,7 @@ def run(*make_nodes: Callable[[], Any], args: Sequence[str] | None = None) -> in
             if node.computes:
                 signals.leave_what_computes(node)
                 use_usual_policy()
+            refuse_misspelt(node)
             node.start()
         signals.breaks_off = False
         return _spin(nodes, signals)
@@ -246,9 +249,19 @@ def _guarded(node: Any, action: Callable[..., Any], *arguments: Any) -> Any:
     except (ExternalShutdownException, rclpy_implementation.RCLError):
         raise
     except Exception as error:  # noqa: BLE001  # the boundary of a node: named once, the bag closed
-        node.get_logger().error(traceback.format_exc())
-        node.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
+        end_unexpectedly(node, error)
     return 0.0
+
+
+def end_unexpectedly(node: Any, error: Exception) -> None:
+    """End a node for an error that no one has foreseen, with its traceback; for a package that is missing or too old,
+    with its sentence.
+    """
+    if sentence := package_sentence(error):
+        node.fault(sentence, REFUSED)
+        return
+    node.get_logger().error("".join(traceback.format_exception(error)))
+    node.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
 
 
 def _run_on(nodes: Sequence[Any]) -> bool:

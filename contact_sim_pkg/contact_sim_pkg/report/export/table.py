@@ -12,7 +12,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.records.definitions import HEADER, Field, parsed
 
-__all__ = ["Map", "TopicColumn", "TopicTable", "stamp_of", "table_of"]
+__all__ = ["Map", "NoTableError", "TopicColumn", "TopicTable", "stamp_of", "table_of"]
 
 PERIODS = ("sample_period", "period")
 """Fields that hold the time between the samples of a message."""
@@ -25,6 +25,10 @@ UNITS = {
 """Units of standard messages, which do not state them."""
 LONGEST_ROW = 16
 """Elements of an array of a foreign message that become columns of their own."""
+
+
+class NoTableError(BagError):
+    """A topic has nothing that a table can hold, such as markers alone."""
 
 
 class TopicColumn(NamedTuple):
@@ -205,5 +209,5 @@ def _foreign(bag: Bag, topic: str) -> TopicTable:
         elif values.ndim == 2 and values.shape[1] <= LONGEST_ROW:
             found += [TopicColumn(f"{name}.{place}", unit, values[:, place]) for place in range(values.shape[1])]
     if len(found) == 1:
-        raise BagError(f"{bag.path}: {topic} has no fields of numbers or texts to write into a table")
+        raise NoTableError(f"{bag.path}: {topic} has no fields of numbers or texts to write into a table")
     return TopicTable(topic, found, [])

@@ -16,7 +16,7 @@ import numpy as np
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.files import FileRefusedError, check_output, new_file, wrong_name
-from contact_sim_pkg.report.export.table import Map, TopicTable, stamp_of, table_of
+from contact_sim_pkg.report.export.table import Map, NoTableError, TopicTable, stamp_of, table_of
 
 __all__ = ["CSV", "PARQUET", "export"]
 
@@ -31,7 +31,7 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
     Args:
         bag: to read.
         form: `CSV` or `PARQUET`; maps are CSV in both.
-        topics: all where it is empty.
+        topics: all where it is empty, but those that have nothing for a table: `bag.notes` names them.
         out: folder, made where it does not exist.
         overwrite: replace files that exist.
 
@@ -39,7 +39,7 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
         Each file when it is written.
 
     Raises:
-        BagError: no such topic, nothing recorded, or Parquet without pyarrow.
+        BagError: no such topic, one that has nothing for a table, nothing recorded, or Parquet without pyarrow.
         FileRefusedError: a file exists, or `out` is one.
     """
     if form == PARQUET and find_spec("pyarrow") is None:
@@ -51,26 +51,35 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
         raise FileRefusedError(out, reason)
     if out.exists() and not out.is_dir():
         raise FileRefusedError(out, "exists already and is a file; --out names a folder with a file a topic")
-    files = [out / f"{file_name(name)}.{form}" for name in names]
-    for file in files:
-        if out.exists():
-            check_output(file, [bag.path], overwrite=overwrite)
+    for name in names if out.exists() else ():
+        check_output(out / f"{file_name(name)}.{form}", [bag.path], overwrite=overwrite)
+    # a topic that is named and has no table is refused before the first file
+    tables = [table_of(bag, name) for name in names] if topics else _tables(bag, names)
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FileRefusedError(out, f"cannot be made: {error.strerror}") from error
     write = _write_parquet if form == PARQUET else _write_csv
-    for name, file in zip(names, files, strict=True):
-        table = table_of(bag, name)
+    for table in tables:
+        file = out / f"{file_name(table.topic)}.{form}"
         if table.columns:
             with new_file(file, [bag.path], overwrite=overwrite) as stream:
                 write(table, stream)
             yield file
         for each in table.maps:
-            place = out / f"{file_name(name)}_{each.name}.csv"
+            place = out / f"{file_name(table.topic)}_{each.name}.csv"
             with new_file(place, [bag.path], overwrite=overwrite) as stream:
-                _write_map(bag, name, each, stream)
+                _write_map(bag, table.topic, each, stream)
             yield place
+
+
+def _tables(bag: Bag, names: Sequence[str]) -> Iterator[TopicTable]:
+    """The tables of topics; a note in the bag says which ones have nothing for a table."""
+    for name in names:
+        try:
+            yield table_of(bag, name)
+        except NoTableError as error:
+            bag.notes.append(f"{error}; it is left out")
 
 
 def file_name(topic: str) -> str:
