@@ -127,6 +127,9 @@ def test_a_number_is_judged_by_its_tolerance():
     assert number._replace(obtained=None).verdict == "not reached"
     assert number._replace(expected=None).verdict == NO_REFERENCE
     assert number.difference == pytest.approx(0.02)
+    nothing = number._replace(expected=0.0)
+    assert (nothing.difference, nothing.verdict) == (math.inf, "OUTSIDE")
+    assert nothing._replace(obtained=0.0).verdict == "inside"
 
 
 def test_a_list_and_a_whole_number_are_read():
