@@ -196,7 +196,8 @@ STRESS_FIGURES = tuple(
             f"scene {SCENE}", "contact_sim_pkg.rigs.roller.theory.stress:bench_stresses",
             "contact_sim_pkg.rigs.roller.theory.volumes:dangerous_volumes",
         ),
-        "stress at 12 places by quadrature, 1e-3 p₀; V_zz and V_xz by that quadrature, V_T by refinement, 1 %, more where few points are dangerous"
+        "stress at 12 places by quadrature, 1e-3 p₀; V_zz and V_xz by that quadrature, V_T by refinement, 1 %, "
+        "more where few points are dangerous"
         + ("; largest |σ_xz| 0.203 p₀" if time in SHEAR_OVER_PEAK else ""),
         partial(_compute, time), parameters=LIMITS,
     )
