@@ -93,7 +93,11 @@ def evaluate(equation: Equation, values: Mapping[str, Any]) -> dict[str, Any]:
     try:
         answer = call(**arguments)
     except (ValueError, ArithmeticError) as error:
-        raise PaperError(f"equation {equation.number}: {error}") from error
+        lists = {key: len(value) for key, value in values.items() if isinstance(value, tuple)}
+        said = str(error)
+        if "broadcast" in said and len(set(lists.values())) > 1:
+            said = f"{', '.join(f'{key} has {count}' for key, count in lists.items())} values; give lists of the same length"
+        raise PaperError(f"equation {equation.number}: {said}") from error
     parts = answer if isinstance(answer, tuple) else (answer,)
     return {name: _plain(part) for (name, _), part in zip(equation.results, parts, strict=True)}
 

@@ -78,6 +78,7 @@ def test_numbers_of_an_equation_are_unique():
         ("tire-road", "9-printed", [], "approach", 9.8919e-3 * 3.0 ** (-2.0 / 3.0), 1e-6),
         ("tire-road", "10", ["load=4000"], "force", 400.0, 1e-9),
         ("rolling-contact", "18", ["damping=0"], "growth rate", 0.4557, 5e-5),
+        ("rolling-contact", "18", ["damping=0"], "critical load", 0.0, 0.0),
         ("rolling-contact", "10", ["omega=0.9"], "b/a exact", 0.14896, 5e-6),
         ("driver-seat", "2", ["half_axes_1=1,1,1", "half_axes_2=1,1,1", "centre_2=1.5,0,0"], "d", 0.5, 1e-9),
         ("driver-seat", "8-damping", ["restitution=0.5", "impact_speed=1"], "λ", 1.43275, 5e-6),
