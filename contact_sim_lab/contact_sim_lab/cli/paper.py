@@ -128,16 +128,16 @@ def _contents(paper: Paper, as_json: bool) -> None:
 def _figure(
     paper: Paper, number: str, given: Sequence[str], output: Path | None, overwrite: bool, as_json: bool
 ) -> None:
-    from contact_sim_lab.papers.registry import figure_of, values_of
+    from contact_sim_lab.papers.registry import drawn, figure_of, values_of
     from contact_sim_pkg.records.table import Section
 
     figure = figure_of(paper, number)
     owner = f"{paper.key}, figure {number}"
     values = values_of(owner, figure.parameters, given)
     place = _output(output, f"{paper.key}_figure_{number}.png", overwrite)
-    drawn = figure.compute(values)
-    rows = [each.row() for each in drawn.numbers]
-    save(place, drawn.draw, drawn.size, overwrite=overwrite)
+    found = drawn(figure, values)
+    rows = [each.row() for each in found.numbers]
+    save(place, found.draw, found.size, overwrite=overwrite)
     if as_json:
         print_json({
             "paper": paper.key, "figure": number, "title": figure.title, "kind": figure.kind, "judged_by": figure.judged_by,

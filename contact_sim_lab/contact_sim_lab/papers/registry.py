@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy
 
-from contact_sim_lab.records.paper import Equation, Figure, Paper, PaperError, Parameter, System
+from contact_sim_lab.records.paper import Drawn, Equation, Figure, Paper, PaperError, Parameter, System
 from contact_sim_pkg.files import printable
 
 __all__ = ["PAPERS", "equation_of", "evaluate", "figure_of", "load", "paper_of", "papers", "system_of", "values_of"]
@@ -93,9 +93,23 @@ def evaluate(equation: Equation, values: Mapping[str, Any]) -> dict[str, Any]:
     try:
         answer = call(**arguments)
     except (ValueError, ArithmeticError) as error:
-        raise PaperError(f"equation {equation.number}: {error}") from error
+        lists = {key: len(value) for key, value in values.items() if isinstance(value, tuple)}
+        said = str(error)
+        if "broadcast" in said and len(set(lists.values())) > 1:
+            said = f"{', '.join(f'{key} has {count}' for key, count in lists.items())} values; give lists of the same length"
+        raise PaperError(f"equation {equation.number}: {said}") from error
     parts = answer if isinstance(answer, tuple) else (answer,)
     return {name: _plain(part) for (name, _), part in zip(equation.results, parts, strict=True)}
+
+
+def drawn(figure: Figure, values: Mapping[str, Any]) -> Drawn:
+    """A figure computed with these values; PaperError where what it shows refuses them."""
+    try:
+        return figure.compute(values)
+    except PaperError:
+        raise
+    except (ValueError, ArithmeticError) as error:
+        raise PaperError(f"figure {figure.number}: {error}") from error
 
 
 def _plain(value: Any) -> Any:

@@ -128,10 +128,15 @@ class Number(NamedTuple):
 
     @property
     def difference(self) -> float | None:
-        """Obtained minus expected, divided by it where the tolerance is relative."""
+        """Obtained minus expected, divided by it where the tolerance is relative: infinite where nothing is expected
+        and something is obtained.
+        """
         if self.obtained is None or self.expected is None:
             return None
-        return (self.obtained - self.expected) / (abs(self.expected) if self.relative else 1.0)
+        missed = self.obtained - self.expected
+        if not self.relative or missed == 0.0:
+            return missed
+        return missed / abs(self.expected) if self.expected else math.copysign(math.inf, missed)
 
     @property
     def verdict(self) -> str:

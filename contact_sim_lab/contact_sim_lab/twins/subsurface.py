@@ -6,23 +6,33 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy
 import scipy.integrate
 from numpy.typing import NDArray
 
-__all__ = ["circle_axis", "line_axis", "normal_point", "rectangle", "tangential_point", "under_ellipse"]
+__all__ = [
+    "circle_axis",
+    "line_axis",
+    "normal_point",
+    "rectangle",
+    "tangential_point",
+    "tensor_under_ellipse",
+    "under_ellipse",
+]
 
 Six = tuple[float, float, float, float, float, float]
+Points = NDArray[numpy.float64]
 
 
-def normal_point(x: float, y: float, z: float, nu: float) -> Six:
+def normal_point(x: Any, y: Any, z: float, nu: float) -> tuple[Any, Any, Any, Any, Any, Any]:
     """xx, yy, zz, xy, xz, yz of a unit force into the body (Boussinesq; Johnson 1985, eqs 3.18 in
     Cartesian form).
 
-    x, y, z: [m]; the result: [1/m^2].
+    x, y, z: [m], x and y also arrays; the result: [1/m^2].
     """
-    r = math.sqrt(x * x + y * y + z * z)
+    r = (x * x + y * y + z * z) ** 0.5
     s, q = 1.0 - 2.0 * nu, r * (r + z)
     bend = (2 * r + z) / (r**3 * (r + z) ** 2)
     shear = 3 * x * y * z / r**5 - s * bend * x * y
@@ -72,12 +82,10 @@ def rectangle(
     return values
 
 
-def under_ellipse(half_axes: tuple[float, float], points: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-    """zz and xz over p0 [2, n] [1] at ``points`` [n, 3] [m] below the pressure ``p0 sqrt(1 - r^2)`` of
-    an ellipse.
+def _forces_of_ellipse(half_axes: tuple[float, float]) -> tuple[Points, Points, Points]:
+    """Places along x and y [40, 80] [m] and forces [40, 1] [m^2] over p0 of the pressure ``p0 sqrt(1 - r^2)``.
 
-    Boussinesq's point forces over r = sin(pi s/2), Gauss in s, which removes the root at the edge, and
-    evenly round the ellipse: within 1e-6 from a depth of 0.2 semi-axes on. half_axes: [m] along x, y.
+    r = sin(pi s/2), Gauss in s, which removes the root at the edge, and evenly round the ellipse.
     """
     nodes, weights = numpy.polynomial.legendre.leggauss(40)
     angles = 2.0 * math.pi * (numpy.arange(80) + 0.5) / 80
@@ -85,11 +93,27 @@ def under_ellipse(half_axes: tuple[float, float], points: NDArray[numpy.float64]
     r, a, b = numpy.sin(half_turn), *half_axes
     # Pressure cos(pi s/2), area a b r dr dphi with dr = pi/2 cos(pi s/2) ds.
     force = 0.25 * math.pi * weights * r * numpy.cos(half_turn) ** 2 * a * b * 2.0 * math.pi / 80
-    xi, eta, shares = numpy.outer(a * r, numpy.cos(angles)), numpy.outer(b * r, numpy.sin(angles)), force[:, None]
+    return numpy.outer(a * r, numpy.cos(angles)), numpy.outer(b * r, numpy.sin(angles)), force[:, None]
+
+
+def under_ellipse(half_axes: tuple[float, float], points: Points) -> Points:
+    """zz and xz over p0 [2, n] [1] at ``points`` [n, 3] [m] below the pressure of an ellipse.
+
+    Boussinesq's point forces at `_forces_of_ellipse`: within 1e-6 from a depth of 0.2 semi-axes on.
+    half_axes: [m] along x, y.
+    """
+    xi, eta, shares = _forces_of_ellipse(half_axes)
     found = []
     for x, y, z in points:
         common = -1.5 / math.pi * shares * z**2 * ((x - xi) ** 2 + (y - eta) ** 2 + z**2) ** -2.5
         found.append((numpy.sum(z * common), numpy.sum((x - xi) * common)))
+    return numpy.array(found).T
+
+
+def tensor_under_ellipse(half_axes: tuple[float, float], points: Points, nu: float) -> Points:
+    """xx, yy, zz, xy, xz, yz over p0 [6, n] [1], as `under_ellipse`."""
+    xi, eta, shares = _forces_of_ellipse(half_axes)
+    found = [[numpy.sum(shares * part) for part in normal_point(x - xi, y - eta, z, nu)] for x, y, z in points]
     return numpy.array(found).T
 
 

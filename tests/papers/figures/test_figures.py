@@ -9,7 +9,13 @@ from contact_sim_lab.papers.registry import figure_of, paper_of
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.files import FileRefusedError
 
-QUICK = [("contact-area", "4"), ("contact-area", "5"), ("rolling-contact", "9"), ("tire-road", "2")]
+QUICK = [
+    ("contact-area", "4"),
+    ("contact-area", "5"),
+    ("rolling-contact", "9"),
+    ("tire-road", "2"),
+    ("driver-seat", "7"),
+]
 
 
 @pytest.mark.parametrize(("key", "number"), QUICK)
@@ -64,6 +70,12 @@ def test_the_command_draws_and_prints(tmp_path, capsys, monkeypatch):
         (["contact-area", "--figure", "1"], "'1': unknown"),
         (["contact-area", "--equation", "115", "--set", "loss=1"], "--set 'loss': unknown"),
         (["contact-area", "--equation", "115", "--set", "loss_tangent=-1"], "loss_tangent -1.0: "),
+        (
+            ["tire-road", "--equation", "5", "--set", "x=0,1", "--set", "y=0,0,0"],
+            "x has 2, y has 3 values; give lists of the same length",
+        ),
+        (["contact-area", "--figure", "5", "--set", "speed=1e200"], "speed 1e+200 m/s"),
+        (["contact-area", "--figure", "5", "--set", "speed=1e3"], "figure 5: depth over radius"),
         (["contact-area", "--figure", "4", "--equation", "5"], "do not go together"),
         (["--figure", "4"], "needs a PAPER"),
         (["contact-area", "--set", "a=1"], "--set needs"),

@@ -78,6 +78,7 @@ def test_numbers_of_an_equation_are_unique():
         ("tire-road", "9-printed", [], "approach", 9.8919e-3 * 3.0 ** (-2.0 / 3.0), 1e-6),
         ("tire-road", "10", ["load=4000"], "force", 400.0, 1e-9),
         ("rolling-contact", "18", ["damping=0"], "growth rate", 0.4557, 5e-5),
+        ("rolling-contact", "18", ["damping=0"], "critical load", 0.0, 0.0),
         ("rolling-contact", "10", ["omega=0.9"], "b/a exact", 0.14896, 5e-6),
         ("driver-seat", "2", ["half_axes_1=1,1,1", "half_axes_2=1,1,1", "centre_2=1.5,0,0"], "d", 0.5, 1e-9),
         ("driver-seat", "8-damping", ["restitution=0.5", "impact_speed=1"], "λ", 1.43275, 5e-6),
@@ -127,6 +128,9 @@ def test_a_number_is_judged_by_its_tolerance():
     assert number._replace(obtained=None).verdict == "not reached"
     assert number._replace(expected=None).verdict == NO_REFERENCE
     assert number.difference == pytest.approx(0.02)
+    nothing = number._replace(expected=0.0)
+    assert (nothing.difference, nothing.verdict) == (math.inf, "OUTSIDE")
+    assert nothing._replace(obtained=0.0).verdict == "inside"
 
 
 def test_a_list_and_a_whole_number_are_read():

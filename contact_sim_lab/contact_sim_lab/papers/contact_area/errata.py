@@ -24,8 +24,8 @@ ERRATA: tuple[Erratum, ...] = (
         "derivation",
         "at equal modulus the model is √2 stiffer than Hertz; the bench says which modulus is meant",
     ),
-    Erratum("3", "(R2² - (x2+h_x))²", "(R2 - (x2+h_x))²", "units", "dimension"),
-    Erratum("19", "1/κ1'", "1/K1'", "reading", "symbol"),
+    Erratum("3", "(R2² - (x2+h_x))²", "(R2 - (x2+h_x))²", "units", "R2² is an area, x2 + h_x a length"),
+    Erratum("19", "1/κ1'", "1/K1'", "reading", "κ1' is not defined; the bulk modulus K1' is meant, no number changes"),
     Erratum(
         "26 (numbers)", "α_h = 0.04186, h_x = 0.952 x1", "0.04180, 0.979 x1", "a number", "sqrt(1-0.0418) = 0.97888"
     ),
@@ -41,9 +41,15 @@ ERRATA: tuple[Erratum, ...] = (
         '"Variant 1", α_h = 0.03739 ≈ 0.047',
         "variant 2, 0.0374; h_x = 0.9626 x1 is right",
         "a number",
-        "see the figures",
+        "0.0374 is not 0.047, and h_x belongs to the border of variant 2, by 26 % in α_h",
     ),
-    Erratum("34", "E1' missing in the last term, R1 for R", "as in eq 35", "units", "units"),
+    Erratum(
+        "34",
+        "E1' missing in the last term, R1 for R",
+        "as in eq 35",
+        "units",
+        "without E1' the last term has no unit of the others; one radius R is used throughout",
+    ),
     Erratum("37 (text)", "S = πk_h²R x1", "πk_h²R h_x", "derivation", "the integral beside it uses h_x"),
     Erratum("45", "ρ_c = ρ0(1+1/K')", "ρ0(1+Δp/K')", "units", "a modulus cannot be added to 1"),
     Erratum(
@@ -51,7 +57,7 @@ ERRATA: tuple[Erratum, ...] = (
         "a_k = (K'+1)/(K'-1)",
         "(K'+p)/(K'-p), p = mean contact pressure",
         "units",
-        "same; in Pa the printed value is 1 to 7 digits, in GPa it is not; p ≥ K' is refused",
+        "a modulus cannot be added to 1; in Pa the printed value is 1 to 7 digits, in GPa it is not; p ≥ K' is refused",
     ),
     Erratum(
         "56",
@@ -121,11 +127,17 @@ ERRATA: tuple[Erratum, ...] = (
         "a number",
         (
             "line average used instead of area average: the printed stress carries only 75 % of the force; 1.5 "
-            "belongs to sqrt(1-ρ²)."
+            "belongs to sqrt(1-ρ²)"
         ),
     ),
     Erratum("87*", "f = t τ_KE/τ_x", "argument ω(t - tτ_KE/τ_x) as in 88a", "derivation", "no number changes"),
-    Erratum("88b", "not the derivative of 88a", "factor (1-τ_KE/τ_x) on the cosine", "derivation", "differentiate"),
+    Erratum(
+        "88b",
+        "not the derivative of 88a",
+        "factor (1-τ_KE/τ_x) on the cosine",
+        "derivation",
+        "the chain rule on the argument of 88a gives the factor",
+    ),
     Erratum(
         "96, 98, 100",
         "+ tanβ sin",
@@ -152,8 +164,14 @@ ERRATA: tuple[Erratum, ...] = (
             "is poor: the exact constant at k = 1 is 13.93/(τ^{5/2}…) instead of 30.0. The bench has all three"
         ),
     ),
-    Erratum("107", "2.3, gas constant named twice", "ln 10, R_g", "a number", "0.11 %"),
-    Erratum("108, 112, 113", "ε(t'), dF(t)/dt'", "ε(t), dF(t')/dt'", "derivation", "integration variable"),
+    Erratum("107", "2.3, gas constant named twice", "ln 10, R_g", "a number", "2.3 is 0.11 % below ln 10"),
+    Erratum(
+        "108, 112, 113",
+        "ε(t'), dF(t)/dt'",
+        "ε(t), dF(t')/dt'",
+        "derivation",
+        "t' is the variable of integration: the strain left of the sign cannot hold it",
+    ),
     Erratum(
         "112", "3(1-ν)/4 with J = 1/G + …", "3(1-ν)/8 with that J", "derivation", "at t = 0+ eq 112 gives twice eq 110"
     ),

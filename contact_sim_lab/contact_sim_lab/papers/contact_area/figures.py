@@ -27,10 +27,10 @@ INSIDE = 1e-5
 CHOICE = (0.02, 0.01, 8.0e6, 0.2, 2.0)  # mass, radius, E', tan beta, V0 of the paper's missing data, as chosen
 
 PARAMETERS = (
-    Parameter("speed", "m/s", 2.0, above=0.0, help="V0"),
-    Parameter("mass", "kg", 0.02, above=0.0),
-    Parameter("radius", "m", 0.01, above=0.0),
-    Parameter("storage_modulus", "Pa", 8.0e6, above=0.0, help="E' of both bodies in series"),
+    Parameter("speed", "m/s", 2.0, least=1e-6, most=1e3, help="V0"),
+    Parameter("mass", "kg", 0.02, least=1e-9, most=1e6),
+    Parameter("radius", "m", 0.01, least=1e-6, most=1e3),
+    Parameter("storage_modulus", "Pa", 8.0e6, least=1e3, most=1e12, help="E' of both bodies in series"),
     Parameter("loss_tangent", "", 0.2, least=0.0, most=6.0, help="tan β"),
 )
 

@@ -27,7 +27,7 @@ ERRATA: tuple[Erratum, ...] = (
         "F_c as traction in the first bracket, transverse shear N3 in the second",
         "units",
         (
-            "units: first bracket N/m², second N/m; a force in N fits neither without the Dirac distribution, and "
+            "first bracket N/m², second N/m; a force in N fits neither without the Dirac distribution, and "
             "a normal force does work on u, not on the director at mid-surface"
         ),
     ),
@@ -47,7 +47,6 @@ ERRATA: tuple[Erratum, ...] = (
         "a limit",
         "over the whole collision -∫Fδ̇dt = W_c+W_r < 0 and eq 11 would take the root of a negative number",
     ),
-    Erratum("11", "as it stands", "correct with those limits", "derivation", "equals v_out/v_in for one mass"),
     Erratum(
         "12, 13",
         "S_lin has a factor 2 and k = 0..n; A5 has neither",
@@ -56,7 +55,7 @@ ERRATA: tuple[Erratum, ...] = (
         "the two cannot both hold",
     ),
     Erratum("13", "argument ω_k ζ", "ω_k t + phase", "derivation", "ζ is already the thickness coordinate"),
-    Erratum("A3", "index runs to N", "to n", "reading", "one name for the number of phases"),
+    Erratum("A3", "index runs to N", "to n", "reading", "n is the number of phases in A1 and A2; no number changes"),
     Erratum(
         "A4, A6",
         "second derivative in t, A1 in x",

@@ -7,10 +7,16 @@ from contact_sim_lab.records.paper import Erratum
 __all__ = ["ERRATA"]
 
 ERRATA: tuple[Erratum, ...] = (
-    Erratum("2", "0 = z g(z)", "zᵀg(z) = 0", "derivation", "vectors"),
+    Erratum(
+        "2", "0 = z g(z)", "zᵀg(z) = 0", "derivation", "z and g(z) are vectors: only their scalar product is a number"
+    ),
     Erratum("4, 8", "+k(q,v)", "-k with k = (0, ω×Iω)", "derivation", "eqs 9, 14, 15 use minus; Euler's equation"),
     Erratum(
-        "5", "ψ(c_t) ≤ μ c_n, FC0 with ψ ≤ μ", "consistent once c_t is divided by c_n", "derivation", "homogeneity"
+        "5",
+        "ψ(c_t) ≤ μ c_n, FC0 with ψ ≤ μ",
+        "ψ(c_t/c_n) ≤ μ in FC0",
+        "derivation",
+        "ψ is homogeneous of degree one: both agree once c_t is divided by c_n",
     ),
     Erratum(
         "6, 7",
@@ -40,7 +46,13 @@ ERRATA: tuple[Erratum, ...] = (
         "v holds ω, which is no derivative of coordinates in space",
     ),
     Erratum("9", "ε J_nᵀv_k", "ε min(0, J_nᵀv_k)", "derivation", "a contact that separates would be allowed to close"),
-    Erratum("13", "right side -J_nᵀb", "-(J_nᵀb + εJ_nᵀv_k)", "derivation", "eq 9"),
+    Erratum(
+        "13",
+        "right side -J_nᵀb",
+        "-(J_nᵀb + εJ_nᵀv_k)",
+        "derivation",
+        "eq 9 has the second term, by which the bounce enters",
+    ),
     Erratum(
         "17",
         "c_n = +[…]/[…]",
@@ -48,7 +60,13 @@ ERRATA: tuple[Erratum, ...] = (
         "derivation",
         "approaching gives J_nᵀv_k < 0 and c_n must be positive",
     ),
-    Erratum("18, 26, 28, 30, 39", "same sign, no ε", "as above", "derivation", "inherited"),
+    Erratum(
+        "18, 26, 28, 30, 39",
+        "plus sign before the fraction, no ε",
+        "minus sign, (1+ε), as in eq 17",
+        "derivation",
+        "they are made from eq 17 and take over its sign",
+    ),
     Erratum(
         "23, 26, 38, 39",
         "lower block without the gyroscopic change of ω",
@@ -57,7 +75,13 @@ ERRATA: tuple[Erratum, ...] = (
         "eq 18 contains it; zero only in the plane",
     ),
     Erratum("30", "J̌n without transpose", "J̌nᵀ", "derivation", "no number changes"),
-    Erratum("35", '+ h∂H, factor m, no k, "check H"', "-h∂H, 1/m, include -hM⁻¹k, hat H", "derivation", "from eq 14"),
+    Erratum(
+        "35",
+        '+ h∂H, factor m, no k, "check H"',
+        "-h∂H, 1/m, include -hM⁻¹k, hat H",
+        "derivation",
+        "what eq 14 gives for these rows",
+    ),
     Erratum(
         "32",
         "0 < c_t",
@@ -65,12 +89,20 @@ ERRATA: tuple[Erratum, ...] = (
         "derivation",
         "eq 33 solves for one signed c_t",
     ),
-    Erratum("33-38", "no ε", "first component J_nᵀb + εJ_nᵀv_k", "derivation", "eq 9"),
+    Erratum(
+        "33-38",
+        "no ε",
+        "first component J_nᵀb + εJ_nᵀv_k",
+        "derivation",
+        "eq 9 has it: without, every bounce is perfectly plastic",
+    ),
     Erratum(
         "33-38", "one J_t", "in space two columns, 3×3 system", "derivation", "one column leaves the slip across it"
     ),
-    Erratum("35, 36, 38, 39", "RᵀmI0⁻¹R", "R mI0⁻¹Rᵀ", "derivation", "eq 19 (R body to world)"),
-    Erratum("38", "J (6 entries) with a 3x3 matrix", "J̌", "units", "size"),
+    Erratum("35, 36, 38, 39", "RᵀmI0⁻¹R", "R mI0⁻¹Rᵀ", "derivation", "R turns from body to world in eq 19"),
+    Erratum(
+        "38", "J (6 entries) with a 3x3 matrix", "J̌ (3 entries)", "units", "6 entries do not multiply a 3×3 matrix"
+    ),
     Erratum(
         "38", "1/Δ", "1/(m²Δ)", "a number", "its products are m times those in Δ; checked: error 0 against order 1"
     ),
@@ -83,14 +115,20 @@ ERRATA: tuple[Erratum, ...] = (
     ),
     Erratum(
         "29",
-        "as it stands",
+        "signs of ξ3 and h, no (1+ε)",
         "correct after ξ3 → -ξ3 and h → -h in the right sides, (1+ε) in ξ3, and Ξ̌ with the gyroscopic term",
         "a number",
         "numerator of eq 17 changes sign as a whole; residual 1e-16, with ξ3 alone 1e-4",
     ),
     Erratum("42", "sign from x and θ", "opposite to the slip velocity J_tᵀv⁺", "derivation", "maximum dissipation"),
-    Erratum("44", "third line a product", "plus sign between v_θ and the rest", "units", "units"),
-    Erratum("45 and text", "β", "c_t", "reading", "leftover symbol"),
+    Erratum(
+        "44",
+        "third line a product",
+        "plus sign between v_θ and the rest",
+        "units",
+        "an angular velocity times an impulse over an inertia is no angular velocity",
+    ),
+    Erratum("45 and text", "β", "c_t", "reading", "β is defined nowhere in the section; no number changes"),
     Erratum(
         "conclusion",
         'Π "uniquely"',
@@ -103,7 +141,13 @@ ERRATA: tuple[Erratum, ...] = (
         "sliding and sticking alike",
         "one sticking step with a known force does not separate m and J",
         "derivation",
-        "counting",
+        "two unknowns, one equation: the tangential velocity is zero whatever they are",
     ),
-    Erratum("II", "event-driven = penalty", "penalty methods penalise penetration", "reading", "naming only"),
+    Erratum(
+        "II",
+        "event-driven = penalty",
+        "penalty methods penalise penetration, event-driven ones find the instants of contact",
+        "reading",
+        "no number changes",
+    ),
 )

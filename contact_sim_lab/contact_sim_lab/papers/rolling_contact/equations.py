@@ -78,10 +78,16 @@ def _roller(
     )  # fmt: skip
 
 
+LEAST_LOAD = 1e-3
+"""[N] below which a critical load is none: without damping the motion grows at any load."""
+
+
 def _stability(load: float, **suspension: float) -> tuple[float, float, float, float]:
     roller = _roller(**suspension)
     found = stability.stability(roller, CURVATURES, None, MODULUS, load)
     critical = stability.critical_load(roller, CURVATURES, None, MODULUS, 1.0e4)
+    if critical is not None and critical < LEAST_LOAD:  # the floor of the search
+        critical = 0.0
     try:
         damping = stability.critical_damping(roller, CURVATURES, None, MODULUS, load)
     except stability.RollerError:
@@ -181,7 +187,8 @@ EQUATIONS: tuple[Equation, ...] = (
              lambda load, tilt: moments.moments_of_straight(ROLLER, load, tilt)),
     Equation("17", "moments with the friction of the bent shaft", "M_ψ^σ = −f0 Q π a b h/J_y R cos ψ (A − l + R sin ψ), …",
              f"{THEORY}.moments:moments", (LOAD, *BENT, SUSPENSION[3]), (("M_ψ", "N m"), ("M_θ", "N m")), _moments),
-    Equation("18", "stability of tilt and yaw", "I_y ψ̈ + iω θ̇ + k1 ψ = 0, I_z θ̈ − iω ψ̇ + k2 θ − c ψ = 0",
+    Equation("18", "stability of tilt and yaw; a critical load of 0: unstable at any load",
+             "I_y ψ̈ + iω θ̇ + k1 ψ = 0, I_z θ̈ − iω ψ̇ + k2 θ − c ψ = 0",
              f"{THEORY}.stability:stability",
              (PRESSED._replace(default=300.0), *SUSPENSION),
              (("growth rate", "1/s"), ("frequency", "Hz"), ("critical load", "N"), ("critical damping", "N m s")), _stability),

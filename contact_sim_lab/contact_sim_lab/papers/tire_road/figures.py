@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_lab.records.paper import Drawn, Figure, Number, Parameter, Values
+from contact_sim_lab.records.paper import Drawn, Figure, Number, PaperError, Parameter, Values
 from contact_sim_lab.twins.halfspace import dense_influence, direct_sum, pressure_at_approach
 from contact_sim_lab.twins.hertz import contact_at_load
 from contact_sim_pkg.excitation.obstacles import FlatRoad, Obstacle
@@ -31,14 +31,15 @@ __all__ = ["FIGURES"]
 Field = NDArray[numpy.float64]
 Road = FlatRoad | Obstacle | SelfAffineRoad
 
-FORM = TireForm(0.30, 1.0)  # [m]
+RADIUS_ROLLING, RADIUS_LATERAL = 0.30, 1.0  # [m]
+FORM = TireForm(radius_rolling=RADIUS_ROLLING, radius_lateral=RADIUS_LATERAL)
 MODULUS = 3.0e6 / (1.0 - 0.5**2)  # [Pa] E*, incompressible tread on a rigid road
-SIDE = 0.32  # [m] of the grid
+SIDE, CELLS = 0.32, {"bump": 128, "irregular": 256}  # [m] of the grid at 4000 N, cells along it
 TOLERANCE, MOST = 1e-9, 2000
-SMALL = (48, 36, 0.26, 0.15)  # rows, columns and sides [m] of the grid that is also solved densely
+SMALL = (48, 48, 0.25, 0.30)  # rows, columns and sides [m] at 4000 N of the grid that is also solved densely
 PLACES = 20
 
-LOAD = Parameter("load", "N", 4000.0, above=0.0, most=20000.0, help="on the tire")
+LOAD = Parameter("load", "N", 4000.0, least=500.0, most=20000.0, help="on the tire")
 BUMP = (
     LOAD, Parameter("height", "m", 0.005, least=0.0, most=0.02, help="of the bump"),
     Parameter("length", "m", 0.06, above=0.0, most=0.3, help="of the bump"),
@@ -59,7 +60,6 @@ class Solved(NamedTuple):
     pressure: Field  # [rows, cols] [Pa]
     displacement: Field  # [rows, cols] [m] of the tread
     approach: float  # [m]
-    load: float  # [N]
 
     @property
     def cells(self) -> tuple[float, float]:
@@ -72,6 +72,37 @@ def _centres(count: int, side: float) -> Field:
     return places
 
 
+def _growth(load: float) -> float:
+    """Of the footprint from 4000 N to `load` [N], by Hertz: the grids follow it."""
+    return float((load / 4000.0) ** (1.0 / 3.0))
+
+
+def _grid(kind: str, load: float) -> tuple[int, int, float, float]:
+    """Rows, columns and sides [m] of the grid; its cells never grow."""
+    growth = _growth(load)
+    cells = 2 * round(0.5 * CELLS[kind] * max(growth, 1.0))
+    return cells, cells, SIDE * growth, SIDE * growth
+
+
+def _small(load: float) -> tuple[int, int, float, float]:
+    growth = _growth(load)
+    return SMALL[0], SMALL[1], SMALL[2] * growth, SMALL[3] * growth
+
+
+def _own_gap(kind: str, road: Road, values: Values, at: Solved) -> Field:
+    """Gap [m] of the undeformed bodies as the figure states them, apart from what the solver was given:
+    x²/2R + y²/2R_y - h, with h = H/2 (1 + cos(2π x/L)) on the bump; the irregular road itself is the input.
+    """
+    x, y = at.x[:, None], at.y[None, :]
+    tire: Field = 0.5 * x**2 / RADIUS_ROLLING + 0.5 * y**2 / RADIUS_LATERAL
+    if kind == "flat":
+        return tire
+    if kind == "irregular":
+        return numpy.asarray(tire - road.heights(at.x, at.y))
+    turn = numpy.minimum(2.0 * numpy.abs(x) / values["length"], 1.0)
+    return numpy.asarray(tire - 0.5 * values["height"] * (1.0 + numpy.cos(numpy.pi * turn)))
+
+
 def _solve(road: Road, load: float, grid: tuple[int, int, float, float]) -> Solved:
     rows, cols, length, width = grid
     x, y = _centres(rows, length), _centres(cols, width)
@@ -79,42 +110,47 @@ def _solve(road: Road, load: float, grid: tuple[int, int, float, float]) -> Solv
     half_space = make_half_space(rows, cols, length / rows, width / cols, MODULUS)
     pressure = numpy.zeros((rows, cols))
     found = solve_at_load(half_space, make_workspace(half_space), gap, load, TOLERANCE, MOST, pressure)
+    if max(pressure[0].max(), pressure[-1].max(), pressure[:, 0].max(), pressure[:, -1].max()) > 0.0:
+        raise PaperError(
+            f"load {load:g} N: the footprint on this road reaches the edge of the grid; set a smaller road height"
+        )
     moved = numpy.zeros((rows, cols))
     displacement(half_space, make_buffers(half_space), pressure, moved)
-    return Solved(x, y, gap, pressure, moved, found.approach, found.load)
+    return Solved(x, y, gap, pressure, moved, found.approach)
 
 
 @lru_cache(maxsize=4)
 def _case(kind: str, items: tuple[tuple[str, float], ...]) -> tuple[Road, Solved, Solved]:
     """Road, field on it and reference field on a flat road."""
     values = dict(items)
-    cells = 128 if kind == "bump" else 256
-    grid = (cells, cells, SIDE, SIDE)
+    grid = _grid(kind, values["load"])
     road: Road
     if kind == "bump":
         road = Obstacle("bump", 0.0, values["height"], values["length"])
     else:
-        road = SelfAffineRoad(values["hurst"], values["rms"], 0.2, 0.005, int(values["seed"]), SIDE / cells)
+        road = SelfAffineRoad(values["hurst"], values["rms"], 0.2, 0.005, int(values["seed"]), SIDE / CELLS[kind])
     return road, _solve(road, values["load"], grid), _solve(FlatRoad(), values["load"], grid)
 
 
-def _conditions(found: Solved) -> list[Number]:
-    """Eqs 2 to 4: load, clearance where nothing presses and where something does."""
-    clearance = found.gap + found.displacement - found.approach
+def _conditions(found: Solved, gap: Field, load: float) -> list[Number]:
+    """Eqs 2 to 4: load [N], clearance where nothing presses and where something does over `gap` [m]."""
+    clearance = gap + found.displacement - found.approach
     pressed = found.pressure > 0.0
     scale = float(abs(found.approach)) or 1.0
     area = found.cells[0] * found.cells[1]
+    stated = "over the gap of the stated radii and road"
     return [
-        Number("load, ∬ p", "N", float(found.pressure.sum() * area), found.load, 1e-6, "eq 2: the prescribed load",
+        Number("load, ∬ p", "N", float(found.pressure.sum() * area), load, 1e-6, "eq 2: the load of the figure",
                relative=True),
         Number("smallest p", "Pa", float(found.pressure.min()), 0.0, 0.0, "eq 3: p ≥ 0"),
-        Number("largest |clearance| in the contact over Δ", "", float(abs(clearance[pressed]).max()) / scale, 0.0, 1e-6, "eq 3"),
+        Number("largest |clearance| in the contact over Δ", "", float(abs(clearance[pressed]).max()) / scale, 0.0, 1e-6,
+               f"eq 3, {stated}"),
         Number("cells outside the contact with a clearance below zero", "",
-               float((clearance[~pressed] < -1e-9 * scale).sum()), 0.0, 0.0, "eq 4"),
+               float((clearance[~pressed] < -1e-9 * scale).sum()), 0.0, 0.0, f"eq 4, {stated}"),
     ]  # fmt: skip
 
 
-def _surface_numbers(found: Solved) -> list[Number]:
+def _surface_numbers(found: Solved, gap: Field, load: float) -> list[Number]:
     rng = numpy.random.default_rng(7)
     places = numpy.stack([rng.integers(0, n, PLACES) for n in found.pressure.shape], axis=1)
     direct = direct_sum(places, found.pressure, *found.cells, MODULUS)
@@ -129,13 +165,13 @@ def _surface_numbers(found: Solved) -> list[Number]:
             1e-6,
             "direct sum of Love's logarithms",
         ),
-        *_conditions(found),
+        *_conditions(found, gap, load),
         Number("largest u", "m", float(found.displacement.max()), None, 0.0, "", note="the paper gives no number"),
     ]
 
 
-def _reference_numbers(flat: Solved) -> list[Number]:
-    hertz = contact_at_load(0.5 / FORM.radius_lateral, 0.5 / FORM.radius_rolling, MODULUS, flat.load)
+def _reference_numbers(flat: Solved, load: float) -> list[Number]:
+    hertz = contact_at_load(0.5 / RADIUS_LATERAL, 0.5 / RADIUS_ROLLING, MODULUS, load)
     origin = "Hertz in 50 digits"
     return [
         Number("reference state: p₀", "Pa", float(flat.pressure.max()), hertz.peak_pressure, 1e-3, origin, relative=True),
@@ -144,19 +180,26 @@ def _reference_numbers(flat: Solved) -> list[Number]:
     ]  # fmt: skip
 
 
-def _pressure_numbers(road: Road, found: Solved, flat: Solved) -> list[Number]:
-    small, level = (_solve(each, found.load, SMALL) for each in (road, FlatRoad()))
+def _pressure_numbers(kind: str, road: Road, values: Values, found: Solved, flat: Solved) -> list[Number]:
+    load = values["load"]
+    small, level = (_solve(each, load, _small(load)) for each in (road, FlatRoad()))
     matrix = dense_influence(*SMALL[:2], *small.cells, MODULUS)
-    dense = pressure_at_approach(matrix, small.gap, small.approach)
-    dense_level = pressure_at_approach(matrix, level.gap, level.approach)
+    gap = _own_gap(kind, road, values, small)
+    dense = pressure_at_approach(matrix, gap, small.approach)
+    dense_level = pressure_at_approach(matrix, _own_gap("flat", road, values, level), level.approach)
+    area = small.cells[0] * small.cells[1]
     error = float(abs(small.pressure - dense).max() / dense_level.max())
-    origin = "dense non-negative least squares, 48 × 36 cells"
+    origin = f"dense non-negative least squares, {SMALL[0]} × {SMALL[1]} cells"
     return [
-        *_reference_numbers(flat),
+        *_reference_numbers(flat, load),
+        Number("load of the dense solution at the approach obtained", "N", float(dense.sum() * area), load, 1e-3,
+               "eq 2: the load of the figure", relative=True),
+        Number("the same on a flat road", "N", float(dense_level.sum() * area), load, 1e-3, "eq 2: the load of the figure",
+               relative=True),
         Number("largest error of p over p_ref,max", "", error, 0.0, 1e-2, origin),
-        Number("largest p/p_ref,max, 48 × 36 cells", "", float(small.pressure.max() / level.pressure.max()),
+        Number(f"largest p/p_ref,max, {SMALL[0]} × {SMALL[1]} cells", "", float(small.pressure.max() / level.pressure.max()),
                float(dense.max() / dense_level.max()), 1e-2, origin, relative=True),
-        *_conditions(found),
+        *_conditions(found, _own_gap(kind, road, values, found), load),
         Number("largest p/p_ref,max", "", float(found.pressure.max() / flat.pressure.max()), None, 0.0, "",
         note="on the fine grid"),
     ]  # fmt: skip
@@ -164,7 +207,10 @@ def _pressure_numbers(road: Road, found: Solved, flat: Solved) -> list[Number]:
 
 def _compute(kind: str, what: str, values: Values) -> Drawn:
     road, found, flat = _case(kind, tuple(values.items()))
-    numbers = _surface_numbers(found) if what == "u" else _pressure_numbers(road, found, flat)
+    if what == "u":
+        numbers = _surface_numbers(found, _own_gap(kind, road, values, found), values["load"])
+    else:
+        numbers = _pressure_numbers(kind, road, values, found, flat)
 
     def draw(canvas: Canvas) -> None:
         shown = found.displacement * 1e3 if what == "u" else found.pressure / flat.pressure.max()
@@ -193,8 +239,11 @@ _MADE_BY = (
     "contact_sim_pkg.pressure.field.solver:solve_at_load", "contact_sim_pkg.pressure.field.halfspace:displacement",
     "contact_sim_pkg.excitation.obstacles:Obstacle", "contact_sim_pkg.excitation.self_affine:SelfAffineRoad",
 )  # fmt: skip
-_U = "u by a direct sum at 20 places, 1e-6; signs of the gap"
-_P = "Hertz, 1e-3, for the reference state; p/p_ref by dense non-negative least squares, 1 %"
+_U = "u by a direct sum at 20 places, 1e-6; load of the figure; signs over the gap of its own closed form"
+_P = (
+    "Hertz at the load of the figure, 1e-3, for the reference state; p/p_ref by dense non-negative least squares over the gap "
+    "of its own closed form, 1 %"
+)
 _RENUMBERED = "The text calls figures 4 and 5 figures 5 and 6."
 FIGURES: tuple[Figure, ...] = (
     Figure("2", "displacement of the tread on a single bump", _MADE_BY[:3], _U, partial(_compute, "bump", "u"), parameters=BUMP),
