@@ -76,7 +76,7 @@ class Counted(NamedTuple):
     @property
     def tolerance(self) -> float:
         """1 %, or what so few points resolve: three times N^(-2/3), the share of a point in the area round N of them."""
-        return max(1e-2, 3.0 * max(self.points, 1) ** (-2.0 / 3.0))
+        return float(max(1e-2, 3.0 * max(self.points, 1) ** (-2.0 / 3.0)))
 
 
 def _counted(contact: RollingContact, limits: tuple[float, float]) -> tuple[Counted, Counted]:
