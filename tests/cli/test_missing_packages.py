@@ -126,7 +126,7 @@ def test_a_node_started_as_a_module_names_what_it_lacks(tmp_path):
     )  # fmt: skip
     assert ended.returncode == 2
     assert ended.stderr == (
-        "bench: rclpy cannot be imported; source ros2_ws/setup.bash (`bench run --offline` needs no ROS)\n"
+        "bench: rclpy cannot be imported; source ros2_ws/setup.bash\n"
     )
 
 
