@@ -3,9 +3,9 @@
 import pytest
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.mcap.recover import recover
 from contact_sim_pkg.bag.metadata import WALL_TIME, recorded_topics, wall_time_of
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.recover import recover
 from contact_sim_pkg.bag.writer import BagWriter
 
 BEGAN = 1_777_890_600_000_000_000
