@@ -125,9 +125,7 @@ def test_a_node_started_as_a_module_names_what_it_lacks(tmp_path):
         env=environment, capture_output=True, text=True, timeout=LONGEST,
     )  # fmt: skip
     assert ended.returncode == 2
-    assert ended.stderr == (
-        "bench: rclpy cannot be imported; source ros2_ws/setup.bash\n"
-    )
+    assert ended.stderr == ("bench: rclpy cannot be imported; source ros2_ws/setup.bash\n")
 
 
 @pytest.mark.parametrize("use", ["bench.load_scene", "bench.run('seat_ride')", "bench.series"])
