@@ -159,7 +159,7 @@ def test_it_pauses_and_goes_on_as_a_lifecycle_node(nodes, reader):
 
 
 def test_a_run_is_recorded_whole_beside_a_view_that_was_there_before(tmp_path, reader):
-    nodes = Nodes(resolved("seat_ride", "duration=1", "pace=max"), tmp_path / "run")
+    nodes = Nodes(resolved("seat_ride", "duration=4", "pace=realtime"), tmp_path / "run")
     try:
         view = nodes.start(VIEW)
         heard, _ = reader.read("view/seat/load", "std_msgs/msg/Float64")
@@ -173,6 +173,6 @@ def test_a_run_is_recorded_whole_beside_a_view_that_was_there_before(tmp_path, r
         assert view.status is None  # it outlives the run
         recorded = open_bag(nodes.bag)
         assert recorded.complete
-        assert recorded.count("seat/force") == 100
+        assert recorded.count("seat/force") == 400
     finally:
         nodes.end()

@@ -107,7 +107,9 @@ def _simulator_of(supervisor: int) -> int:
 
 
 def trace(name: str) -> tuple[Events, Schedule]:
-    """Events and schedule of a run of a scene at full speed; ValueError where it fails."""
+    """Events and schedule of a run of a scene at full speed; ValueError where it fails, or ends within a
+    second.
+    """
     scene = load_resolved(name)
     events = Events(scene.block_length_ns)
     callbacks = dict.fromkeys(input_names(scene), events.on_input)
@@ -120,7 +122,10 @@ def trace(name: str) -> tuple[Events, Schedule]:
 
     follow_run(name, scene, ("--duration", str(SIMULATED), "--pace", "max"), callbacks, join)
     samplers[0].join()
-    return events, samplers[0].schedule()
+    schedule = samplers[0].schedule()
+    if not set(events.sent) & set(events.done) or len(schedule.at) < 2:
+        raise ValueError(f"{name} ended before it could be followed; trace a scene that takes longer to compute")
+    return events, schedule
 
 
 def shares(events: Events, schedule: Schedule) -> dict[str, float]:

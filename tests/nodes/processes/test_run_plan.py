@@ -82,6 +82,8 @@ def declared_parameters(node: str) -> dict:
     declared: dict = {}
 
     class Recorder:
+        _parameter_overrides, _parameters = {}, {}  # rclpy's own: nothing was given
+
         def has_parameter(self, name):
             return False
 

@@ -29,7 +29,7 @@ def test_shares_of_a_trace_by_hand():
 def test_a_run_is_traced_and_drawn(tmp_path):
     from contact_sim_lab.nodes.trace import draw, shares, trace
 
-    events, schedule = trace("seat_ride")
+    events, schedule = trace("car_full_bench")
     found = shares(events, schedule)
     assert found["blocks_per_second"] > 0.0
     assert found["on_core"] + found["in_queue"] + found["waiting"] == pytest.approx(1.0)
