@@ -126,3 +126,10 @@ def test_joints_are_the_coordinates_at_a_sample():
     assert joints.name == list(CAR)
     assert joints.position.tolist() == [4.0, 14.0, 24.0, 34.0, 44.0]
     assert joints.velocity.tolist() == [-4.0, -14.0, -24.0, -34.0, -44.0]
+
+
+def test_masses_of_the_occupant_stand_above_each_other_and_unknown_bodies_at_the_origin():
+    places = Places()
+    first, second = places.of_body("occupant1"), places.of_body("occupant2")
+    assert second[2] > first[2] > places.of_body("seat_frame")[2] > 0.0
+    assert places.of_body("occupant_head") == places.of_body("drum") == (0.0, 0.0, 0.0)

@@ -52,8 +52,9 @@ class Places(NamedTuple):
         seat = floor + SEAT_HEIGHT
         if body == "seat_back":
             return (-BACK, 0.0, seat + OCCUPANT_STEP)
-        if body.startswith("occupant"):
-            return (0.0, 0.0, seat + OCCUPANT_STEP * int(body.removeprefix("occupant") or 1))
+        number = body.removeprefix("occupant") or "1"
+        if number.isdecimal():  # of a mass of the occupant, from the lowest up
+            return (0.0, 0.0, seat + OCCUPANT_STEP * int(number))
         return (0.0, 0.0, seat) if body == "seat_frame" else (0.0, 0.0, 0.0)
 
     def of_contact(self, contact: str, bodies: Mapping[str, Point]) -> tuple[str, Point, tuple[float, ...]]:

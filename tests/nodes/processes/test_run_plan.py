@@ -9,7 +9,6 @@ from tests.bench_process import PACKAGE, needs_ros, resolved
 
 from contact_sim_pkg.nodes.processes.run_plan import in_processes, planned_nodes
 from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_scene, write_scene
-from contact_sim_pkg.nodes.protocol.window import AHEAD
 
 SCENE = Path("scene.resolved.yaml")
 
@@ -63,7 +62,7 @@ def test_a_node_reads_the_scene_that_was_resolved_to_the_bit(tmp_path):
 
 
 def test_queues_are_two_windows_of_the_fastest_single_messages_deep():
-    assert queue_depth(resolved("car_full_bench", "outputs.field_rate=200")) == 2 * AHEAD * 2
+    assert queue_depth(resolved("car_full_bench", "outputs.field_rate=200")) == 2 * 24 * 2
 
 
 @needs_ros

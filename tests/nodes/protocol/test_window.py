@@ -2,7 +2,7 @@
 
 import pytest
 
-from contact_sim_pkg.nodes.protocol.window import AHEAD, LEAST_SECONDS, MOST_SECONDS, BlockWindow, Gather
+from contact_sim_pkg.nodes.protocol.window import LEAST_SECONDS, MOST_SECONDS, BlockWindow, Gather
 
 
 def sent(window: BlockWindow) -> list[int]:
@@ -13,7 +13,7 @@ def sent(window: BlockWindow) -> list[int]:
 
 
 def test_blocks_of_a_window_are_sent_before_any_answer():
-    assert sent(BlockWindow(100, logged=True)) == list(range(AHEAD))
+    assert sent(BlockWindow(100, logged=True)) == list(range(24))
     assert sent(BlockWindow(100, logged=True, ahead=3)) == [0, 1, 2]
 
 

@@ -76,6 +76,8 @@ def test_the_line_density_holds_the_force_of_each_cell() -> None:
 def test_without_data_the_active_sites_carry_a_tenth_of_the_load() -> None:
     flat = default_asperities(4000.0, 0.01, 0.1, numpy.zeros(100))
     assert asperity_force(flat, 0.505) == pytest.approx(400.0)
+    # Sites at 0.15 and 0.25 m lie on the border, also where 0.25 - 0.2 is rounded to less than 0.05: 9 of 40 N
+    assert asperity_force(flat, 0.2) == pytest.approx(360.0)
     smooth = default_asperities(4000.0, 0.01, 0.1, numpy.zeros(100), raised_cosine=True)
     for travel in (0.3, 0.3021, 0.3077, 0.55):
         assert asperity_force(smooth, travel) == pytest.approx(400.0, rel=1e-12)

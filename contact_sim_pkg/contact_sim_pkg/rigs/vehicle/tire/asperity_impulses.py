@@ -128,6 +128,10 @@ def asperity_density(asperities: AsperityImpulses, travel: float, start: float, 
             out[i] += asperities.push[n - 1] * window(asperities, n, travel) / cell
 
 
+BORDER = 1e-9
+"""Of the contact's length: a site so near its border lies on it."""
+
+
 @kernel
 def active_sites(asperities: AsperityImpulses, travel: float) -> tuple[int, int]:
     """First site that may act, and the one after the last; those on the border are sorted out by
@@ -146,9 +150,9 @@ def active_sites(asperities: AsperityImpulses, travel: float) -> tuple[int, int]
 
 @kernel
 def window(asperities: AsperityImpulses, site: int, travel: float) -> float:
-    """Window W of a site, dimensionless, at `travel` s [m]; 0 for `|n dx - s| >= b/2`."""
+    """Window W of a site, dimensionless, at `travel` s [m]; 0 for `|n dx - s| >= b/2`, rounding aside."""
     distance = (site * asperities.spacing - travel) / asperities.contact_length
-    if not abs(distance) < 0.5:
+    if not abs(distance) < 0.5 - BORDER:
         return 0.0
     if asperities.raised_cosine:
         return 1.0 + math.cos(2.0 * math.pi * distance)
