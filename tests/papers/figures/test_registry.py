@@ -76,7 +76,9 @@ def test_numbers_of_an_equation_are_unique():
         ("contact-area", "124", ["model=maxwell", "time=1", "frequency=1", "modulus=2"], "E' and E''", [1.0, 1.0], 1e-15),
         ("tire-road", "7-printed", [], "load over P", 9.05, 5e-3),
         ("tire-road", "9-printed", [], "approach", 9.8919e-3 * 3.0 ** (-2.0 / 3.0), 1e-6),
-        ("tire-road", "10", ["load=4000"], "force", 400.0, 1e-9),
+        # Ten sites of 40 N within 0.05 m of 0.205 m; of 0.2 m nine, two more lie on the border
+        ("tire-road", "10", ["load=4000", "travel=0.205"], "force", 400.0, 1e-9),
+        ("tire-road", "10", ["load=4000", "travel=0.2"], "force", 360.0, 1e-9),
         ("rolling-contact", "18", ["damping=0"], "growth rate", 0.4557, 5e-5),
         ("rolling-contact", "18", ["damping=0"], "critical load", 0.0, 0.0),
         ("rolling-contact", "10", ["omega=0.9"], "b/a exact", 0.14896, 5e-6),
