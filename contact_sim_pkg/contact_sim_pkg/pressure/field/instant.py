@@ -16,16 +16,22 @@ from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.pressure.field.follow import correct
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
 from contact_sim_pkg.pressure.field.iteration import SolverWorkspace
+from contact_sim_pkg.pressure.field.nested import start_from_half
 from contact_sim_pkg.pressure.field.outside import enclose
 from contact_sim_pkg.pressure.field.prediction import PreviousField, predict, scale_to, start_from, store
 from contact_sim_pkg.pressure.field.solver import FieldRequest, total_of
 from contact_sim_pkg.pressure.field.window import Part
 
-__all__ = ["InstantResult", "Start", "all_finite", "grown_window", "solve_instant", "store_window"]
+__all__ = ["FROM_HALF", "FROM_PRESSURE", "InstantResult", "Start", "all_finite", "grown_window", "solve_instant", "store_window"]
 
 LEAST_FROM_START = 2
 """Corrections of a start that is no prediction: on a window that has grown the first moves the new
 cells by its length only.
+"""
+
+FROM_PRESSURE, FROM_HALF = -1.0, -2.0
+"""In place of a share of extrapolation: start from the pressure on the whole grid, or from the last
+field on the grid of half as many cells each way.
 """
 
 Values = NDArray[numpy.float64]
@@ -70,7 +76,7 @@ def all_finite(gap: Field) -> bool:
 @entry
 def solve_instant(
     whole: Held[HalfSpace], part: Held[Part], last: Held[PreviousField], before: Held[PreviousField], gap: Field,
-    request: FieldRequest, start: Start, lengths: Values, pressure: Field,
+    half: Held[PreviousField], request: FieldRequest, start: Start, lengths: Values, pressure: Field,
 ) -> InstantResult:  # fmt: skip
     """Solve on the window of the size of `part` at the place of `start`; `pressure` of the whole
     grid is overwritten.
@@ -88,6 +94,8 @@ def solve_instant(
     datum = load_heights(gap, first_row, first_col, workspace.height, workspace.clipped)
     if share >= 0.0:
         predict(workspace, first_row, first_col, last.value, before.value, share)
+    elif share == FROM_HALF:
+        start_from_half(workspace, first_row, first_col, half.value)
     else:
         start_from(half_space, workspace, first_row, first_col, pressure)
     # Corrections until the field is certified.

@@ -6,11 +6,15 @@ Applications, 5.
 
 from __future__ import annotations
 
-from contact_sim_pkg.compiled.jit import entry
-from contact_sim_pkg.pressure.field.halfspace import Field
-from contact_sim_pkg.pressure.field.outside import widened
+import numpy
 
-__all__ = ["double", "halve"]
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
+from contact_sim_pkg.pressure.field.halfspace import Field
+from contact_sim_pkg.pressure.field.iteration import SolverWorkspace
+from contact_sim_pkg.pressure.field.outside import widened
+from contact_sim_pkg.pressure.field.prediction import PreviousField
+
+__all__ = ["double", "halve", "start_from_half", "window_of_half"]
 
 
 @entry
@@ -27,29 +31,56 @@ def halve(gap: Field, out: Field) -> None:
 
 
 @entry
-def double(pressure: Field, out: Field) -> tuple[int, int, int, int]:
-    """Bilinear interpolation to two by two cells each, zero where `pressure` is; returns the
-    window, or no rows.
+def double(pressure: Field, out: Field) -> None:
+    """Bilinear interpolation to two by two cells each, zero where `pressure` is.
 
     pressure: [rows, cols] [Pa]; out: [2 rows, 2 cols] [Pa].
     """
     rows, cols = pressure.shape
-    top, bottom, left, right = rows, -1, cols, -1
     for i in range(2 * rows):
         row = i // 2
         beside = min(max(row + 2 * (i % 2) - 1, 0), rows - 1)
         for j in range(2 * cols):
             col = j // 2
             next_to = min(max(col + 2 * (j % 2) - 1, 0), cols - 1)
-            out[i, j] = 0.0
-            if pressure[row, col] > 0.0:
-                # Bilinear weights of a cell of half the size
-                near = 0.75 * pressure[row, col] + 0.25 * pressure[row, next_to]
-                far = 0.75 * pressure[beside, col] + 0.25 * pressure[beside, next_to]
-                out[i, j] = 0.75 * near + 0.25 * far
-                top, bottom = min(top, row), max(bottom, row)
-                left, right = min(left, col), max(right, col)
-    # No contact: an empty window
-    if bottom < 0:
-        return 0, 0, 0, 0
-    return widened(2 * rows, 2 * cols, 2 * top, 2 * bottom + 1, 2 * left, 2 * right + 1)
+            near = 0.75 * pressure[row, col] + 0.25 * pressure[row, next_to]
+            far = 0.75 * pressure[beside, col] + 0.25 * pressure[beside, next_to]
+            out[i, j] = 0.75 * near + 0.25 * far if pressure[row, col] > 0.0 else 0.0
+
+
+@entry
+def window_of_half(rows: int, cols: int, box: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
+    """Window of a grid of `rows` x `cols` cells around what is the `box` of the contact on the grid
+    of half as many: its first and last row, first and last column.
+    """
+    top, bottom, left, right = box
+    return widened(rows, cols, 2 * top, 2 * bottom + 1, 2 * left, 2 * right + 1)
+
+
+@borrowing_kernel
+def start_from_half(workspace: SolverWorkspace, first_row: int, first_col: int, half: PreviousField) -> None:
+    """Pressure and displacement of the last field on the grid of half as many cells each way, both
+    interpolated: pressure, zero where that is, and u in `surface`, infinite where it is not known.
+
+    Pressure: [rows, cols] [Pa], surface: [rows, cols] [m] of the window at (first_row, first_col).
+    """
+    pressure, surface = workspace.pressure, workspace.surface
+    rows, cols = pressure.shape
+    top, start, bottom, end, _moved = half.place
+    for i in range(rows):
+        row, lower = divmod(first_row + i, 2)
+        for j in range(cols):
+            pressure[i, j], surface[i, j] = 0.0, numpy.inf
+        if not top <= row < bottom:
+            continue
+        before, after = max(row - 1, top), min(row + 1, bottom - 1)
+        down = 0.25 * lower - 0.125
+        for j in range(max(2 * start - first_col, 0), min(2 * end - first_col, cols)):
+            col, right = divmod(first_col + j, 2)
+            left_col, right_col, across = max(col - 1, start), min(col + 1, end - 1), 0.25 * right - 0.125
+            u, p = half.displacement, half.pressure
+            surface[i, j] = u[row, col] + down * (u[after, col] - u[before, col]) + across * (u[row, right_col] - u[row, left_col])
+            if p[row, col] > 0.0:
+                sx, sy = down * (p[after, col] - p[before, col]), across * (p[row, right_col] - p[row, left_col])
+                sl = abs(sx) + abs(sy)
+                pressure[i, j] = p[row, col] + (sx + sy) * min(1.0, 0.9 * p[row, col] / sl if sl > 0.0 else 1.0)

@@ -25,13 +25,15 @@ from contact_sim_pkg.compiled.held import Held, hold
 from contact_sim_pkg.pressure.field.follow import FIRST_LENGTH, MOST_CORRECTIONS
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, coarsened, make_half_space
 from contact_sim_pkg.pressure.field.instant import (
+    FROM_HALF,
+    FROM_PRESSURE,
     Start,
     all_finite,
     grown_window,
     solve_instant,
     store_window,
 )
-from contact_sim_pkg.pressure.field.nested import double, halve
+from contact_sim_pkg.pressure.field.nested import halve, window_of_half
 from contact_sim_pkg.pressure.field.outside import widened
 from contact_sim_pkg.pressure.field.prediction import EXTRAPOLATION, make_previous_field
 from contact_sim_pkg.pressure.field.solver import (
@@ -62,9 +64,6 @@ NEW, REPEAT, START = 0, 1, 2
 """Lengths of corrections are learned apart for a new instant, another solve at the same, and a
 start from nothing.
 """
-
-FROM_PRESSURE = -1.0
-"""In place of a share of extrapolation: start from the pressure on the whole grid."""
 
 Values = NDArray[numpy.float64]
 Box = tuple[int, int, int, int]
@@ -145,15 +144,15 @@ class RollingField:
         window, spent = self._expected(has_left), 0
         share, lengths = (0.0, REPEAT) if repeats else (EXTRAPOLATION if self._instants > 1 else 0.0, NEW)
         if window is None:
-            window, share, lengths = self._start(gap, request), FROM_PRESSURE, START
+            (window, share), lengths = self._start(gap, request), START
         # Correct on a window that grows until no cell outside penetrates; the solver goes on where
         # that fails.
         while True:
             start = Start(window.first_row, window.first_col, repeats, share)
             left = request._replace(max_iterations=request.max_iterations - spent) if spent else request
             found = solve_instant(
-                self.whole, self._part(window.rows, window.cols), self._last, self._before, gap, left, start,
-                self._lengths[lengths], self.pressure,
+                self.whole, self._part(window.rows, window.cols), self._last, self._before, gap,
+                self._half._last if self._half else self._last, left, start, self._lengths[lengths], self.pressure,
             )  # fmt: skip
             spent += found.corrections
             if not found.certified:
@@ -193,22 +192,24 @@ class RollingField:
         top, bottom, left, right = self._box
         return GridWindow(*widened(self.half_space.rows, self.half_space.cols, top, bottom, left, right))
 
-    def _start(self, gap: Field, request: FieldRequest) -> GridWindow:
+    def _start(self, gap: Field, request: FieldRequest) -> tuple[GridWindow, float]:
         """Start from the field on a grid of half as many cells each way, itself started like that,
         or from nothing.
         """
         half, whole = self._half, GridWindow(0, 0, self.half_space.rows, self.half_space.cols)
         if half is None:
             self.pressure.fill(0.0)
-            return whole
+            return whole, FROM_PRESSURE
         if self._instants == 0:
             half.reset()
         half.roll(self._cells_of_half // 2)
         self._cells_of_half = 0
         halve(gap, self._gap_of_half)
         half._solve(self._gap_of_half, request._replace(tolerance=TOLERANCE_OF_HALF))
-        window = GridWindow(*double(half.pressure, self.pressure))
-        return window if window.rows else whole
+        if half._box == NOWHERE:
+            self.pressure.fill(0.0)
+            return whole, FROM_PRESSURE
+        return GridWindow(*window_of_half(whole.rows, whole.cols, half._box)), FROM_HALF
 
     def _settle(self, window: GridWindow, gap: Field, request: FieldRequest, spent: int, repeats: bool) -> FieldResult:
         """Solve from the start in `pressure`, on windows that grow until no cell outside
@@ -280,12 +281,12 @@ def compile_now() -> None:
     all_finite(field)
     # The arguments have the types of a run; their values do not matter
     request, start = FieldRequest(1.0, True, 1.0, 1), Start(0, 0, False, FROM_PRESSURE)
-    solve_instant(whole, held, previous, previous, field, request, start, lengths, field)
+    solve_instant(whole, held, previous, previous, field, previous, request, start, lengths, field)
     solve_at_load(half_space, part.workspace, field, 1.0, 1.0, 1, field)
     store_window(held, 0, 0, previous, field)
     grown_window(whole, field, 1.0, field, (0, 0, 2, 2))
     copy_window(field, 0, 0, part.gap)
     write_window(part.gap, 0, 0, field)
     halve(wide, field)
-    double(field, wide)
+    window_of_half(4, 4, (0, 1, 0, 1))
     widened(2, 2, 0, 1, 0, 1)
