@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 import numba
 from numba.extending import overload
 
-from contact_sim_pkg.compiled import linking, transforms
+from contact_sim_pkg.compiled import linking
 from contact_sim_pkg.compiled.call_graph import Call, CallGraph
 from contact_sim_pkg.compiled.compiler import compiled_kernels, compiler_of
 from contact_sim_pkg.compiled.kernel_cache import attach_cache
@@ -39,8 +39,6 @@ __all__ = [
 COMPILE_OPTIONS: dict[str, Any] = {
     "nopython": True, "nogil": True, "error_model": "numpy", "fastmath": False, "no_cfunc_wrapper": True,
 }  # fmt: skip
-
-assert transforms.rocket_fft  # before numba imports it in its own way
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

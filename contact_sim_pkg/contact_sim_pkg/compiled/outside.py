@@ -26,7 +26,7 @@ _OWN = __name__.partition(".")[0]
 LARGEST_FILE = 10_000_000
 """[bytes] of a file that counts: a larger one is data that no kernel is made from."""
 _LIBRARIES = frozenset(
-    {_OWN, "numba", "llvmlite", "numpy", "scipy", "rocket_fft", "mpmath", "matplotlib", "pandas", "click"}
+    {_OWN, "numba", "llvmlite", "numpy", "scipy", "mpmath", "matplotlib", "pandas", "click"}
 ) | frozenset(sys.stdlib_module_names)
 """Their versions, where code depends on them, are in the fingerprint of our own sources."""
 

@@ -22,7 +22,7 @@ def solved(rows, cols, amplitude, mean_pressure, tolerance=1e-10):
     return field.solve_at_load(gap, load, tolerance, 2000), field.pressure, x
 
 
-@pytest.mark.parametrize(("rows", "cols"), [(48, 30), (64, 16), (35, 27)])
+@pytest.mark.parametrize(("rows", "cols"), [(48, 30), (64, 16), (36, 27)])
 def test_a_wave_of_pressure_displaces_by_its_wave_length(rows, cols):
     half_space = make_periodic_half_space(rows, cols, 1e-3, 2e-3, MODULUS)
     phase = 2.0 * numpy.pi * (3.0 * numpy.arange(rows)[:, None] / rows + 2.0 * numpy.arange(cols)[None, :] / cols)

@@ -45,6 +45,9 @@ __all__ = ["FIRST_LENGTH", "MOST_CORRECTIONS", "correct"]
 CHANGE = 6.0
 """Largest last change of the field, over the tolerance."""
 
+LARGEST_CHANGE = 40.0
+"""The same of the pressure of one cell, over the largest pressure."""
+
 MOST_CORRECTIONS = 24
 """After so many the prediction was of no use, or the tolerance needs lengths without guessing.
 """
@@ -75,6 +78,7 @@ class Correction(NamedTuple):
 
     factor: float  # [1] by which it should have been longer
     size: float  # [1] L2 norm over that of the field
+    largest: float  # [1] largest change of a cell in contact over the largest pressure
 
 
 @kernel
@@ -85,13 +89,15 @@ def correct(
     total: float,
     request: FieldRequest,
     least_corrections: int,
+    is_exact: bool,
     lengths: Values,
 ) -> Corrected:
     """Correct the prediction in `pressure` and `surface` until it is certified.
 
     approach: [m], taken where `total` is negative; total: [Pa] as in
     `pressure/field/solver.py:iterate`; request: its tolerance, and the most corrections; lengths:
-    [corrections] [1], learned, changed in place.
+    [corrections] [1], learned, changed in place; is_exact: whether the surface is that of the pressure,
+    so that its change is the response to the first step.
     """
     holds_load = total >= 0.0
     belted = len(half_space.belt) > 0
@@ -116,11 +122,11 @@ def correct(
         # Length learned for next time.
         longer = lengths[correction] * math.sqrt(math.sqrt(change.factor))
         lengths[correction] = min(max(longer, LENGTHS[0]), LENGTHS[1])
-        enough = correction + 1 >= least_corrections and change.size <= CHANGE * request.tolerance
+        enough = correction + 1 >= least_corrections and change.size <= CHANGE * request.tolerance and change.largest <= LARGEST_CHANGE * request.tolerance
         if enough and state.residual <= request.tolerance:
             return Corrected(True, correction + 1, state.approach, state.residual)
         # Not enough: another, without a belt after the step with its best length.
-        response_known, pulling = True, 0
+        response_known, pulling = is_exact or correction > 0, 0
         if not belted:
             contact, pulling = rescale_step(workspace, contact, state.free, left, change.factor)
             state = evaluate(workspace, contact, 0, approach, holds_load)
@@ -252,7 +258,7 @@ def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: f
     pressure, direction = workspace.cells.pressure, workspace.cells.direction
     surface, response = workspace.cells.surface, workspace.cells.response
     free, leaving = workspace.cells.free, workspace.cells.left
-    work, curvature, size, norm = 0.0, 0.0, 0.0, 0.0
+    work, curvature, size, norm, largest, peak = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     # Sums over the cells in contact.
     for m in range(contact):
         k = free[m]
@@ -263,6 +269,7 @@ def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: f
         curvature += step * response[k]
         size += step * step
         norm += p * p
+        largest, peak = max(largest, step * step), max(peak, p)
     # Sums over the cells that lost their pressure.
     for m in range(left):
         k = leaving[m]
@@ -272,7 +279,7 @@ def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: f
         size += step * step
     # Length with the least energy along the step.
     factor = min(max(-work / curvature, FACTORS[0]), FACTORS[1]) if curvature > 0.0 else 1.0
-    return Correction(factor, math.sqrt(size / norm))
+    return Correction(factor, math.sqrt(size / norm), math.sqrt(largest) / peak)
 
 
 @borrowing_kernel

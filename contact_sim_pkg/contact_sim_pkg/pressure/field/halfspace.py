@@ -3,9 +3,8 @@ pressure field.
 
 The normal displacement of the surface under a pressure p is `u(x, y) = 1/(pi E*) * integral of p /
 distance`. With p constant in each cell this is a discrete convolution with Love's coefficients,
-done here as a *linear* convolution (zero-padded transforms: no periodic images). Because the
-coefficients are even in both directions their transform is real. Only the needed parts are
-transformed: loaded rows on the way in, grid rows on the way out.
+done here as a *linear* convolution (`pressure/field/filtering.py`: no periodic images). Because the
+coefficients are even in both directions their transform is real.
 
 Sources: Love (1929), Phil. Trans. R. Soc. A 228, 377; Stanley and Kato (1997), J. Tribology 119,
 481.
@@ -20,14 +19,20 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.guards import require_count, require_positive, require_values
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
-from contact_sim_pkg.compiled.transforms import good_size, rocket_fft
 from contact_sim_pkg.pressure.field.belt import stiffness_of_belt
+from contact_sim_pkg.pressure.field.filtering import (
+    Filter,
+    FilterBuffers,
+    apply_filter,
+    filter_of,
+    good_shape,
+    make_filter_buffers,
+)
 
 __all__ = ["Buffers", "HalfSpace", "coarsened", "displacement", "make_buffers", "make_half_space", "part_of"]
 
 Field = NDArray[numpy.float64]
-Spectrum = NDArray[numpy.complex128]
-Axis = NDArray[numpy.int64]
+Counts = NDArray[numpy.int64]
 
 MINIMUM_CELLS = 1
 MAXIMUM_CELLS = 4096
@@ -56,12 +61,9 @@ class HalfSpace(NamedTuple):
     modulus: float  # [Pa] contact modulus E*, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2
     # [rows, cols] [m/Pa] displacement i rows and j cols away from a cell under unit pressure
     influence: Field
-    # [padded rows, padded cols/2+1] real transform of `influence`, divided by the padded size
-    transfer: Field
-    # [rows', cols'/2+1] approximate inverse of `transfer` on the unpadded grid
-    preconditioner: Field
-    # [rows', cols'/2+1] the same of the half-space alone
-    without_belt: Field
+    transfer: Filter  # of `influence`, a linear convolution
+    preconditioner: Filter  # approximate inverse of it, periodic on the grid
+    without_belt: Filter  # the same of the half-space alone
     # [rows, cols] [m/Pa] the part of `influence` that is not of the half-space: of a belt in series
     further: Field
     # [rows] [m/Pa] the same on the last column where it is large enough to count, else 0
@@ -75,15 +77,10 @@ class HalfSpace(NamedTuple):
 
 
 class Buffers(NamedTuple):
-    """Scratch arrays of the transforms, for one thread at a time."""
+    """Scratch of the convolutions, for one thread at a time."""
 
-    padded: Field  # [rows, padded cols] real; the right part stays zero
-    spectrum: Spectrum  # [padded rows, padded cols/2+1] complex
-    plain: Field  # [rows', cols'] real, for the preconditioner
-    plain_spectrum: Spectrum  # [rows', cols'/2+1] complex
-    row_axis: Axis
-    col_axis: Axis
-    convolutions: Axis  # [1] how many were done
+    filtering: FilterBuffers
+    convolutions: Counts  # [1] how many were done
 
 
 def make_half_space(
@@ -153,6 +150,7 @@ def _half_space(influence: Field, further: Field, cell_x: float, cell_y: float, 
     rows, cols = influence.shape
     belted = further[0, -1] > LEAST_FURTHER * influence[0, -1]
     without_belt = _preconditioner(rows, cols, cell_x, cell_y, modulus)
+    with_belt = _preconditioner(rows, cols, cell_x, cell_y, modulus, further) if belted else without_belt
     return HalfSpace(
         rows=rows,
         cols=cols,
@@ -161,8 +159,8 @@ def _half_space(influence: Field, further: Field, cell_x: float, cell_y: float, 
         modulus=modulus,
         influence=influence,
         transfer=_transfer(influence),
-        preconditioner=_preconditioner(rows, cols, cell_x, cell_y, modulus, further) if belted else without_belt,
-        without_belt=without_belt,
+        preconditioner=filter_of(with_belt, rows, cols),
+        without_belt=filter_of(without_belt, rows, cols),
         further=further,
         along=further[:, -1].copy() if belted else numpy.zeros(rows),
         belt=stiffness_of_belt(further[:, -1]) if belted else numpy.zeros((0, 0)),
@@ -172,21 +170,8 @@ def _half_space(influence: Field, further: Field, cell_x: float, cell_y: float, 
 
 
 def make_buffers(half_space: HalfSpace) -> Buffers:
-    """Scratch arrays that fit a half-space."""
-    rows, cols = half_space.rows, half_space.cols
-    padded_rows = half_space.transfer.shape[0]
-    # A periodic transfer has no padding
-    padded_cols = cols if padded_rows == rows else _padded(cols)
-    plain_rows, plain_cols = _good(rows), _good(cols)
-    return Buffers(
-        numpy.zeros((rows, padded_cols)),
-        numpy.zeros((padded_rows, padded_cols // 2 + 1), dtype=numpy.complex128),
-        numpy.zeros((plain_rows, plain_cols)),
-        numpy.zeros((plain_rows, plain_cols // 2 + 1), dtype=numpy.complex128),
-        numpy.array([0], dtype=numpy.int64),
-        numpy.array([1], dtype=numpy.int64),
-        numpy.zeros(1, dtype=numpy.int64),
-    )
+    """Scratch that fits a half-space."""
+    return Buffers(make_filter_buffers(half_space.rows, half_space.cols), numpy.zeros(1, dtype=numpy.int64))
 
 
 def love_coefficients(rows: int, cols: int, cell_x: float, cell_y: float) -> Field:
@@ -218,115 +203,50 @@ def displacement(half_space: HalfSpace, buffers: Buffers, pressure: Field, resul
 
 @kernel
 def convolve(half_space: HalfSpace, buffers: Buffers, field: Field, result: Field) -> None:
-    """`result = K field` by one pruned, zero-padded transform pair; `result` may be `field`
-    itself.
+    """`result = K field`, a linear convolution; `result` may be `field` itself.
 
     field: [rows, cols] [Pa]; result: [rows, cols] [m].
     """
-    rows, cols = field.shape
-    padded, spectrum, transfer = buffers.padded, buffers.spectrum, half_space.transfer
     buffers.convolutions[0] += 1
-    first, last = load_padded(field, padded)
-    if first >= last:
+    if is_zero(field):
         result[:] = 0.0
-        return
-    # Rows without pressure have no spectrum: they are not transformed
-    spectrum[:first] = 0.0
-    spectrum[last:] = 0.0
-    rocket_fft.r2c(padded[first:last], spectrum[first:last], buffers.col_axis, True, 1.0, 1)
-    rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, True, 1.0, 1)
-    multiply(spectrum, transfer)
-    rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, False, 1.0, 1)
-    rocket_fft.c2r(spectrum[:rows], padded, buffers.col_axis, False, 1.0, 1)
-    # Unpad, and leave the padding zero for the next call
-    for i in range(rows):
-        for j in range(cols):
-            result[i, j] = padded[i, j]
-        for j in range(cols, padded.shape[1]):
-            padded[i, j] = 0.0
+    else:
+        apply_filter(half_space.transfer, buffers.filtering, field, result)
 
 
 @kernel
-def precondition(inverse: Field, buffers: Buffers, field: Field, result: Field) -> None:
+def precondition(inverse: Filter, buffers: Buffers, field: Field, result: Field) -> None:
     """`result = M field`, M an approximate inverse of K: the filter E* |q| / 2 on the unpadded
     grid.
 
-    inverse: [rows', cols'/2+1], of a half-space with or without its belt; field: [rows, cols] [m];
-    result: [rows, cols] [Pa].
+    inverse: of a half-space with or without its belt; field: [rows, cols] [m]; result: [rows, cols]
+    [Pa].
     """
-    rows, cols = field.shape
-    plain, spectrum = buffers.plain, buffers.plain_spectrum
-    # The transform has a size of small prime factors; a grid of another size is padded
-    fits = plain.shape == field.shape
-    if fits:
-        rocket_fft.r2c(field, spectrum, buffers.col_axis, True, 1.0, 1)
-    else:
-        for i in range(plain.shape[0]):
-            for j in range(plain.shape[1]):
-                plain[i, j] = field[i, j] if i < rows and j < cols else 0.0
-        rocket_fft.r2c(plain, spectrum, buffers.col_axis, True, 1.0, 1)
-    rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, True, 1.0, 1)
-    multiply(spectrum, inverse)
-    rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, False, 1.0, 1)
-    if fits:
-        rocket_fft.c2r(spectrum, result, buffers.col_axis, False, 1.0, 1)
-        return
-    rocket_fft.c2r(spectrum, plain, buffers.col_axis, False, 1.0, 1)
-    for i in range(rows):
-        for j in range(cols):
-            result[i, j] = plain[i, j]
+    apply_filter(inverse, buffers.filtering, field, result)
 
 
 @borrowing_kernel
-def load_padded(field: Field, padded: Field) -> tuple[int, int]:
-    """Copy a field into the padded rows; returns the first row that is not all zero and the row
-    after the last such.
-
-    field: [rows, cols]; padded: [rows, padded cols].
-    """
+def is_zero(field: Field) -> bool:
+    """Whether all of a field [rows, cols] is zero."""
     rows, cols = field.shape
-    first, last = rows, 0
     for i in range(rows):
-        loaded = 0
+        others = 0
         for j in range(cols):
-            padded[i, j] = field[i, j]
-            loaded += 1 if field[i, j] != 0.0 else 0
-        if loaded > 0:
-            first, last = min(first, i), i + 1
-    return first, last
+            others += 1 if field[i, j] != 0.0 else 0
+        if others > 0:
+            return False
+    return True
 
 
-@borrowing_kernel
-def multiply(spectrum: Spectrum, factor: Field) -> None:
-    """`spectrum *= factor`, complex by real.
-
-    Both: [rows, cols / 2 + 1] of the transform.
-    """
-    for i in range(spectrum.shape[0]):
-        for j in range(spectrum.shape[1]):
-            spectrum[i, j] = complex(spectrum[i, j].real * factor[i, j], spectrum[i, j].imag * factor[i, j])
-
-
-def _good(count: int) -> int:
-    """The next length that the transform is fast for."""
-    return good_size(count) if count > 1 else 2
-
-
-def _padded(count: int) -> int:
-    """Length of a linear convolution of `count` cells: at least 2 count - 1."""
-    return _good(2 * count)
-
-
-def _transfer(influence: Field) -> Field:
-    """Real transform of the even extension of the influence table, divided by the number of padded
-    cells.
-    """
+def _transfer(influence: Field) -> Filter:
+    """Filter of the even extension of the influence table, by zeros between its ends."""
     rows, cols = influence.shape
-    even = numpy.zeros((_padded(rows), _padded(cols)))
+    full_rows, full_cols = good_shape(rows, cols)
+    even = numpy.zeros((2 * full_rows, 2 * full_cols))
     even[:rows, :cols] = influence
     even[even.shape[0] - rows + 1 :, :cols] = influence[:0:-1]
     even[:, even.shape[1] - cols + 1 :] = even[:, cols - 1 : 0 : -1]
-    return numpy.ascontiguousarray(numpy.fft.rfft2(even).real / even.size)
+    return filter_of(numpy.fft.rfft2(even).real / even.size, rows, cols)
 
 
 def _preconditioner(
@@ -338,7 +258,7 @@ def _preconditioner(
     What yields `further` in series with the half-space adds the eigenvalues of its nearest circulant
     to the reciprocal.
     """
-    plain_rows, plain_cols = _good(rows), _good(cols)
+    plain_rows, plain_cols = good_shape(rows, cols)
     wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(plain_rows, cell_x)[:, None]
     wave_y = 2.0 * numpy.pi * numpy.fft.rfftfreq(plain_cols, cell_y)[None, :]
     floor = PRECONDITIONER_FLOOR * (1.0 / (plain_rows * cell_x) ** 2 + 1.0 / (plain_cols * cell_y) ** 2)
@@ -366,7 +286,7 @@ def _strip(preconditioner: Field, rows: int, cols: int) -> Field:
     on another line of it, [rows, rows] [Pa/m].
     """
     plain_rows, half = preconditioner.shape
-    plain_cols = _good(cols)
+    plain_cols = good_shape(rows, cols)[1]
     power = abs(numpy.fft.rfft(numpy.ones(cols), plain_cols)) ** 2
     twice = numpy.where((numpy.arange(half) == 0) | (2 * numpy.arange(half) == plain_cols), 1.0, 2.0)
     along = numpy.fft.fft(preconditioner @ (power * twice)).real

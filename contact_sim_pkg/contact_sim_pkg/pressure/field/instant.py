@@ -103,7 +103,7 @@ def solve_instant(
     if (holds_load or approach > 0.0) and scale_to(workspace, approach, total):
         target = last.value if start.repeats else before.value
         least = 1 if share >= 0.0 else LEAST_FROM_START
-        found = correct(half_space, workspace, approach, total, request, least, lengths)
+        found = correct(half_space, workspace, approach, total, request, least, share != FROM_HALF, lengths)
         if found.certified:
             # Certified: stored, and the window that it needs.
             box = store(workspace, first_row, first_col, target, pressure)

@@ -17,6 +17,7 @@ from __future__ import annotations
 import numpy
 
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, make_half_space
+from contact_sim_pkg.pressure.field.filtering import filter_of, good_shape
 from contact_sim_pkg.pressure.field.nested import double, halve
 from contact_sim_pkg.pressure.field.rolling import LEAST_OF_HALF
 from contact_sim_pkg.pressure.field.solver import CONVERGED, EDGE, FieldResult, make_workspace, solve_at_load
@@ -29,10 +30,16 @@ TOLERANCE_OF_HALF = 1e-2
 
 def make_periodic_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
     """As `make_half_space` for one period of a surface that repeats after `rows` and `cols` cells.
-    Errors as there.
+
+    Errors as there; also a ValueError for sides that are no products of 2, 3 and 5, and for an odd
+    number of rows.
 
     cell_x, cell_y: [m]; modulus: E* [Pa].
     """
+    if good_shape(rows, cols) != (rows, cols):
+        raise ValueError(
+            f"periodic half-space: {rows} rows, {cols} cols; both must be products of 2, 3 and 5, the rows even"
+        )
     free = make_half_space(rows, cols, cell_x, cell_y, modulus)
     wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(rows, cell_x)[:, None]
     wave_y = 2.0 * numpy.pi * numpy.fft.rfftfreq(cols, cell_y)[None, :]
@@ -43,7 +50,7 @@ def make_periodic_half_space(rows: int, cols: int, cell_x: float, cell_y: float,
     mirrored = numpy.concatenate([influence[:, :0:-1], influence], axis=1)
     return free._replace(
         influence=numpy.ascontiguousarray(influence),
-        transfer=numpy.ascontiguousarray(compliance / (rows * cols)),
+        transfer=filter_of(compliance / (rows * cols), rows, cols),
         mirrored=numpy.ascontiguousarray(mirrored),
     )
 
@@ -82,9 +89,7 @@ class PeriodicField:
 
 def _half_of(whole: HalfSpace) -> PeriodicField | None:
     """A period with cells of twice the size; None where it would be too coarse to help."""
-    rows, cols = whole.rows, whole.cols
-    if min(rows, cols) < 2 * LEAST_OF_HALF or rows % 2 or cols % 2:
+    rows, cols = whole.rows // 2, whole.cols // 2
+    if min(rows, cols) < LEAST_OF_HALF or whole.rows % 2 or whole.cols % 2 or good_shape(rows, cols) != (rows, cols):
         return None
-    return PeriodicField(
-        make_periodic_half_space(rows // 2, cols // 2, 2.0 * whole.cell_x, 2.0 * whole.cell_y, whole.modulus)
-    )
+    return PeriodicField(make_periodic_half_space(rows, cols, 2.0 * whole.cell_x, 2.0 * whole.cell_y, whole.modulus))
