@@ -76,7 +76,6 @@ setup(
         "numpy>=1.26,<3",
         "pydantic>=2.6,<3",
         "rich>=13,<16",
-        "rocket-fft>=0.3,<0.5",
         "rosbags>=0.11,<0.12",
         "ruamel.yaml>=0.17,<0.20",
         "scipy>=1.11,<2",

@@ -289,9 +289,8 @@ def _run_on_nodes(
             raise
         raise RefusedError(f"{package_sentence(error)} (`bench run --offline` needs no ROS)") from error
 
-    for name in ("numba", "rocket-fft"):  # which only the simulator's process imports
-        if find_spec(name.replace("-", "_")) is None or not is_met(name):
-            raise ModuleNotFoundError(f"No module named {name!r} of a version that fits", name=name)
+    if find_spec("numba") is None or not is_met("numba"):  # which only the simulator's process imports
+        raise ModuleNotFoundError("No module named 'numba' of a version that fits", name="numba")
     from contact_sim_pkg.nodes.processes.supervisor import Supervisor
 
     supervisor = Supervisor(scene, directory, from_bag=from_bag, clock=clock)

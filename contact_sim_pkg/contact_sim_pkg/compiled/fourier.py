@@ -131,7 +131,12 @@ def twos(
         for q in range(stride):
             a, b = (q + stride * p) * FURTHER, (q + stride * p) * FURTHER + apart
             to, next_to = (q + stride * 2 * p) * FURTHER, (q + stride * (2 * p + 1)) * FURTHER
-            ar, ai, br, bi = load(source, a + real), load(source, a + imaginary), load(source, b + real), load(source, b + imaginary)
+            ar, ai, br, bi = (
+                load(source, a + real),
+                load(source, a + imaginary),
+                load(source, b + real),
+                load(source, b + imaginary),
+            )
             store(out, to + real, ar + br)
             store(out, to + imaginary, ai + bi)
             put(out, next_to + real, next_to + imaginary, ar - br, ai - bi, twiddles, place + 2 * p)
@@ -170,8 +175,18 @@ def fours(
         for q in range(stride):
             a, to = (q + stride * p) * FURTHER, (q + stride * 4 * p) * FURTHER
             b, c, d = a + apart, a + 2 * apart, a + 3 * apart
-            ar, ai, cr, ci = load(source, a + real), load(source, a + imaginary), load(source, c + real), load(source, c + imaginary)
-            br, bi, dr, di = load(source, b + real), load(source, b + imaginary), load(source, d + real), load(source, d + imaginary)
+            ar, ai, cr, ci = (
+                load(source, a + real),
+                load(source, a + imaginary),
+                load(source, c + real),
+                load(source, c + imaginary),
+            )
+            br, bi, dr, di = (
+                load(source, b + real),
+                load(source, b + imaginary),
+                load(source, d + real),
+                load(source, d + imaginary),
+            )
             er, ei, fr, fi = ar + cr, ai + ci, ar - cr, ai - ci
             gr, gi, hr, hi = br + dr, bi + di, br - dr, bi - di
             store(out, to + real, er + gr)
@@ -193,8 +208,18 @@ def fives(
             a, to = (q + stride * p) * FURTHER, (q + stride * 5 * p) * FURTHER
             b, c, d, e = a + apart, a + 2 * apart, a + 3 * apart, a + 4 * apart
             ar, ai = load(source, a + real), load(source, a + imaginary)
-            br, bi, er, ei = load(source, b + real), load(source, b + imaginary), load(source, e + real), load(source, e + imaginary)
-            cr, ci, dr, di = load(source, c + real), load(source, c + imaginary), load(source, d + real), load(source, d + imaginary)
+            br, bi, er, ei = (
+                load(source, b + real),
+                load(source, b + imaginary),
+                load(source, e + real),
+                load(source, e + imaginary),
+            )
+            cr, ci, dr, di = (
+                load(source, c + real),
+                load(source, c + imaginary),
+                load(source, d + real),
+                load(source, d + imaginary),
+            )
             sr, si, tr, ti = br + er, bi + ei, cr + dr, ci + di
             fr, fi, gr, gi = br - er, bi - ei, cr - dr, ci - di
             store(out, to + real, ar + (sr + tr))

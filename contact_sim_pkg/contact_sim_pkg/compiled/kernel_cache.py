@@ -60,7 +60,6 @@ def fingerprint(package: Path) -> str:
         numba.__version__,
         llvmlite.__version__,
         numpy.__version__,
-        version("rocket-fft"),
         _setting("CPU_NAME") or llvmlite.binding.get_host_cpu_name(),
         platform.python_version(),
         f"boundscheck={_setting('BOUNDSCHECK')} opt={_setting('OPT')}",

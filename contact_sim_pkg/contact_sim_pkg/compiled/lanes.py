@@ -111,7 +111,10 @@ def transpose(
                     upper, lower = rows[i], rows[i + distance]
                     near = [k if k & distance == 0 else k - distance + WIDTH for k in range(WIDTH)]
                     far = [k + distance if k & distance == 0 else k + WIDTH for k in range(WIDTH)]
-                    rows[i], rows[i + distance] = _picked(builder, upper, lower, near), _picked(builder, upper, lower, far)
+                    rows[i], rows[i + distance] = (
+                        _picked(builder, upper, lower, near),
+                        _picked(builder, upper, lower, far),
+                    )
             distance //= 2
         for j, row in enumerate(rows):
             _store(builder, row, _place(context, builder, of_target, target, nth(first_there, stride_there, j)))

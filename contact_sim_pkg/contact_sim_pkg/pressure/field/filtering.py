@@ -58,7 +58,9 @@ def filter_of(table: Field, rows: int, cols: int) -> Filter:
     rows, cols = good_shape(rows, cols)
     halves = 2 if table.shape == (2 * rows, cols + 1) else 1
     if table.shape != (halves * rows, halves * cols // 2 + 1):
-        raise ValueError(f"filter: its table is {table.shape}, it must be {(rows, cols // 2 + 1)} or {(2 * rows, cols + 1)}")
+        raise ValueError(
+            f"filter: its table is {table.shape}, it must be {(rows, cols // 2 + 1)} or {(2 * rows, cols + 1)}"
+        )
     frequencies = halves * rows // 2 + 1
     blocks = -(-frequencies // WIDTH)
     along = numpy.zeros((blocks * WIDTH, halves * cols))

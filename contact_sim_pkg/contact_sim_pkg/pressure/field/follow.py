@@ -122,7 +122,11 @@ def correct(
         # Length learned for next time.
         longer = lengths[correction] * math.sqrt(math.sqrt(change.factor))
         lengths[correction] = min(max(longer, LENGTHS[0]), LENGTHS[1])
-        enough = correction + 1 >= least_corrections and change.size <= CHANGE * request.tolerance and change.largest <= LARGEST_CHANGE * request.tolerance
+        enough = (
+            correction + 1 >= least_corrections
+            and change.size <= CHANGE * request.tolerance
+            and change.largest <= LARGEST_CHANGE * request.tolerance
+        )
         if enough and state.residual <= request.tolerance:
             return Corrected(True, correction + 1, state.approach, state.residual)
         # Not enough: another, without a belt after the step with its best length.

@@ -22,7 +22,16 @@ from contact_sim_pkg.pressure.field.prediction import PreviousField, predict, sc
 from contact_sim_pkg.pressure.field.solver import FieldRequest, total_of
 from contact_sim_pkg.pressure.field.window import Part
 
-__all__ = ["FROM_HALF", "FROM_PRESSURE", "InstantResult", "Start", "all_finite", "grown_window", "solve_instant", "store_window"]
+__all__ = [
+    "FROM_HALF",
+    "FROM_PRESSURE",
+    "InstantResult",
+    "Start",
+    "all_finite",
+    "grown_window",
+    "solve_instant",
+    "store_window",
+]
 
 LEAST_FROM_START = 2
 """Corrections of a start that is no prediction: on a window that has grown the first moves the new

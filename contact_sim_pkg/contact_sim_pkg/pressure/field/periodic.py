@@ -36,11 +36,11 @@ def make_periodic_half_space(rows: int, cols: int, cell_x: float, cell_y: float,
 
     cell_x, cell_y: [m]; modulus: E* [Pa].
     """
+    free = make_half_space(rows, cols, cell_x, cell_y, modulus)
     if good_shape(rows, cols) != (rows, cols):
         raise ValueError(
             f"periodic half-space: {rows} rows, {cols} cols; both must be products of 2, 3 and 5, the rows even"
         )
-    free = make_half_space(rows, cols, cell_x, cell_y, modulus)
     wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(rows, cell_x)[:, None]
     wave_y = 2.0 * numpy.pi * numpy.fft.rfftfreq(cols, cell_y)[None, :]
     wave = numpy.hypot(wave_x, wave_y)
