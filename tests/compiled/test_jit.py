@@ -75,7 +75,6 @@ class Start:
             "linking.py",
             "outside.py",
             "sources.py",
-            "transforms.py",
         ):
             shutil.copy(PACKAGE / "compiled" / name, self.package / "compiled" / name)
         (self.laws / "helper.py").write_text(HELPER)

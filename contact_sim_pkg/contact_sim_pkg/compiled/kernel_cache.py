@@ -24,7 +24,6 @@ import platform
 import shutil
 import stat
 from functools import partial
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 

@@ -14,13 +14,16 @@ results are the same bits on every processor.
 from __future__ import annotations
 
 import operator
+from collections.abc import Callable
 from typing import Any
 
+import numpy
 from llvmlite import ir
 from numba.core import types
 from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, models, register_model
 from numba.np.arrayobj import make_array
+from numpy.typing import NDArray
 
 __all__ = ["WIDTH", "load", "store", "transpose"]
 
@@ -30,7 +33,7 @@ _VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
 _INDEX = ir.IntType(64)
 
 
-class Lanes(types.Type):  # type: ignore[misc]
+class Lanes(types.Type):
     """Type of eight float64 in one vector."""
 
     def __init__(self) -> None:
@@ -41,8 +44,8 @@ class Lanes(types.Type):  # type: ignore[misc]
 lanes = Lanes()
 
 
-@register_model(Lanes)  # type: ignore[untyped-decorator]
-class _LanesModel(models.PrimitiveModel):  # type: ignore[misc]
+@register_model(Lanes)
+class _LanesModel(models.PrimitiveModel):
     def __init__(self, manager: Any, numba_type: Any) -> None:
         super().__init__(manager, numba_type, _VECTOR)
 
@@ -63,8 +66,7 @@ def _store(builder: Any, value: Any, place: Any) -> None:
     builder.store(value, place).align = 8
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def load(typing_context: Any, array: Any, index: Any) -> Any:
+def _load_lanes(typing_context: Any, array: Any, index: Any) -> Any:
     """Lanes from element ``index`` of a contiguous array on, in its order of memory. Not checked."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -73,8 +75,7 @@ def load(typing_context: Any, array: Any, index: Any) -> Any:
     return lanes(array, types.intp), generate
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def store(typing_context: Any, array: Any, index: Any, value: Any) -> Any:
+def _store_lanes(typing_context: Any, array: Any, index: Any, value: Any) -> Any:
     """Write lanes from element ``index`` of a contiguous array on. Not checked."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -85,8 +86,7 @@ def store(typing_context: Any, array: Any, index: Any, value: Any) -> Any:
     return types.void(array, types.intp, lanes), generate
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def transpose(
+def _transpose_lanes(
     typing_context: Any, source: Any, first: Any, stride: Any, target: Any, first_there: Any, stride_there: Any
 ) -> Any:
     """Transpose a tile of eight by eight numbers: lane j of the lanes at ``first + i stride`` of
@@ -140,14 +140,25 @@ def _register(operation: Any, instruction: str) -> None:
     cases = [signature(lanes, lanes, lanes), signature(lanes, types.float64, lanes)]
     infer_global(operation)(type(f"Lanes_{instruction}", (ConcreteTemplate,), {"cases": cases}))
 
-    @lower_builtin(operation, Lanes, Lanes)  # type: ignore[untyped-decorator]
+    @lower_builtin(operation, Lanes, Lanes)
     def of_lanes(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return getattr(builder, instruction)(*arguments)
 
-    @lower_builtin(operation, types.Float, Lanes)  # type: ignore[untyped-decorator]
+    @lower_builtin(operation, types.Float, Lanes)
     def of_number(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return getattr(builder, instruction)(_spread(builder, arguments[0]), arguments[1])
 
 
 for _operation, _instruction in ((operator.add, "fadd"), (operator.sub, "fsub"), (operator.mul, "fmul")):
     _register(_operation, _instruction)
+
+
+def _intrinsic(generator: Any) -> Any:
+    return intrinsic(generator)
+
+
+Values = NDArray[numpy.float64]
+load: Callable[[Values, int], float] = _intrinsic(_load_lanes)
+store: Callable[[Values, int, float], None] = _intrinsic(_store_lanes)
+transpose: Callable[[Values, int, int, Values, int, int], None] = _intrinsic(_transpose_lanes)
+"""To a type checker lanes are a number: what is done with them is done with each."""

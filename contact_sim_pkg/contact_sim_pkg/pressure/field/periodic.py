@@ -16,8 +16,8 @@ from __future__ import annotations
 
 import numpy
 
-from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, make_half_space
 from contact_sim_pkg.pressure.field.filtering import filter_of, good_shape
+from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, make_half_space
 from contact_sim_pkg.pressure.field.nested import double, halve
 from contact_sim_pkg.pressure.field.rolling import LEAST_OF_HALF
 from contact_sim_pkg.pressure.field.solver import CONVERGED, EDGE, FieldResult, make_workspace, solve_at_load
