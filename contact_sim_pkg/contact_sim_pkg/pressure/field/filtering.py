@@ -18,7 +18,15 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.fourier import FURTHER, IMAGINARY, Axis, good_size, make_axis, put, transform
+from contact_sim_pkg.compiled.fourier import (
+    FURTHER,
+    IMAGINARY,
+    Axis,
+    good_size,
+    make_axis,
+    put,
+    transform,
+)
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.compiled.lanes import WIDTH, load, store, transpose
 
@@ -117,12 +125,12 @@ def rows_forward(buffers: FilterBuffers, field: Field, first: int, halves: int) 
         store(even, m * FURTHER, x)
         store(even, m * FURTHER + IMAGINARY, y)
         if halves == 2:
-            put(odd, m * FURTHER, m * FURTHER + IMAGINARY, x, y, turns, 4 * m)
+            put(odd, m * FURTHER, x, y, turns, 4 * m)
     # Frequencies k and `highest - k` of the pairs give those of the rows.
     highest = halves * pairs.length
     for half in range(halves):
         signal, other = buffers.signals[half], buffers.signals[2 + half]
-        if transform(pairs, signal, other, 0, IMAGINARY):
+        if transform(pairs, signal, other):
             signal = other
         for k in range(half, highest // 2 + 1, halves):
             mirror = highest - k if k > 0 else 0
@@ -157,23 +165,24 @@ def filter_columns(buffers: FilterBuffers, table: Field, first: int, cols: int) 
     if halves == 2:
         for col in range(length):
             at = col * FURTHER
-            put(odd, at, at + IMAGINARY, load(even, at), load(even, at + IMAGINARY), across.turns, 2 * col)
+            put(odd, at, load(even, at), load(even, at + IMAGINARY), across.turns, 2 * col)
     for half in range(halves):
         signal, other, factors = buffers.signals[half], buffers.signals[2 + half], table[half]
-        turned = transform(across, signal, other, 0, IMAGINARY)
+        turned = transform(across, signal, other)
         middle, back = (other, signal) if turned else (signal, other)
         for col in range(length):
             at, factor = col * FURTHER, load(factors, col * WIDTH)
-            store(middle, at, factor * load(middle, at))
-            store(middle, at + IMAGINARY, factor * load(middle, at + IMAGINARY))
-        # As many passes back: it ends where it began
-        transform(across, middle, back, IMAGINARY, 0)
+            x, y = factor * load(middle, at), factor * load(middle, at + IMAGINARY)
+            store(middle, at, y)
+            store(middle, at + IMAGINARY, x)
+        # Back, with exchanged parts, and in as many passes: it ends where it began
+        transform(across, middle, back)
     if halves == 2:
         for col in range(cols):
             add_turned_back(even, odd, col * FURTHER, across.turns, 2 * col)
     for col in range(0, cols, WIDTH):
-        transpose(even, col * FURTHER, FURTHER, spectrum, start + col, stride)
-        transpose(even, col * FURTHER + IMAGINARY, FURTHER, spectrum, start + imaginary + col, stride)
+        transpose(even, col * FURTHER + IMAGINARY, FURTHER, spectrum, start + col, stride)
+        transpose(even, col * FURTHER, FURTHER, spectrum, start + imaginary + col, stride)
 
 
 @borrowing_kernel
@@ -196,30 +205,32 @@ def rows_back(buffers: FilterBuffers, result: Field, first: int, halves: int) ->
             cosine, sine = turns[4 // halves * k], turns[4 // halves * k + 1]
             wr, wi = cosine * dr + sine * di, cosine * di - sine * dr
             here, there = k // halves * FURTHER, (highest - k) // halves * FURTHER
-            store(signal, there, er + wi)
-            store(signal, there + IMAGINARY, wr - ei)
-            # After the other: they are one where k is half of the highest
-            store(signal, here, er - wi)
-            store(signal, here + IMAGINARY, ei + wr)
-        if transform(pairs, signal, other, IMAGINARY, 0):
+            # Parts exchanged, for the way back; after the other, with which it is one at half of the highest
+            store(signal, there + IMAGINARY, er + wi)
+            store(signal, there, wr - ei)
+            store(signal, here + IMAGINARY, er - wi)
+            store(signal, here, ei + wr)
+        if transform(pairs, signal, other):
             for at in range(0, pairs.length * FURTHER, WIDTH):
                 store(signal, at, load(other, at))
     even, odd = buffers.signals[0], buffers.signals[1]
     for m in range((rows + 1) // 2):
         if halves == 2:
             add_turned_back(even, odd, m * FURTHER, turns, 4 * m)
-        write_row(result, 2 * m, first, count, even, m * FURTHER, buffers.line)
+        write_row(result, 2 * m, first, count, even, m * FURTHER + IMAGINARY, buffers.line)
         if 2 * m + 1 < rows:
-            write_row(result, 2 * m + 1, first, count, even, m * FURTHER + IMAGINARY, buffers.line)
+            write_row(result, 2 * m + 1, first, count, even, m * FURTHER, buffers.line)
 
 
 @borrowing_kernel
 def add_turned_back(even: Values, odd: Values, at: int, turns: Values, turn: int) -> None:
-    """Add the number at `at` of the odd frequencies, turned back, to that of the even ones."""
+    """Add the number at `at` of the odd frequencies, turned back, to that of the even ones; parts are
+    exchanged.
+    """
     cosine, sine = turns[turn], turns[turn + 1]
-    x, y = load(odd, at), load(odd, at + IMAGINARY)
-    store(even, at, load(even, at) + (cosine * x + sine * y))
-    store(even, at + IMAGINARY, load(even, at + IMAGINARY) + (cosine * y - sine * x))
+    x, y = load(odd, at + IMAGINARY), load(odd, at)
+    store(even, at + IMAGINARY, load(even, at + IMAGINARY) + (cosine * x + sine * y))
+    store(even, at, load(even, at) + (cosine * y - sine * x))
 
 
 @borrowing_kernel

@@ -103,12 +103,13 @@ def correct(
     belted = len(half_space.belt) > 0
     contact, pulling = list_cells(workspace)
     factor_belt(half_space.belt, half_space.strip, workspace.pressure, workspace.belt)
-    response_known = False
-    state = evaluate(workspace, contact, 0, approach, holds_load)
+    none = min(contact, 0)  # left; of a literal 0 another version would be compiled
+    state = evaluate(workspace, contact, none, approach, holds_load)
     for correction in range(min(request.max_iterations, MOST_CORRECTIONS)):
         if contact == 0 or not abs(state.approach) < numpy.inf:
             break
         # A step of the learned length, scaled to the load.
+        response_known = correction > (0 if is_exact else 1)
         search_direction(half_space, workspace, state.free, holds_load, response_known)
         contact, left = move(workspace, state.free, pulling, lengths[correction])
         keep_lines(half_space.belt, workspace.pressure, workspace.clipped, workspace.cells.left, left, workspace.belt)
@@ -130,10 +131,10 @@ def correct(
         if enough and state.residual <= request.tolerance:
             return Corrected(True, correction + 1, state.approach, state.residual)
         # Not enough: another, without a belt after the step with its best length.
-        response_known, pulling = is_exact or correction > 0, 0
+        pulling = none
         if not belted:
             contact, pulling = rescale_step(workspace, contact, state.free, left, change.factor)
-            state = evaluate(workspace, contact, 0, approach, holds_load)
+            state = evaluate(workspace, contact, none, approach, holds_load)
     return Corrected(False, 0, approach, numpy.inf)
 
 

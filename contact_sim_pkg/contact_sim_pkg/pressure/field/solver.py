@@ -329,7 +329,8 @@ def iterate(
     holds_load = total > 0.0
     refresh, fresh, blocked = True, False, False
     best, stale, slope, iterations = numpy.inf, 0, 0.0, 0
-    contact, left = begin(workspace), 0
+    contact = begin(workspace)
+    left = min(contact, 0)  # of a literal 0 another version would be compiled
     while True:
         if refresh:
             if holds_load:
