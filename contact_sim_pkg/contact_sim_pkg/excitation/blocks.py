@@ -108,7 +108,8 @@ class RoadBlocks:
         self.surface, self.travel, self.block_length = surface, travel, block_length
         self.cell_x, self.cell_y, self.half_length = cell_x, cell_y, half_length
         self._y = numpy.asarray((numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y, dtype=numpy.float64)
-        self._first_held, self._held = 0, numpy.empty((0, cols), dtype=numpy.float32)
+        self._first_held = 0
+        self._held: NDArray[numpy.float32] = numpy.empty((0, cols), dtype=numpy.float32)
         # Surfaces make their tables for this track now, and a track that they refuse is refused
         # here
         self.block(0)
