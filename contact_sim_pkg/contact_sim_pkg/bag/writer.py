@@ -9,7 +9,7 @@ reserve; a caller that is busy with a block loses nothing by it.
 
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import NamedTuple
@@ -163,24 +163,35 @@ class BagWriter:
             BagWriteError: the disk refused a write; the bag ends with its last whole chunk.
         """
         with self._lock:
-            self._refuse_if_ended()
-            channel = self._channels.get(topic)
-            if channel is None:
-                raise BagError(
-                    f"topic {topic!r} is not recorded in {self.path}; recorded are {', '.join(self._channels)}"
-                )
-            # counts and times grow only once the writer has accepted the message
-            number = self._counts[topic] if sequence is None else sequence
-            logged = self._epoch + log_time
-            published = logged if publish_time is None else self._epoch + publish_time
-            try:
+            self._append([(topic, log_time, data)], publish_time, sequence)
+
+    def write_all(self, messages: Iterable[tuple[str, int, bytes]]) -> None:
+        """Append messages: of each its topic, log time and data. Raises as `write`."""
+        with self._lock:
+            self._append(messages)
+
+    def _append(
+        self, messages: Iterable[tuple[str, int, bytes]], publish_time: int | None = None, sequence: int | None = None
+    ) -> None:
+        """Append messages, under the lock; counts grow only once the file has accepted a message."""
+        self._refuse_if_ended()
+        self._chunk_opened = self._clock() if self._chunk_opened is None else self._chunk_opened
+        try:
+            for topic, log_time, data in messages:
+                channel = self._channels.get(topic)
+                if channel is None:
+                    raise BagError(
+                        f"topic {topic!r} is not recorded in {self.path}; recorded are {', '.join(self._channels)}"
+                    )
+                number = self._counts[topic] if sequence is None else sequence
+                logged = self._epoch + log_time
+                published = logged if publish_time is None else self._epoch + publish_time
                 self._content.add_message(channel, number, logged, published, data)
                 self._counts[topic] += 1
-                self._chunk_opened = self._clock() if self._chunk_opened is None else self._chunk_opened
-                self._close_chunk_if_due()
-            except BagWriteError as error:
-                self._fault = error
-                raise
+            self._close_chunk_if_due()
+        except BagWriteError as error:
+            self._fault = error
+            raise
 
     def maintain(self) -> None:
         """Close the chunk, sync the disk and look at its free space, each if it is due."""
