@@ -19,10 +19,11 @@ from rosbags.rosbag2 import Reader
 from ruamel.yaml import YAML
 
 from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.mcap.chunked_file import CHUNK_BYTES
 from contact_sim_pkg.bag.metadata import Extent, metadata_text, recorded_topics
 from contact_sim_pkg.bag.topics import RECORDED, full_name
 from contact_sim_pkg.bag.typestore import type_hash
-from contact_sim_pkg.bag.writer import CHUNK_BYTES, BagWriter
+from contact_sim_pkg.bag.writer import BagWriter
 
 Record = Callable[..., Path]
 Encoded = list[tuple[str, int, bytes]]

@@ -63,14 +63,14 @@ def test_a_run_with_json_prints_one_object_for_scripts(capsys, tmp_path):
 
 
 def test_a_write_that_fails_during_a_run_ends_it_with_status_3_and_a_sentence(capsys, tmp_path, monkeypatch):
-    written = BagWriter.write
+    written = BagWriter.write_all
 
-    def write(self, topic, *arguments, **named):
+    def write_all(self, messages):
         if self.messages > 20:
             raise BagWriteError("no space left on device")
-        written(self, topic, *arguments, **named)
+        written(self, messages)
 
-    monkeypatch.setattr(BagWriter, "write", write)
+    monkeypatch.setattr(BagWriter, "write_all", write_all)
     assert bench_main(["run", "seat_ride", *OFFLINE, "--out", str(tmp_path / "bag"), "--json"]) == 3
     out, said = capsys.readouterr()
     facts = json.loads(out)

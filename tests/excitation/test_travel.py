@@ -51,6 +51,13 @@ def test_speed_interpolates_and_stays_constant_outside():
     assert [travel.speed(t) for t in (0.0, 0.75, 1.5, 9.0)] == [10.0, 15.0, 0.0, 0.0]
 
 
+def test_travel_and_speed_at_many_times_are_those_at_each():
+    travel, times = Travel(POINTS), numpy.linspace(-1.0, 6.0, 29)  # on the points and between
+    places, speeds = travel.along(times)
+    assert places.tolist() == [travel.position(t) for t in times]
+    assert speeds.tolist() == [travel.speed(t) for t in times]
+
+
 @pytest.mark.parametrize(
     ("points", "message"),
     [

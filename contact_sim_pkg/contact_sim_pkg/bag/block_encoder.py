@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.topics import TOPICS
 
+FRAMES = {name: topic.frame for name, topic in TOPICS.items()}
+
 Message = tuple[str, int, bytes]  # topic, stamp [ns], CDR
 
 
@@ -26,7 +28,6 @@ def encode_block(outputs: Iterable[Output]) -> list[Message]:
     Raises MessageError where a value does not fit its field, or arrays do not fit each other.
     """
     messages = [
-        (each.topic, each.stamp, encode(each.record, each.stamp, each.frame or TOPICS[each.topic].frame))
-        for each in outputs
+        (each.topic, each.stamp, encode(each.record, each.stamp, each.frame or FRAMES[each.topic])) for each in outputs
     ]
     return sorted(messages, key=lambda message: (message[1], TOPICS[message[0]].rank))

@@ -6,9 +6,9 @@ The bytes are little-endian CDR with the header 00 01 00 00, filled up with zero
 """
 
 import struct
-from collections.abc import Callable, Sequence
-from itertools import groupby
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import prod
+from typing import Any, NamedTuple
 
 import numpy
 from rosbags.serde import SerdeError
@@ -19,118 +19,107 @@ from contact_sim_pkg.records.definitions import Field, definition_of
 
 SECOND = 1_000_000_000  # [ns]
 LAST_STAMP = 2**31 * SECOND - 1  # [ns]; the seconds of a ROS stamp are an int32
-_FILL = (b"", b"\0\0\0", b"\0\0", b"\0")  # by length modulo 4
 CDR_HEADER = b"\0\1\0\0"
-_COUNT, _STAMP = struct.Struct("<I"), struct.Struct("<iII")
+_COUNT = struct.Struct("<I")
 _CODES = {"b1": "?", "i4": "i", "u1": "B", "u4": "I", "i8": "q", "u8": "Q", "f4": "f", "f8": "d"}
-_ZEROS = tuple(bytes(count) for count in range(8))
 
-Step = Callable[[list[bytes], int, Sequence[Any]], int]
-
-
-class MessageLayout:
-    """Places of some fields in CDR; what does not depend on the values is worked out once."""
-
-    def __init__(self, fields: Sequence[Field]) -> None:
-        """Lay out fields in the order of their definition."""
-        self._steps: list[tuple[slice, Step]] = []
-        first = 0
-        for is_number, group in groupby(fields, _is_number):
-            some = list(group)
-            steps = [_numbers(some)] if is_number else [_step(field) for field in some]
-            for step in steps:
-                last = first + len(some) // len(steps)
-                self._steps.append((slice(first, last), step))
-                first = last
-
-    def append(self, parts: list[bytes], at: int, values: Sequence[Any]) -> int:
-        """Append the bytes of one value a field behind `at` bytes; returns how many there are then.
-
-        Raises struct.error, TypeError, ValueError or AttributeError where a value does not fit.
-        """
-        for place, step in self._steps:
-            at = step(parts, at, values[place])
-        return at
+Shape = tuple[int, ...]
+"""Of an array its shape, of a text its bytes, of texts their number and bytes."""
 
 
-def _is_number(field: Field) -> bool:
-    return not field.is_array and field.type != "string" and "/" not in field.type and field.type[0].islower()
+class Leaf(NamedTuple):
+    """A number, a text or an array of these, in a message or in a message within it."""
+
+    name: str  # with a dot behind the name of each message that it lies in
+    type: str
+    is_array: bool
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it always takes the same number of bytes."""
+        return not self.is_array and self.type != "string"
 
 
-def _numbers(fields: Sequence[Field]) -> Step:
-    """Numbers in a row, each aligned to its size, packed in one call: a format for each place modulo
-    8 where the first may stand.
+def leaves_of(fields: Sequence[Field], prefix: str = "") -> Iterator[Leaf]:
+    """The leaves of fields in the order of their bytes."""
+    for field in fields:
+        kind = field.type.rpartition("/")[2]
+        if kind[0].isupper():
+            yield from leaves_of(definition_of(kind).fields, f"{prefix}{field.name}.")
+        else:
+            yield Leaf(prefix + field.name, kind, field.is_array)
+
+
+class Form(NamedTuple):
+    """Where the values of a message lie; the same in all with arrays and texts of the same shapes."""
+
+    packing: struct.Struct  # of a whole message, the header in front
+    counts: list[tuple[int, int]]  # places among the values, and what stands there
+
+
+def form_of(leaves: Sequence[Leaf], shapes: Mapping[str, Shape], sizes: Mapping[str, int]) -> Form:
+    """Form of a message: a text or an array takes two values, its count and its bytes.
+
+    shapes: of the leaves that are no numbers; sizes: values of those that are sides of an array.
     """
-    kinds = [numpy.dtype(field.type) for field in fields]
+    counts: list[tuple[int, int]] = []
+    text, at, place = "<4s", 0, 0
 
-    def form(at: int) -> struct.Struct:
-        text = "<"
-        for kind in kinds:
-            text += "x" * (-at % kind.itemsize) + _CODES[kind.str[1:]]
-            at += -at % kind.itemsize + kind.itemsize
-        return struct.Struct(text)
+    def add(code: str, size: int, alignment: int) -> None:
+        nonlocal text, at, place
+        gap = -at % alignment
+        text, at, place = f"{text}{gap}x{code}", at + gap + size, place + 1
 
-    forms = [form(at) for at in range(8)]
-
-    def append(parts: list[bytes], at: int, values: Sequence[Any]) -> int:
-        parts.append(forms[at % 8].pack(*values))
-        return at + len(parts[-1])
-
-    return append
-
-
-def _step(field: Field) -> Step:
-    """What appends a text, an array, or a record of numbers."""
-    if field.type == "string":
-        return _texts if field.is_array else _text
-    if not field.is_array:
-        inner = MessageLayout(definition_of(field.type.rpartition("/")[2]).fields)
-        return lambda parts, at, values: inner.append(parts, at, values[0])
-    size = numpy.dtype(field.type).itemsize
-
-    def append(parts: list[bytes], at: int, values: Sequence[Any]) -> int:
-        (array,) = values
-        at = _count(parts, at, array.size)
-        gap = -at % size if array.size else 0
-        parts += (_ZEROS[gap], array.tobytes())
-        return int(at + gap + array.nbytes)
-
-    return append
+    for leaf in leaves:
+        item = 1 if leaf.type == "string" else numpy.dtype(leaf.type).itemsize
+        if leaf.is_number:
+            if leaf.name in sizes:
+                counts.append((place, sizes[leaf.name]))
+            add(_CODES[numpy.dtype(leaf.type).str[1:]], item, item)
+            continue
+        shape = shapes[leaf.name]
+        count, size = (shape[0], shape[-1]) if leaf.type == "string" else (prod(shape), prod(shape) * item)
+        counts.append((place, count))
+        add("I", 4, 4)
+        add(f"{size}s", size, item if size else 1)
+    return Form(struct.Struct(f"{text}{-at % 4}x"), counts)
 
 
-def _text(parts: list[bytes], at: int, values: Sequence[str]) -> int:
-    data = values[0].encode() + b"\0"
-    at = _count(parts, at, len(data))
-    parts.append(data)
-    return at + len(data)
+def to_bytes(leaf: Leaf) -> Callable[[Any], tuple[bytes, Shape]]:
+    """What makes bytes of a text or an array, and states its shape.
 
-
-def _texts(parts: list[bytes], at: int, values: Sequence[Sequence[str]]) -> int:
-    at = _count(parts, at, len(values[0]))
-    for text in values[0]:
-        at = _text(parts, at, (text,))
-    return at
-
-
-def _count(parts: list[bytes], at: int, count: int) -> int:
-    gap = -at % 4
-    parts += (_ZEROS[gap], _COUNT.pack(count))
-    return at + gap + 4
-
-
-def stamped(stamp_ns: int, frame_id: str) -> bytes:
-    """The bytes of a `std_msgs/Header` with a simulated time in [ns], 0 to 2^31 s; MessageError
-    outside.
+    It raises TypeError, ValueError or AttributeError for another value.
     """
+    if leaf.type == "string":
+        return _texts if leaf.is_array else _text
+    kind = numpy.dtype(leaf.type)
+
+    def array(value: Any) -> tuple[bytes, Shape]:
+        if not isinstance(value, numpy.ndarray) or value.dtype != kind:  # None equals the type of doubles
+            value = numpy.asarray(value).astype(kind, "C", "same_kind")
+        return value.tobytes(), value.shape
+
+    return array
+
+
+def _text(value: str) -> tuple[bytes, Shape]:
+    data = value.encode() + b"\0"
+    return data, (len(data),)
+
+
+def _texts(values: Sequence[str]) -> tuple[bytes, Shape]:
+    data = b""
+    for value in values:
+        text, (size,) = _text(value)
+        data += bytes(-len(data) % 4) + _COUNT.pack(size) + text
+    return data, (len(values), len(data))
+
+
+def stamp_values(stamp_ns: int) -> tuple[int, int]:
+    """Seconds and nanoseconds of a simulated time in [ns], 0 to 2^31 s; MessageError outside."""
     if not 0 <= stamp_ns <= LAST_STAMP:
         raise MessageError(f"a stamp of {stamp_ns} ns cannot be sent; allowed: 0 to {LAST_STAMP} ns")
-    frame = frame_id.encode() + b"\0"
-    return _STAMP.pack(*divmod(stamp_ns, SECOND), len(frame)) + frame
-
-
-def joined(parts: list[bytes], at: int) -> bytes:
-    """A message of the parts, which are `at` bytes long without its header."""
-    return b"".join((CDR_HEADER, *parts, _FILL[at % 4]))
+    return divmod(stamp_ns, SECOND)
 
 
 def deserialize(type_name: str, data: bytes) -> Any:

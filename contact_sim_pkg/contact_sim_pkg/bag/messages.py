@@ -7,8 +7,8 @@ copies: writable, aligned, contiguous.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Sequence
-from functools import cache
+from collections.abc import Callable
+from functools import cache, lru_cache
 from math import prod
 from operator import attrgetter
 from typing import Any, TypeVar
@@ -16,7 +16,17 @@ from typing import Any, TypeVar
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.encoding import MessageLayout, deserialize, joined, stamp_of, stamped
+from contact_sim_pkg.bag.encoding import (
+    CDR_HEADER,
+    Form,
+    Shape,
+    deserialize,
+    form_of,
+    leaves_of,
+    stamp_of,
+    stamp_values,
+    to_bytes,
+)
 from contact_sim_pkg.bag.errors import MessageError
 from contact_sim_pkg.records import messages as records
 from contact_sim_pkg.records.definitions import HEADER, Field, definition_of
@@ -67,7 +77,6 @@ class _Codec:
         fields, sides = definition.record_fields, definition.sides
         self.type_name, self._fields = definition.type_name, fields
         self._values_of = _values_of(tuple(field.name for field in fields))
-        self._has_header = any(field.type == HEADER for field in definition.fields)
         self._kinds = [
             (place, numpy.dtype(field.type))
             for place, field in enumerate(fields)
@@ -76,56 +85,60 @@ class _Codec:
         self._names = [place for place, field in enumerate(fields) if field.is_array and field.type == "string"]
         self._messages = [(place, _short(field.type)) for place, field in enumerate(fields) if _is_message(field)]
         self._shaped = [(place, field) for place, field in enumerate(fields) if field.shape]
-        self._side_arrays = [(place, field.name) for place, field in enumerate(fields) if field.name in sides]
-        self._columns = [
-            (place, field.may_be_empty) for place, field in enumerate(fields)
-            if field.is_array and not field.shape and field.name not in sides
-        ]  # fmt: skip
-        body = [field for field in definition.fields if field.type != HEADER]
-        self._layout = MessageLayout(body)
-        self._counts = [(place, field.name) for place, field in enumerate(body) if field not in fields]
+        self._side_arrays = [field.name for field in fields if field.name in sides]
+        self._columns = [field for field in fields if field.is_array and not field.shape and field.name not in sides]
+        # Of the encoder: all leaves, and those that the record has, the header's in front
+        self._leaves = [*leaves_of(definition.fields)]
+        self._has_header = any(field.type == HEADER for field in definition.fields)
+        given = [leaf for leaf in self._leaves if leaf.is_array or leaf.name not in sides]
+        self._leaf_values = _values_of(tuple(leaf.name for leaf in given if not leaf.name.startswith("header.")))
+        self._arrays = [(place, leaf.name, to_bytes(leaf)) for place, leaf in enumerate(given) if not leaf.is_number]
+        self._form = lru_cache(maxsize=64)(self._form_of)  # the messages of a topic have few
 
     def encode(self, record: Any, stamp_ns: int, frame_id: str) -> bytes:
         """CDR bytes of a record; the numbers of rows, columns and samples are those of its arrays."""
         try:
-            values = list(record)
-            for place, kind in self._kinds:
-                array = values[place]
-                if not isinstance(array, numpy.ndarray) or array.dtype != kind:  # None equals the type of doubles
-                    values[place] = numpy.asarray(array).astype(kind, "C", "same_kind")
-            sizes = self._sizes(values) if self._shaped else {}
-            if self._columns:
-                self._refuse_uneven_columns(values)
-            for place, name in self._counts:  # in the order of the definition, so that each finds its place
-                values.insert(place, sizes[name])
-            parts = [stamped(stamp_ns, frame_id)] if self._has_header else []
-            at = self._layout.append(parts, len(parts[0]) if parts else 0, values)
+            values = [*stamp_values(stamp_ns), frame_id] if self._has_header else []
+            values += self._leaf_values(record)
+            shapes = []
+            for place, _name, converted in self._arrays:
+                values[place], shape = converted(values[place])
+                shapes.append(shape)
+            form = self._form(tuple(shapes))
+            for place, count in form.counts:
+                values.insert(place, count)
+            return form.packing.pack(CDR_HEADER, *values)
         except (struct.error, TypeError, ValueError, AttributeError) as error:
             raise MessageError(f"a {self.type_name} cannot be encoded: {error}") from None
-        return joined(parts, at)
 
-    def _sizes(self, values: list[Any]) -> dict[str, int]:
+    def _form_of(self, found: tuple[Shape, ...]) -> Form:
+        """Form of messages with arrays and texts of these shapes; MessageError where arrays do not fit
+        each other.
+        """
+        shapes = {name: shape for (_place, name, _to_bytes), shape in zip(self._arrays, found, strict=True)}
+        sizes = self._sizes(shapes)
+        self._refuse_uneven_columns({field.name: shapes[field.name][0] for field in self._columns})
+        return form_of(self._leaves, shapes, sizes)
+
+    def _sizes(self, shapes: dict[str, Shape]) -> dict[str, int]:
         """The size of each side of an array; MessageError where two arrays disagree on it."""
-        sizes = {name: len(values[place]) for place, name in self._side_arrays}
-        for place, field in self._shaped:
-            shape = values[place].shape
+        sizes = {name: shapes[name][0] for name in self._side_arrays}
+        for _place, field in self._shaped:
+            shape = shapes[field.name]
             if [sizes.setdefault(side, size) for side, size in zip(field.shape, shape, strict=False)] != [
                 *shape
             ] or len(shape) != len(field.shape):
-                shapes = (f"{each.name} {values[place].shape}" for place, each in self._shaped)
+                found = (f"{each.name} {shapes[each.name]}" for _place, each in self._shaped)
                 wanted = " x ".join(f"{sizes.get(side, '?')} {side}" for side in field.shape)
                 raise MessageError(
-                    f"the arrays of a {self.type_name} do not fit each other: {', '.join(shapes)}; {field.name} must be {wanted}"
+                    f"the arrays of a {self.type_name} do not fit each other: {', '.join(found)}; {field.name} must be {wanted}"
                 )
         return sizes
 
-    def _refuse_uneven_columns(self, values: Sequence[Any]) -> None:
+    def _refuse_uneven_columns(self, lengths: dict[str, int]) -> None:
         """MessageError where arrays that stand beside each other differ in length."""
-        lengths = {
-            len(values[place]) for place, may_be_empty in self._columns if not may_be_empty or len(values[place])
-        }
-        if len(lengths) > 1:
-            found = ", ".join(f"{self._fields[place].name} has {len(values[place])}" for place, _empty in self._columns)
+        if len({lengths[field.name] for field in self._columns if not field.may_be_empty or lengths[field.name]}) > 1:
+            found = ", ".join(f"{name} has {length}" for name, length in lengths.items())
             raise MessageError(
                 f"the arrays of a {self.type_name} differ in length: {found}; one value a sample is needed in each"
             )
@@ -144,8 +157,8 @@ class _Codec:
             values[place] = tuple(values[place])
         for place, name in self._messages:
             values[place] = record_of(getattr(records, name), values[place])
-        if self._columns:
-            self._refuse_uneven_columns(values)
+        given = dict(zip((field.name for field in self._fields), values, strict=True))
+        self._refuse_uneven_columns({field.name: len(given[field.name]) for field in self._columns})
         return values
 
     def _values_or_defaults(self, message: Any) -> list[Any]:

@@ -9,15 +9,14 @@ reserve; a caller that is busy with a block loses nothing by it.
 
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import NamedTuple
 
-from mcap.writer import Writer
-
 from contact_sim_pkg.bag.errors import BagError, BagWriteError, RecordingStoppedError
 from contact_sim_pkg.bag.mcap.append_file import AppendFile, create_directory, create_file, free_bytes_at, write_whole
+from contact_sim_pkg.bag.mcap.chunked_file import ChunkedFile
 from contact_sim_pkg.bag.mcap.layout import counts_on_disk
 from contact_sim_pkg.bag.metadata import (
     OUTCOME,
@@ -35,9 +34,6 @@ from contact_sim_pkg.bag.metadata import (
 from contact_sim_pkg.bag.names import file_name, refuse_wrong_name
 
 CHUNK_SECONDS = 0.1  # age at which a chunk is closed
-CHUNK_BYTES = (
-    4 << 20
-)  # ten blocks of a road, most of it that of the block before: packed together they take a third less
 SYNC_SECONDS = 1.0  # between two syncs, and two looks at the free space
 RESERVE_BYTES = 500_000_000
 LIBRARY = "contact_bench"
@@ -102,21 +98,19 @@ class BagWriter:
         self._name = file_name(directory)
         self._file: AppendFile = create_file(directory, self._name)
         self._free_bytes = free_bytes or self._file.free_bytes
-        self._writer = Writer(self._file, chunk_size=CHUNK_BYTES)  # type: ignore[arg-type]  # write, tell, flush are all it needs
         self._lock = threading.Lock()
         self._counts = {topic.key: 0 for topic in self._topics}
-        self._start, self._end = 2**63 - 1, 0
         self._chunk_opened: float | None = None
         self._looked = clock()
         self._fault: BagError | None = None
         self._summary: BagSummary | None = None
-        self._channels = self._begin_or_remove()
+        self._content, self._channels = self._begin_or_remove()
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._maintain_until_closed, name="bag writer", daemon=True)
         if background:
             self._thread.start()
 
-    def _begin_or_remove(self) -> dict[str, int]:
+    def _begin_or_remove(self) -> tuple[ChunkedFile, dict[str, int]]:
         """Begin the file; where the disk refuses even that, leave nothing behind."""
         try:
             return self._begin()
@@ -126,23 +120,20 @@ class BagWriter:
             self.path.rmdir()
             raise
 
-    def _begin(self) -> dict[str, int]:
+    def _begin(self) -> tuple[ChunkedFile, dict[str, int]]:
         """Header, attachments, schemas and channels; the attachments stand in front, so a cut bag
         has them.
         """
-        self._writer.start(profile="ros2", library=LIBRARY)
+        content = ChunkedFile(self._file, LIBRARY)
         if self._attachments:
-            self._writer.add_metadata(RECORD, sealed(self._attachments))
-        schemas: dict[str, int] = {}
+            content.add_metadata(RECORD, sealed(self._attachments))
         channels = {}
         for topic in self._topics:
-            if topic.type not in schemas:
-                schemas[topic.type] = self._writer.register_schema(topic.type, "ros2msg", topic.definition.encode())
             kept = {"offered_qos_profiles": topic.offered_qos, "topic_type_hash": topic.type_hash}
             if topic.relative_name:
                 kept[RELATIVE_NAME] = topic.relative_name
-            channels[topic.key] = self._writer.register_channel(topic.name, topic.encoding, schemas[topic.type], kept)
-        return channels
+            channels[topic.key] = content.add_channel(topic.name, topic.encoding, topic.type, topic.definition, kept)
+        return content, channels
 
     @property
     def messages(self) -> int:
@@ -172,25 +163,35 @@ class BagWriter:
             BagWriteError: the disk refused a write; the bag ends with its last whole chunk.
         """
         with self._lock:
-            self._refuse_if_ended()
-            channel = self._channels.get(topic)
-            if channel is None:
-                raise BagError(
-                    f"topic {topic!r} is not recorded in {self.path}; recorded are {', '.join(self._channels)}"
-                )
-            # counts and times grow only once the writer has accepted the message
-            number = self._counts[topic] if sequence is None else sequence
-            logged = self._epoch + log_time
-            published = logged if publish_time is None else self._epoch + publish_time
-            try:
-                self._writer.add_message(channel, logged, data, published, number)
+            self._append([(topic, log_time, data)], publish_time, sequence)
+
+    def write_all(self, messages: Iterable[tuple[str, int, bytes]]) -> None:
+        """Append messages: of each its topic, log time and data. Raises as `write`."""
+        with self._lock:
+            self._append(messages)
+
+    def _append(
+        self, messages: Iterable[tuple[str, int, bytes]], publish_time: int | None = None, sequence: int | None = None
+    ) -> None:
+        """Append messages, under the lock; counts grow only once the file has accepted a message."""
+        self._refuse_if_ended()
+        self._chunk_opened = self._clock() if self._chunk_opened is None else self._chunk_opened
+        try:
+            for topic, log_time, data in messages:
+                channel = self._channels.get(topic)
+                if channel is None:
+                    raise BagError(
+                        f"topic {topic!r} is not recorded in {self.path}; recorded are {', '.join(self._channels)}"
+                    )
+                number = self._counts[topic] if sequence is None else sequence
+                logged = self._epoch + log_time
+                published = logged if publish_time is None else self._epoch + publish_time
+                self._content.add_message(channel, number, logged, published, data)
                 self._counts[topic] += 1
-                self._start, self._end = min(self._start, logged), max(self._end, logged)
-                self._chunk_opened = self._clock() if self._chunk_opened is None else self._chunk_opened
-                self._close_chunk_if_due()
-            except BagWriteError as error:
-                self._fault = error
-                raise
+            self._close_chunk_if_due()
+        except BagWriteError as error:
+            self._fault = error
+            raise
 
     def maintain(self) -> None:
         """Close the chunk, sync the disk and look at its free space, each if it is due."""
@@ -254,7 +255,7 @@ class BagWriter:
 
     def _close_chunk_if_due(self) -> None:
         if self._chunk_opened is not None and self._clock() - self._chunk_opened >= CHUNK_SECONDS:
-            self._writer.flush()  # type: ignore[no-untyped-call]
+            self._content.end_chunk()
             self._chunk_opened = None
 
     def _stop_if_below_reserve(self) -> None:
@@ -285,14 +286,14 @@ class BagWriter:
 
     def _write_end(self, outcome: dict[str, str]) -> str:
         """Summary of the file and `metadata.yaml`; the sentence of a failure, or an empty one."""
-        extent = Extent(self._start, self._end) if self.messages else Extent(0, 0)
         custom = {**self._attachments, **outcome}
-        content = (self._name, self._topics, self._counts, extent, custom)
         try:
+            self._content.end_chunk()
+            content = (self._name, self._topics, self._counts, Extent(*self._content.extent), custom)
             if outcome:
-                self._writer.add_metadata(OUTCOME, sealed(outcome))
-            self._writer.add_metadata(ROSBAG2, serialized_metadata(*content))
-            self._writer.finish()  # type: ignore[no-untyped-call]
+                self._content.add_metadata(OUTCOME, sealed(outcome))
+            self._content.add_metadata(ROSBAG2, serialized_metadata(*content))
+            self._content.finish()
             self._file.sync()
             write_whole(self.path, "metadata.yaml", metadata_text(*content))
         except BagWriteError as error:

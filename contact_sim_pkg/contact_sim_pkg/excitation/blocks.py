@@ -108,7 +108,8 @@ class RoadBlocks:
         self.surface, self.travel, self.block_length = surface, travel, block_length
         self.cell_x, self.cell_y, self.half_length = cell_x, cell_y, half_length
         self._y = numpy.asarray((numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y, dtype=numpy.float64)
-        self._last: tuple[int, NDArray[numpy.float32]] = (0, numpy.empty((0, cols), dtype=numpy.float32))
+        self._first_held = 0
+        self._held: NDArray[numpy.float32] = numpy.empty((0, cols), dtype=numpy.float32)
         # Surfaces make their tables for this track now, and a track that they refuse is refused
         # here
         self.block(0)
@@ -129,24 +130,29 @@ class RoadBlocks:
                 f"{last_row * self.cell_x:.6g} m: it is {height[row, col]} at x = {(first_row + row) * self.cell_x:.6g} m, "
                 f"y = {(col - 0.5 * (height.shape[1] - 1)) * self.cell_y:.6g} m"
             )
-        self._last = (first_row, height)
         return RoadPatch(
             block=block, travel_start=self.travel.position(start), travel_end=self.travel.position(end),
             first_row=first_row, cell_x=self.cell_x, cell_y=self.cell_y, height=height,
         )  # fmt: skip
 
     def _strip(self, first_row: int, last_row: int) -> NDArray[numpy.float32]:
-        """Heights of these rows; those that the last strip ends with are taken from it, a strip
-        moves on by few rows.
+        """Heights of these rows; a strip moves on by few rows, so that they are made for several at
+        once.
         """
-        held_first, held = self._last
-        offset = first_row - held_first
-        kept = held[offset : offset + last_row + 1 - first_row] if offset >= 0 else held[:0]
-        x = numpy.arange(first_row + len(kept), last_row + 1, dtype=numpy.float64) * self.cell_x
-        if len(x) == 0:
-            return kept.copy()
-        fresh = self.surface.heights(x, self._y).astype(numpy.float32)
-        return numpy.concatenate((kept, fresh)) if len(kept) else fresh
+        rows, offset = last_row + 1 - first_row, first_row - self._first_held
+        if not 0 <= offset <= len(self._held) - rows:
+            kept = self._held[offset:] if offset >= 0 else self._held[:0]
+            fresh = self._heights(first_row + len(kept), last_row + 1, rows)
+            self._first_held, self._held, offset = first_row, numpy.concatenate((kept, fresh)), 0
+        return self._held[offset : offset + rows]
+
+    def _heights(self, first_row: int, end_row: int, more: int) -> NDArray[numpy.float32]:
+        """Heights of these rows and of `more` behind them, where the surface reaches as far."""
+        x = numpy.arange(first_row, end_row + more, dtype=numpy.float64) * self.cell_x
+        try:
+            return self.surface.heights(x, self._y).astype(numpy.float32)
+        except ExcitationError:
+            return self.surface.heights(x[: end_row - first_row], self._y).astype(numpy.float32)
 
     def describe(self) -> dict[str, Any]:
         """What the surface says about itself, and what its lattice may miss."""

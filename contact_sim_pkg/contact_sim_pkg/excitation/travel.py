@@ -1,11 +1,18 @@
 """The travel of the rig along the road: a speed programme and its exact integral."""
 
-import itertools
 from bisect import bisect_right
 from collections.abc import Sequence
+from itertools import pairwise
 from math import isfinite
+from typing import TypeVar
+
+import numpy
+from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.errors import ExcitationError
+
+Times = NDArray[numpy.float64]
+Time = TypeVar("Time", float, Times)
 
 HIGHEST_SPEED = 150.0  # [m/s] 540 km/h, above every road vehicle
 
@@ -33,7 +40,7 @@ class Travel:
         self.speeds = [float(speed) for _, speed in points]
         self._check()
         self._positions = [0.0]
-        for (t0, v0), (t1, v1) in itertools.pairwise(points):
+        for (t0, v0), (t1, v1) in pairwise(points):
             self._positions.append(self._positions[-1] + 0.5 * (v0 + v1) * (t1 - t0))
         self._origin = 0.0
         self._origin = self.position(0.0)
@@ -65,19 +72,27 @@ class Travel:
             return 0.0
         return (self.speeds[index + 1] - self.speeds[index]) / (self.times[index + 1] - self.times[index])
 
+    def _in_segment(self, index: int, time: Time) -> tuple[Time, Time]:
+        """Travel [m] and speed [m/s] at one time or several [s] of a segment."""
+        start, slope = max(index, 0), self._slope(index)
+        elapsed, speed = time - self.times[start], self.speeds[start]
+        path = (speed + 0.5 * slope * elapsed) * elapsed
+        return self._positions[start] + path - self._origin, speed + slope * elapsed
+
     def speed(self, time: float) -> float:
         """Speed in [m/s] at a time in [s]."""
-        index = self._segment(time)
-        start = max(index, 0)
-        return self.speeds[start] + self._slope(index) * (time - self.times[start])
+        return self._in_segment(self._segment(time), time)[1]
 
     def position(self, time: float) -> float:
         """Travel in [m] at a time in [s], counted from t = 0: the exact integral of the speed."""
-        index = self._segment(time)
-        start = max(index, 0)
-        elapsed = time - self.times[start]
-        path = (self.speeds[start] + 0.5 * self._slope(index) * elapsed) * elapsed
-        return self._positions[start] + path - self._origin
+        return self._in_segment(self._segment(time), time)[0]
+
+    def along(self, times: Times) -> tuple[Times, Times]:
+        """Travel [m] and speed [m/s] at times [s] in order, [n] each."""
+        cuts = [0, *numpy.searchsorted(times, self.times), len(times)]
+        pieces = [times[first:last] for first, last in pairwise(cuts) if first < last]
+        places, speeds = zip(*(self._in_segment(self._segment(piece[0]), piece) for piece in pieces), strict=True)
+        return numpy.concatenate(places), numpy.concatenate(speeds)
 
     def extent(self, start: float, end: float) -> tuple[float, float]:
         """Smallest and largest travel in [m] between two times in [s], also where the rig turns

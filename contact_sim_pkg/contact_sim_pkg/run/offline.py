@@ -164,10 +164,8 @@ def _one_block(
     inputs = {topic: source.block(block) for topic, source in sources.items()}
     result = computing.call(simulation.advance, block, inputs)
     if writer is not None:
-        for topic in sorted(inputs, key=lambda name: TOPICS[name].rank):
-            writer.write(topic, stamp, encode(inputs[topic], stamp))
-        for topic, message_stamp, data in result.messages:
-            writer.write(topic, message_stamp, data)
+        ranked = sorted(inputs, key=lambda name: TOPICS[name].rank)
+        writer.write_all([*((topic, stamp, encode(inputs[topic], stamp)) for topic in ranked), *result.messages])
     simulated = (block + 1) * length
     elapsed = time.perf_counter() - first
     return RunProgress(block + 1, simulation.blocks, simulated, simulated / elapsed, result.load, result.peak_pressure)

@@ -150,12 +150,13 @@ def largest_of(outputs: Iterable[Output], column: str) -> float:
     """
     topic, _dot, field = column.partition(".")
     name, _of, body = field.partition(" of ")
-    chosen = []
+    found = 0.0
     for each in outputs:
         if each.topic == topic:
-            values = numpy.asarray(getattr(each.record, name))
-            chosen.append(values[each.record.bodies.index(body)] if body else values)
-    return max((float(numpy.abs(values).max()) for values in chosen if values.size), default=0.0)
+            values = getattr(each.record, name)
+            chosen = values[each.record.bodies.index(body)] if body else values
+            found = max(found, abs(chosen) if isinstance(chosen, float) else float(numpy.abs(chosen).max(initial=0.0)))
+    return found
 
 
 def largest(outputs: Iterable[Output], part: str, column: str) -> float:

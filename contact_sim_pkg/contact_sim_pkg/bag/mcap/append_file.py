@@ -18,7 +18,7 @@ _FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 class AppendFile:
-    """An append-only file as `mcap.writer.Writer` wants it: `write`, `tell`, `flush`."""
+    """An append-only file."""
 
     def __init__(self, descriptor: int, name: str) -> None:
         """Take over an open, empty file."""
@@ -44,9 +44,6 @@ class AppendFile:
     def tell(self) -> int:
         """Bytes in the file."""
         return self._size
-
-    def flush(self) -> None:
-        """Nothing to do: nothing is buffered."""
 
     def sync(self) -> None:
         """Force everything onto the disk; BagWriteError where that fails."""

@@ -119,8 +119,7 @@ class BagRecording:
 
     def _write(self, messages: list[BlockMessage]) -> None:
         if self._writer is not None:
-            for message in messages:
-                self._writer.write(message.topic, message.stamp, message.data)
+            self._writer.write_all((message.topic, message.stamp, message.data) for message in messages)
 
     def answer(self, *, closed: bool = False, sentence: str = "") -> bytes:
         """The bytes of `bench/recorded` at the last block that is whole."""

@@ -163,14 +163,14 @@ def fit_centred(x: Field, y: Field, half_x: float, half_y: float, centre_x: floa
     take_logarithms(x, y, centre_x, centre_y)
     # Start: the ellipse in the rectangle.
     log_a, log_b, log_n = math.log(half_x), math.log(half_y), math.log(2.0)
-    normal, trial = numpy.empty((3, 4)), numpy.empty((3, 4))
-    cost = normal_equations(x, y, log_a, log_b, log_n, normal)
+    normal, trial, radial = numpy.empty((3, 4)), numpy.empty((3, 4)), numpy.empty((3, x.size))
+    cost = normal_equations(x, y, log_a, log_b, log_n, normal, radial)
     damping = 1e-3
     for _ in range(FIT_STEPS):
         # Levenberg-Marquardt on the logarithms.
         step_a, step_b, step_n = damped_step(normal, damping)
         trial_n = min(max(log_n + step_n, math.log(FIT_EXPONENTS[0])), math.log(FIT_EXPONENTS[1]))
-        trial_cost = normal_equations(x, y, log_a + step_a, log_b + step_b, trial_n, trial)
+        trial_cost = normal_equations(x, y, log_a + step_a, log_b + step_b, trial_n, trial, radial)
         if not trial_cost <= cost:
             damping *= 8.0
             if damping > 1e8:
@@ -257,28 +257,36 @@ def lay_points(outermost: Places, cell: float, spacing: float, along: Field, acr
 
 
 @kernel
-def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log_n: float, normal: Field) -> float:
+def normal_equations(
+    log_x: Field, log_y: Field, log_a: float, log_b: float, log_n: float, normal: Field, radial: Field
+) -> float:
     """`J^T J` and, in the last column, `-J^T (rho - 1)`, from ln|x| and ln|y|; returns the cost
     `sum (rho - 1)^2` [1].
 
     With u = ln|x/a|, v = ln|y/b| and the share s = |x/a|^n / rho^n: `ln rho = max(u, v) + ln(1 +
     exp(-n |u-v|)) / n`, its derivatives by ln a, ln b, ln n are `-s`, `-(1-s)` and `s u + (1-s) v -
-    ln rho`. log_x, log_y: [points]; normal: [3, 4], overwritten.
+    ln rho`. log_x, log_y: [points]; normal: [3, 4], overwritten; radial: [3, points], scratch.
     """
+    exponent, cost = math.exp(log_n), 0.0
+    # Radial variable of the points; the exponential never overflows. A loop for each function, as
+    # each call takes all registers
+    smaller, log_rho, rho = radial
+    for k in range(log_x.size):
+        smaller[k] = math.exp(-exponent * abs((log_x[k] - log_a) - (log_y[k] - log_b)))
+    for k in range(log_x.size):
+        log_rho[k] = max(log_x[k] - log_a, log_y[k] - log_b) + math.log1p(smaller[k]) / exponent
+    for k in range(log_x.size):
+        rho[k] = math.exp(log_rho[k])
     # Sums in registers: an array would be read and written at each point
     aa = ab = an = bb = bn = nn = ae = be = ne = 0.0
-    exponent, cost = math.exp(log_n), 0.0
     for k in range(log_x.size):
-        # Radial variable of the point; the exponential never overflows
         u, v = log_x[k] - log_a, log_y[k] - log_b
-        smaller = math.exp(-exponent * abs(u - v))
-        larger_share = 1.0 / (1.0 + smaller)
-        share = larger_share if u >= v else smaller * larger_share
-        log_rho = max(u, v) + math.log1p(smaller) / exponent
-        rho = math.exp(log_rho)
-        error = rho - 1.0
+        larger_share = 1.0 / (1.0 + smaller[k])
+        share = larger_share if u >= v else smaller[k] * larger_share
+        error = rho[k] - 1.0
         # Gradient of rho by ln a, ln b, ln n
-        by_a, by_b, by_n = -rho * share, rho * (share - 1.0), rho * (share * u + (1.0 - share) * v - log_rho)
+        by_a, by_b = -rho[k] * share, rho[k] * (share - 1.0)
+        by_n = rho[k] * (share * u + (1.0 - share) * v - log_rho[k])
         cost += error * error
         aa, ab, an = aa + by_a * by_a, ab + by_a * by_b, an + by_a * by_n
         bb, bn, nn = bb + by_b * by_b, bn + by_b * by_n, nn + by_n * by_n

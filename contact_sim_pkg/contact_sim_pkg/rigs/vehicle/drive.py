@@ -82,8 +82,8 @@ def _rolling(
         zeros = numpy.zeros(steps + 1)
         return zeros, zeros, zeros, None
     _check_road(geometry, block, road)
-    times = [(block * steps + i) * timing.segment_length for i in range(steps + 1)]
-    places = numpy.array([travel.position(time) for time in times])
+    ends = numpy.arange(block * steps, (block + 1) * steps + 1, dtype=numpy.float64)
+    places, speeds = travel.along(ends * timing.segment_length)
     smooth, slopes = numpy.empty(steps + 1), numpy.empty(steps + 1)
     inside = effective_heights(
         road.height, road.first_row, geometry.lattice.cell_x, geometry.weights, places, smooth, slopes
@@ -93,7 +93,7 @@ def _rolling(
             f"{ROAD}: block {block} does not reach over the footprint from {places[0]:.6g} to {places[-1]:.6g} m"
         )
     push = None if model.asperities is None else asperity_push(model.asperities, geometry, road, places)
-    return places, smooth, slopes * numpy.array([travel.speed(time) for time in times]), push
+    return places, smooth, slopes * speeds, push
 
 
 def _check_road(geometry: TireGeometry, block: int, road: Any) -> None:

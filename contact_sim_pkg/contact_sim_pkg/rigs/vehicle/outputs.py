@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from math import isnan
 from typing import NamedTuple
 
 import numpy
@@ -157,14 +158,14 @@ def _estimates(outputs: list[Output], missed: Array | None, bodies: tuple[str, .
         return []
     touches = "belt_z" if "belt_z" in bodies else bodies[0]
     found = []
-    for names, errors in zip(ESTIMATED, missed, strict=True):
+    for names, errors in zip(ESTIMATED, missed.tolist(), strict=True):
         for name, error in zip(names, errors, strict=True):
-            moves = name.startswith("bench/motion")
-            column = f"{name} of {touches}" if moves else name
-            if column and not numpy.isnan(error):
+            if name and not isnan(error):
+                moves = name.startswith("bench/motion")
+                column = f"{name} of {touches}" if moves else name
                 # A wheel that stands has no speed to err by a part of: free fall during a sample
                 least = GRAVITY * period if moves else 0.0
-                found.append(Estimate(column, float(error), max(least, largest_of(outputs, column))))
+                found.append(Estimate(column, error, max(least, largest_of(outputs, column))))
     return found
 
 
