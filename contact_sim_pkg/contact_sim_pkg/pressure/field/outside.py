@@ -120,12 +120,13 @@ def enclose(
     first_row, first_col, window_rows, window_cols = window
     end_row, end_col = first_row + window_rows, first_col + window_cols
     top, bottom, left, right = rows, -1, cols, -1
-    blocks, added, line = make_block_sums(half_space), False, numpy.empty(cols)
+    blocks, laid, added, line = make_block_sums(half_space), False, False, numpy.empty(cols)
     for i in range(0, rows, BLOCK):
         inside_rows = first_row <= i and min(i + BLOCK, rows) <= end_row
         if inside_rows and window_cols == cols:
             continue
-        lowest_of_columns(gap, i, approach, line)
+        if not lowest_of_columns(gap, i, approach, line):
+            continue
         for j in range(0, cols, BLOCK):
             # Blocks outside the window whose lowest gap is below the approach.
             if inside_rows and first_col <= j and min(j + BLOCK, cols) <= end_col:
@@ -135,8 +136,14 @@ def enclose(
                 depth = max(depth, approach - line[col])
             if depth <= 0.0:
                 continue
+            # Most of them lie above the belt alone.
+            if not laid:
+                lay_belt(half_space, pressure, window, blocks.belt)
+                laid = True
+            if least_of_belt(blocks, i, BLOCK) >= depth:
+                continue
             if not added:
-                add_up(half_space, pressure, window, blocks)
+                add_up(pressure, window, blocks)
                 added = True
             # Cells of a block that the bound does not clear.
             least = least_displacement(half_space, blocks, i, j, BLOCK, depth)
@@ -194,9 +201,7 @@ def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int,
     """Displacement [m] that all of the `side` x `side` cells from (i, j) have at least, computed
     until it reaches `depth`.
     """
-    belt = float(blocks.belt[i])
-    for row in range(i + 1, min(i + side, len(blocks.belt))):
-        belt = min(belt, blocks.belt[row])
+    belt = least_of_belt(blocks, i, side)
     least = bound(half_space, blocks.coarse, i, j, side, depth - belt)
     if least < depth - belt:
         least = max(least, bound(half_space, blocks.middle, i, j, side, depth - belt))
@@ -206,27 +211,55 @@ def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int,
 
 
 @borrowing_kernel
-def add_up(half_space: HalfSpace, pressure: Field, window: tuple[int, int, int, int], blocks: BlockSums) -> None:
-    """Sums of the pressure over blocks of all sizes, and the displacement of the belt; blocks of
-    zeros before.
+def least_of_belt(blocks: BlockSums, i: int, side: int) -> float:
+    """Least displacement [m] of the belt in `side` rows from i on."""
+    least = float(blocks.belt[i])
+    for row in range(i + 1, min(i + side, len(blocks.belt))):
+        least = min(least, blocks.belt[row])
+    return least
+
+
+@borrowing_kernel
+def lay_belt(half_space: HalfSpace, pressure: Field, window: tuple[int, int, int, int], belt: Values) -> None:
+    """Displacement [m] [rows] of the belt, zeros before.
 
     pressure: [rows, cols] [Pa], zero outside the window.
     """
-    rows, cols = pressure.shape
-    first, end = window[0], window[0] + window[2]
-    along, belt = half_space.along, blocks.belt
-    for k in range(first, end if len(half_space.belt) > 0 else first):
-        total = 0.0
-        for j in range(cols):
-            total += pressure[k, j]
+    rows, along = len(belt), half_space.along
+    first, left, right = window[0], window[1], window[1] + window[3]
+    for k in range(first, first + window[2] if len(half_space.belt) > 0 else first):
+        total = total_of_row(pressure[k, left:right])
         if total > 0.0:
             for i in range(k):
                 belt[i] += total * along[k - i]
             for i in range(k, rows):
                 belt[i] += total * along[i - k]
-    add_up_cells(pressure, first, end, blocks.fine)
+
+
+@borrowing_kernel
+def add_up(pressure: Field, window: tuple[int, int, int, int], blocks: BlockSums) -> None:
+    """Sums of the pressure over blocks of all sizes.
+
+    pressure: [rows, cols] [Pa], zero outside the window.
+    """
+    add_up_cells(pressure, window[0], window[0] + window[2], blocks.fine)
     add_up_blocks(blocks.fine, blocks.middle)
     add_up_blocks(blocks.middle, blocks.coarse)
+
+
+@borrowing_kernel
+def total_of_row(row: Values) -> float:
+    """Sum over a row, in four parts: a single one would wait for each addition."""
+    first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
+    whole = len(row) - len(row) % 4
+    for j in range(0, whole, 4):
+        first += row[j]
+        second += row[j + 1]
+        third += row[j + 2]
+        fourth += row[j + 3]
+    for j in range(whole, len(row)):
+        first += row[j]
+    return (first + second) + (third + fourth)
 
 
 @borrowing_kernel
@@ -278,17 +311,20 @@ def list_loaded(blocks: Blocks) -> None:
 
 
 @borrowing_kernel
-def lowest_of_columns(gap: Field, first: int, most: float, line: Values) -> None:
+def lowest_of_columns(gap: Field, first: int, most: float, line: Values) -> bool:
     """Lowest gap [m] of each column in the block of rows from ``first`` on, or `most` where none is
-    lower, into `line` [cols].
+    lower, into `line` [cols]; whether any is lower.
     """
-    cols = gap.shape[1]
+    cols, lower = gap.shape[1], 0
     for j in range(cols):
         line[j] = most
     for i in range(first, min(first + BLOCK, gap.shape[0])):
         row = gap[i]
         for j in range(cols):
             line[j] = row[j] if row[j] < line[j] else line[j]
+    for j in range(cols):
+        lower += 1 if line[j] < most else 0
+    return lower > 0
 
 
 @borrowing_kernel
