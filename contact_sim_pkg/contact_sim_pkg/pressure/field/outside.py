@@ -131,16 +131,14 @@ def enclose(
             # Blocks outside the window whose lowest gap is below the approach.
             if inside_rows and first_col <= j and min(j + BLOCK, cols) <= end_col:
                 continue
-            depth = 0.0
-            for col in range(j, min(j + BLOCK, cols)):
-                depth = max(depth, approach - line[col])
+            depth = approach - least_of(line, j, BLOCK)
             if depth <= 0.0:
                 continue
             # Most of them lie above the belt alone.
             if not laid:
                 lay_belt(half_space, pressure, window, blocks.belt)
                 laid = True
-            if least_of_belt(blocks, i, BLOCK) >= depth:
+            if least_of(blocks.belt, i, BLOCK) >= depth:
                 continue
             if not added:
                 add_up(pressure, window, blocks)
@@ -201,7 +199,7 @@ def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int,
     """Displacement [m] that all of the `side` x `side` cells from (i, j) have at least, computed
     until it reaches `depth`.
     """
-    belt = least_of_belt(blocks, i, side)
+    belt = least_of(blocks.belt, i, side)
     least = bound(half_space, blocks.coarse, i, j, side, depth - belt)
     if least < depth - belt:
         least = max(least, bound(half_space, blocks.middle, i, j, side, depth - belt))
@@ -211,11 +209,11 @@ def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int,
 
 
 @borrowing_kernel
-def least_of_belt(blocks: BlockSums, i: int, side: int) -> float:
-    """Least displacement [m] of the belt in `side` rows from i on."""
-    least = float(blocks.belt[i])
-    for row in range(i + 1, min(i + side, len(blocks.belt))):
-        least = min(least, blocks.belt[row])
+def least_of(values: Values, first: int, number: int) -> float:
+    """Least of so many values, or as many as there are, from `first` on."""
+    least = float(values[first])
+    for k in range(first + 1, min(first + number, len(values))):
+        least = min(least, values[k])
     return least
 
 

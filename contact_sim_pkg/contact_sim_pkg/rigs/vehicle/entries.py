@@ -15,7 +15,9 @@ from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, int
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.laws.contact_force import contact_energy, contact_force
+from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection
+from contact_sim_pkg.laws.parameters import ElasticLaw
 from contact_sim_pkg.rigs.vehicle import motion as vehicle
 from contact_sim_pkg.rigs.vehicle import quarter_car
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
@@ -229,6 +231,16 @@ def _slide_energies(friction, back, seat, mode, normal, state):
         return 0.0, 0.0
     velocity = state[slide_index(seat) + 1]
     return 0.5 * seat_mass(seat) * velocity**2, _spring_energy(friction, back, seat, mode, normal, state)
+
+
+@entry
+def law_at(elastic: ElasticLaw, approach: float, change: float) -> tuple[float, float, float, float]:
+    """Force [N] and stiffness [N/m] of a law at an ``approach`` [m]; force [N] and energy [J] that it
+    gains with a ``change`` [m] of that.
+    """
+    force, energy, moved = elastic_force(elastic, approach), elastic_energy(elastic, approach), approach + change
+    more, stored = elastic_force(elastic, moved) - force, elastic_energy(elastic, moved) - energy
+    return force, elastic_stiffness(elastic, approach), more, stored
 
 
 @entry

@@ -5,6 +5,7 @@ behind it.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
@@ -33,6 +34,16 @@ AT_REST = 1e-8
 AS_PREDICTED = 0.1
 """Of the allowed height: a correction that differs by less from the expected one is as predicted.
 """
+
+
+class Turn(NamedTuple):
+    """How far a correction is from straight over a coupling step: on the parabola through the last two
+    solutions and its end.
+    """
+
+    height: float  # [m] largest distance from the straight line
+    rate: float  # [m/s] largest difference of the slopes
+    bend: float  # [m] four times the sagitta; 0 at the start of a run
 
 
 class ContactField(ABC):
@@ -85,29 +96,12 @@ class ContactField(ABC):
         """
         return self._solved + self._slope * (self._since + count)
 
-    def bend(self, correction: float, count: int) -> float:
-        """Four times the sagitta [m], over ``count`` segments, of the parabola through the last two
-        solutions and ``correction`` [m] at their end; 0 at the start of a run.
-        """
-        if self._is_first:
-            return 0.0
+    def turn(self, correction: float, count: int, length: float) -> Turn:
+        """The course to a ``correction`` [m], ``count`` segments of a ``length`` [s] on."""
         span = self._since + count
-        return ((correction - self._solved) / span - self._slope) * count**2 / (self._count + span)
-
-    def interpolation_error(self, correction: float, count: int) -> float:
-        """Largest distance [m] between the straight line to ``correction`` [m], ``count`` segments
-        on, and a parabola through the last three solutions.
-        """
-        span = self._since + count
-        slope = (correction - self._solved) / span
-        return abs(slope - self._slope) * span**2 / (4.0 * (self._count + span))
-
-    def slope_error(self, correction: float, count: int) -> float:
-        """Largest difference [m] per segment between the slopes of that line and of the
-        parabola.
-        """
-        span = self._since + count
-        return abs((correction - self._solved) / span - self._slope) * span / (self._count + span)
+        whole, change = self._count + span, (correction - self._solved) / span - self._slope
+        bend = 0.0 if self._is_first else change * count**2 / whole
+        return Turn(abs(change) * span**2 / (4.0 * whole), abs(change) * span / whole / length, bend)
 
     def accept(self, correction: float, count: int, solved: bool, allowed: float) -> None:
         """Accept a coupling step of ``count`` segments with the ``correction`` [m] at its end.
