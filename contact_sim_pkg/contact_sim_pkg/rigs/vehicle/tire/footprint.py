@@ -17,13 +17,13 @@ instants the pressure field itself decides.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
+from contact_sim_pkg.pressure.field.outside import total_of_row
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 
 Heights = NDArray[numpy.float32]
@@ -174,12 +174,54 @@ def height_along(form: TireForm, x: float) -> float:
     return 0.5 * x * x / radius
 
 
-def slope_along(form: TireForm, x: NDArray[numpy.floating[Any]]) -> NDArray[numpy.float64]:
-    """Slope dz/dx [1] of the height of the tire at ``x`` [m] [points] before its lowest point."""
+@kernel
+def slope_along(form: TireForm, x: float) -> float:
+    """Slope dz/dx [1] of the height of the tire at ``x`` [m] before its lowest point."""
     radius = form.radius_rolling
     if form.circular:
-        return numpy.asarray(x / numpy.sqrt(numpy.maximum(radius**2 - x**2, 1e-6 * radius**2)), dtype=numpy.float64)
-    return numpy.asarray(x / radius, dtype=numpy.float64)
+        return x / math.sqrt(max(radius * radius - x * x, 1e-6 * radius * radius))
+    return x / radius
+
+
+@entry
+def mean_slope(form: TireForm, pressure: Pressures, origin: float, cell_x: float) -> float:
+    """Mean slope [1] of the tire under a ``pressure`` [rows, cols] [Pa], which is its weight; 0 without
+    one. Row 0 lies ``origin`` [m] before the lowest point.
+    """
+    total, climb = 0.0, 0.0
+    for i in range(pressure.shape[0]):
+        line = total_of_row(pressure[i])
+        total += line
+        climb += line * slope_along(form, origin + i * cell_x)
+    return climb / total if total > 0.0 else 0.0
+
+
+@entry
+def level_under(height: Heights, first: int, margin: int, pressure: Pressures) -> float:
+    """Height [m] of the road under all loaded cells and beside them, where it is the same; else NaN.
+
+    ``pressure`` [rows, cols] lies on the nodes of ``height`` from row ``first`` and column ``margin`` on.
+    Nodes beside count: at an edge the contact would go on where the road does not.
+    """
+    rows, cols = pressure.shape
+    # Two cells in the middle of the contact decide on most roads.
+    i, j = rows // 2, cols // 2
+    rises = height[first + i, margin + j] != height[first + i + 1, margin + j]
+    if rises and pressure[i, j] > 0.0 and pressure[i + 1, j] > 0.0:
+        return math.nan
+    top, bottom, left, right = rows, -1, cols, -1
+    for i in range(rows):
+        for j in range(cols):
+            if pressure[i, j] > 0.0:
+                top, bottom, left, right = min(top, i), i, min(left, j), max(right, j)
+    if bottom < 0:
+        return math.nan
+    top, left = max(first + top - 1, 0), max(margin + left - 1, 0)
+    for i in range(top, min(first + bottom + 2, height.shape[0])):
+        for j in range(left, min(margin + right + 2, height.shape[1])):
+            if height[i, j] != height[top, left]:
+                return math.nan
+    return float(height[top, left])
 
 
 @kernel
