@@ -128,7 +128,7 @@ class ContactField(ABC):
         # The usual grid serves unless the contact reaches beyond it.
         try:
             correction = self._solve_on(self.grids.usual, approach, geometric)
-            if not self.touches_beyond(self.grids, approach):
+            if self.is_clear(self.grids, approach) or not self.touches_beyond(self.grids, approach):
                 return correction
         except FieldEdgeError:
             self.grids.usual.reset()
@@ -222,6 +222,10 @@ class ContactField(ABC):
     def road_row(self, settings: FieldSettings) -> int:
         """Row of the road under the first row of a grid."""
         return 0
+
+    def is_clear(self, grids: FieldGrids, approach: float) -> bool:
+        """Whether a bound says that it does not."""
+        return True
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
         """Whether the contact solved on the usual grid at ``approach`` [m] extends beyond it, as at

@@ -22,7 +22,9 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.compiled.held import Held
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
+from contact_sim_pkg.pressure.field.halfspace import HalfSpace
 from contact_sim_pkg.pressure.field.outside import total_of_row
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 
@@ -278,6 +280,76 @@ def _sunk(pressure: Pressures, row: int, col: int, modulus: float, cell_x: float
             if pressure[i, j] > 0.0:
                 total += pressure[i, j] / math.hypot((row - i) * cell_x, (col - j) * cell_y)
     return total * cell_x * cell_y / (math.pi * modulus)
+
+
+@entry
+def clear_beyond(
+    whole: Held[HalfSpace], height: Heights, first_row: int, form: TireForm, first: int, travel: float, approach: float,
+    pressure: Pressures, rows: int,
+) -> bool:  # fmt: skip
+    """Whether a bound says that the road does not touch the tire outside the grid of ``pressure`` [Pa]:
+    on the columns of the ``whole`` grid, whose rows the lattice must hold, and on ``rows`` rows.
+
+    A row of cells is displaced by the belt, and by each line of the pressure as if all of it lay as far
+    across as a cell can. The rest as in `touches_beyond`.
+    """
+    half_space, own_rows, own_cols = whole.value, pressure.shape[0], pressure.shape[1]
+    cols, reach = half_space.cols, rows // 2 - half_space.rows // 2
+    top, margin, middle = rows // 2 - own_rows // 2, (height.shape[1] - cols) // 2, 0.5 * (cols - 1)
+    last_row = first_row + height.shape[0]
+    if first + reach < first_row or first + reach + half_space.rows > last_row or margin < 0:
+        return False
+    lines, left = numpy.empty(own_rows), (cols - own_cols) // 2
+    for k in range(own_rows):
+        lines[k] = total_of_row(pressure[k])
+    across, beside = numpy.empty(cols), numpy.empty(cols)
+    for j in range(cols):
+        across[j] = height_across(form, (j - middle) * half_space.cell_y)
+        beside[j] = numpy.inf if left <= j < left + own_cols else across[j]
+    for i in range(max(0, first_row - first), min(rows, last_row - first)):
+        free, row = approach - height_along(form, (first + i) * half_space.cell_x - travel), i - top
+        road, crown = height[first + i - first_row, margin : margin + cols], beside if 0 <= row < own_rows else across
+        if not _any_deeper(road, crown, free):
+            continue
+        if max(row, own_rows - 1 - row) >= half_space.rows:
+            return False
+        # Most of what is below lies above the belt
+        belt = _displaced(lines, half_space.along, row)
+        depth, far = _deepest(road, crown, free - belt, (left, left + own_cols - 1))
+        if depth > 0.0 and depth + belt > _displaced(lines, half_space.influence[:, far], row):
+            return False
+    return True
+
+
+@borrowing_kernel
+def _any_deeper(road: Vector, crown: Vector, free: float) -> bool:
+    """Whether any of a row of cells [cols] is below the road, ``free`` [m] nearer than its ``crown`` [m]."""
+    below = 0
+    for j in range(len(road)):
+        below += 1 if road[j] + free > crown[j] else 0
+    return below > 0
+
+
+@borrowing_kernel
+def _deepest(road: Vector, crown: Vector, free: float, loaded: tuple[int, int]) -> tuple[float, int]:
+    """Largest depth [m] of such a row, 0 at least, and columns from the outermost cell below the road to
+    the farthest of the ``loaded`` ones, first and last.
+    """
+    deepest, far = 0.0, 0
+    for j in range(len(road)):
+        depth = road[j] + free - crown[j]
+        if depth > 0.0:
+            deepest, far = max(deepest, depth), max(far, j - loaded[0], loaded[1] - j)
+    return deepest, far
+
+
+@borrowing_kernel
+def _displaced(lines: Vector, influence: Vector, row: int) -> float:
+    """Displacement [m] of a row of cells by sums across [Pa] of rows from 0 on."""
+    total = 0.0
+    for k in range(len(lines)):
+        total += lines[k] * influence[abs(row - k)]
+    return total
 
 
 @entry

@@ -13,7 +13,7 @@ from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, Infla
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field_driver import AT_REST, ContactField, Gap
 from contact_sim_pkg.rigs.vehicle.outputs import FieldRecord
-from contact_sim_pkg.rigs.vehicle.tire.footprint import level_under, mean_slope, tire_gap, touches_beyond
+from contact_sim_pkg.rigs.vehicle.tire.footprint import clear_beyond, level_under, mean_slope, tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
 from contact_sim_pkg.run.errors import RunError
@@ -124,15 +124,8 @@ class RoadField(ContactField):
         out = self._gaps[settings.rows]
         # Height of the tire over the road.
         inside = tire_gap(
-            road.height,
-            road.first_row,
-            cell_x=settings.cell_x,
-            cell_y=settings.cell_y,
-            form=geometry.form,
-            first=self.road_row(settings),
-            travel=self.travel,
-            out=out,
-        )
+            road.height, road.first_row, settings.cell_x, settings.cell_y, geometry.form, self.road_row(settings), self.travel, out
+        )  # fmt: skip
         if not inside:
             raise RunError(
                 f"road/patch: block {road.block} does not reach over the pressure grid at {self.travel:.6g} m"
@@ -143,6 +136,15 @@ class RoadField(ContactField):
             row, col = whole.shape[0] // 2 - settings.rows // 2, (whole.shape[1] - settings.cols) // 2
             out += whole[row : row + settings.rows, col : col + settings.cols]
         return out
+
+    def is_clear(self, grids: FieldGrids, approach: float) -> bool:
+        """See `ContactField`; what a tread remembers is not in the bound."""
+        geometry, road = self._geometry, self._road
+        assert geometry is not None
+        return self._tread_state is None and clear_beyond(
+            grids.wide.half_space, road.height, road.first_row, geometry.form, self._first_row(grids.usual.settings), self.travel,
+            approach, grids.usual.pressure, geometry.lattice.road_rows,
+        )  # fmt: skip
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
         """See `ContactField`."""
@@ -178,23 +180,15 @@ class RoadField(ContactField):
         # All nodes of the road below the tire count, not only those of the grid.
         geometry, road, settings = self._geometry, self._road, field.settings
         assert geometry is not None
-        rows, cols = geometry.lattice.road_rows, geometry.lattice.road_cols
-        return bool(
-            touches_beyond(
-                road.height,
-                road.first_row,
-                form=geometry.form,
-                first=round(self.travel / settings.cell_x) - rows // 2,
-                travel=self.travel,
-                approach=approach,
-                modulus=settings.modulus,
-                cell_x=settings.cell_x,
-                cell_y=settings.cell_y,
-                pressure=field.pressure,
-                rows=rows,
-                cols=cols,
-            )
-        )
+        return touches_beyond(
+            road.height, road.first_row, geometry.form, self._first_row(settings), self.travel, approach, settings.modulus,
+            settings.cell_x, settings.cell_y, field.pressure, geometry.lattice.road_rows, geometry.lattice.road_cols,
+        )  # fmt: skip
+
+    def _first_row(self, settings: FieldSettings) -> int:
+        """Row of the road under the rear of the lattice, which reaches as far as a tire does."""
+        assert self._geometry is not None
+        return round(self.travel / settings.cell_x) - self._geometry.lattice.road_rows // 2
 
     def level_height(self, field: PressureField) -> float | None:
         """See `ContactField`; the law of an inflated tire is its field on a level road."""
