@@ -15,9 +15,7 @@ from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, int
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.laws.contact_force import contact_energy, contact_force
-from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection
-from contact_sim_pkg.laws.parameters import ElasticLaw
 from contact_sim_pkg.rigs.vehicle import motion as vehicle
 from contact_sim_pkg.rigs.vehicle import quarter_car
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
@@ -234,13 +232,23 @@ def _slide_energies(friction, back, seat, mode, normal, state):
 
 
 @entry
-def law_at(elastic: ElasticLaw, approach: float, change: float) -> tuple[float, float, float, float]:
-    """Force [N] and stiffness [N/m] of a law at an ``approach`` [m]; force [N] and energy [J] that it
-    gains with a ``change`` [m] of that.
+def lay_slopes(
+    forces: Vector, row: int, behind_sample: int, sample_every: int, segments: int, slope: float, end: float
+) -> None:
+    """Write a slope [1] from ``slope`` to ``end`` of so many ``segments`` into their samples, which are
+    ``forces`` [samples, FORCES] from ``row`` on; the rest as of ``Course``.
     """
-    force, energy, moved = elastic_force(elastic, approach), elastic_energy(elastic, approach), approach + change
-    more, stored = elastic_force(elastic, moved) - force, elastic_energy(elastic, moved) - energy
-    return force, elastic_stiffness(elastic, approach), more, stored
+    for i in range(-behind_sample % sample_every, segments, sample_every):
+        forces[row, TIRE_SLOPE] = slope + (end - slope) * i / segments
+        row += 1
+
+
+@entry
+def raise_to(largest: Vector, forces: Vector) -> None:
+    """Raise what was ``largest`` so far, [FORCES], to the samples of an interval, [samples, FORCES]."""
+    for i in range(forces.shape[0]):
+        for j in range(forces.shape[1]):
+            largest[j] = max(largest[j], forces[i, j])
 
 
 @entry

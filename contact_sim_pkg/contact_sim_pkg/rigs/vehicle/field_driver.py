@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force
+from contact_sim_pkg.laws.elastic_law import elastic_force
 from contact_sim_pkg.laws.normal_force import pressure_factor
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.pressure.settings import FieldSettings
@@ -19,6 +19,7 @@ from contact_sim_pkg.rigs.vehicle.contact_field import (
     FieldError,
     FieldGrids,
     PressureField,
+    approach_at,
     correction_of,
 )
 from contact_sim_pkg.rigs.vehicle.model import seat_cells, seat_gap_on
@@ -159,7 +160,7 @@ class ContactField(ABC):
                 approach = field.solve_load(self.gap(field.settings), load, min(AT_REST, field.settings.tolerance))
                 level = self.level_height(field)
                 if level is not None and self.contact is not None:
-                    approach = float(approach_of_force(self.contact.elastic, load)) - level
+                    approach = approach_at(self.contact.elastic, load) - level
                 if field is grids.wide:
                     self.refuse_beyond(grids, approach, 0)
                 elif self.touches_beyond(grids, approach):

@@ -237,6 +237,15 @@ def even_part(whole: int, most: float) -> int:
 
 
 @entry
+def extent_of(values: Vector) -> float:
+    """Largest value over the least."""
+    least, largest = values[0], values[0]
+    for value in values:
+        least, largest = min(least, value), max(largest, value)
+    return largest - least
+
+
+@entry
 def bend_of(height: Vector) -> float:
     """Largest distance [m] of a height [points] [m] from the straight line between its ends."""
     last, bend = len(height) - 1, 0.0

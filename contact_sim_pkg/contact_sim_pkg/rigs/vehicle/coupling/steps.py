@@ -30,10 +30,19 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.vehicle.bodies import LINEAR, Bodies, Corrections, CouplingStep, Saved
+from contact_sim_pkg.rigs.vehicle.contact_field import law_at
 from contact_sim_pkg.rigs.vehicle.coupling.check import CouplingCheck, Middle, MissedSoFar, middle_of
-from contact_sim_pkg.rigs.vehicle.coupling.rule import STRAIGHT, Allowance, MeasuredWay, bend_of, even_part
+from contact_sim_pkg.rigs.vehicle.coupling.rule import STRAIGHT, Allowance, MeasuredWay, bend_of, even_part, extent_of
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
-from contact_sim_pkg.rigs.vehicle.entries import FORCES, SEAT_NORMAL, TIRE_NORMAL, TIRE_SHEAR, TIRE_SLOPE, law_at
+from contact_sim_pkg.rigs.vehicle.entries import (
+    FORCES,
+    SEAT_NORMAL,
+    TIRE_NORMAL,
+    TIRE_SHEAR,
+    TIRE_SLOPE,
+    lay_slopes,
+    raise_to,
+)
 from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField, Turn
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord
@@ -139,7 +148,7 @@ class Coupling:
             )  # fmt: skip
             if self._advance_step(step, record):
                 done += count
-        numpy.maximum(self._largest, self.bodies.sampled[2].max(axis=0), out=self._largest)
+        raise_to(self._largest, self.bodies.sampled[2])
 
     def _lay_slopes(self, step: CouplingStep) -> None:
         """Write the effective slope of the road at the samples of a coupling step, linear between the
@@ -148,15 +157,15 @@ class Coupling:
         if self.model.tire_geometry is None:
             return
         every, drive = self.model.timing.sample_every, step.drive
-        at = numpy.arange(-step.behind_sample % every, step.segments, every)
-        slopes = self.bodies.sampled[2][step.row : step.row + len(at), TIRE_SLOPE]
         if self.tire.grids is None:
+            at = numpy.arange(-step.behind_sample % every, step.segments, every)
+            slopes = self.bodies.sampled[2][step.row : step.row + len(at), TIRE_SLOPE]
             way = numpy.gradient(drive.travel)[at]
             slopes[:] = 0.0
             numpy.divide(numpy.gradient(drive.smooth)[at], way, out=slopes, where=way != 0.0)
             return
         end = self.tire.effective_slope()
-        slopes[:] = self._slope + (end - self._slope) * at / step.segments
+        lay_slopes(self.bodies.sampled[2], step.row, step.behind_sample, every, step.segments, self._slope, end)
         self._slope = end
 
     def _roll(self, step: CouplingStep, outcome: StepOutcome, approach: float) -> None:
@@ -187,8 +196,7 @@ class Coupling:
             return left
         if rule.segments is not None:
             return min(rule.segments, left)
-        way = whole.travel[first : first + left + 1]
-        count, travel = left, float(way.max() - way.min())
+        count, travel = left, extent_of(whole.travel[first : first + left + 1])
         # The longer way only where the road is nearly straight all along it.
         for longest in rule.longest:
             longest = min(longest, self._way.longest)
@@ -257,7 +265,7 @@ class Coupling:
         worst = max(parts, default=0.0)
         if step.segments < 2:  # its middle is its end
             return worst
-        self._way.learn(float(numpy.ptp(step.drive.travel)), worst)
+        self._way.learn(extent_of(step.drive.travel), worst)
         return worst
 
     def _corrected(self, step: CouplingStep, saved: Saved) -> StepOutcome:
@@ -276,10 +284,8 @@ class Coupling:
             if passes_left or step.last or not most or self.tire.is_viscoelastic:
                 found = self._solve(step, solved, ends)
             if passes_left == most:
-                error = max(
-                    allowed.part(turn.height, SLOPE * turn.rate)
-                    for allowed, turn in zip(self._allowances, self._turns(found, step), strict=True)
-                )
+                (tire, seat), (of_tire, of_seat) = self._turns(found, step), self._allowances
+                error = max(of_tire.part(tire.height, SLOPE * tire.rate), of_seat.part(seat.height, SLOPE * seat.rate))
                 if self._by_error and step.segments > self._shortest and error > 1.0:
                     break
             if not passes_left or self._settled(ends, found, step.duration):

@@ -315,8 +315,10 @@ def clear_beyond(
             return False
         # Most of what is below lies above the belt
         belt = _displaced(lines, half_space.along, row)
+        if not _any_deeper(road, crown, free - belt):
+            continue
         depth, far = _deepest(road, crown, free - belt, (left, left + own_cols - 1))
-        if depth > 0.0 and depth + belt > _displaced(lines, half_space.influence[:, far], row):
+        if depth + belt > _displaced(lines, half_space.influence[:, far], row):
             return False
     return True
 
@@ -346,10 +348,13 @@ def _deepest(road: Vector, crown: Vector, free: float, loaded: tuple[int, int]) 
 @borrowing_kernel
 def _displaced(lines: Vector, influence: Vector, row: int) -> float:
     """Displacement [m] of a row of cells by sums across [Pa] of rows from 0 on."""
-    total = 0.0
-    for k in range(len(lines)):
-        total += lines[k] * influence[abs(row - k)]
-    return total
+    even, odd, whole = 0.0, 0.0, len(lines) - len(lines) % 2
+    for k in range(0, whole, 2):
+        even += lines[k] * influence[abs(row - k)]
+        odd += lines[k + 1] * influence[abs(row - k - 1)]
+    for k in range(whole, len(lines)):
+        even += lines[k] * influence[abs(row - k)]
+    return even + odd
 
 
 @entry
