@@ -121,35 +121,33 @@ def enclose(
     end_row, end_col = first_row + window_rows, first_col + window_cols
     top, bottom, left, right = rows, -1, cols, -1
     blocks, laid, added, line = make_block_sums(half_space), False, False, numpy.empty(cols)
-    for i in range(0, rows, BLOCK):
-        inside_rows = first_row <= i and min(i + BLOCK, rows) <= end_row
-        if inside_rows and window_cols == cols:
-            continue
-        if not lowest_of_columns(gap, i, approach, line):
-            continue
-        for j in range(0, cols, BLOCK):
-            # Blocks outside the window whose lowest gap is below the approach.
-            if inside_rows and first_col <= j and min(j + BLOCK, cols) <= end_col:
+    behind, ahead = (0, first_row, 0, cols), (end_row, rows, 0, cols)
+    beside = (first_row, end_row, 0, first_col), (first_row, end_row, end_col, cols)
+    for start, end, first, last in (behind, ahead, *beside):
+        for i in range(start, end, BLOCK):
+            if not lowest_of_columns(gap, (i, min(i + BLOCK, end)), (first, last), approach, line):
                 continue
-            depth = approach - least_of(line, j, BLOCK)
-            if depth <= 0.0:
-                continue
-            # Most of them lie above the belt alone.
-            if not laid:
-                lay_belt(half_space, pressure, window, blocks.belt)
-                laid = True
-            if least_of(blocks.belt, i, BLOCK) >= depth:
-                continue
-            if not added:
-                add_up(pressure, window, blocks)
-                added = True
-            # Cells of a block that the bound does not clear.
-            least = least_displacement(half_space, blocks, i, j, BLOCK, depth)
-            if least < depth:
-                ends = (first_row, first_col, end_row, end_col)
-                box = penetrating(half_space, gap, approach, pressure, blocks, ends, block=(i, j), least=least)
-                top, bottom = min(top, box[0]), max(bottom, box[1])
-                left, right = min(left, box[2]), max(right, box[3])
+            for j in range(first, last, BLOCK):
+                # Blocks outside the window whose lowest gap is below the approach.
+                depth = approach - least_of(line, j - first, min(BLOCK, last - j))
+                if depth <= 0.0:
+                    continue
+                # Most of them lie above the belt alone.
+                if not laid:
+                    lay_belt(half_space, pressure, window, blocks.belt)
+                    laid = True
+                if least_of(blocks.belt, i, BLOCK) >= depth:
+                    continue
+                if not added:
+                    add_up(pressure, window, blocks)
+                    added = True
+                # Cells of a block that the bound does not clear.
+                least = least_displacement(half_space, blocks, i, j, BLOCK, depth)
+                if least < depth:
+                    block = (i, min(i + BLOCK, end), j, min(j + BLOCK, last))
+                    box = penetrating(half_space, gap, approach, pressure, blocks, (first_row, end_row), block, least)
+                    top, bottom = min(top, box[0]), max(bottom, box[1])
+                    left, right = min(left, box[2]), max(right, box[3])
     # The old contact and what penetrates beside it.
     if bottom < 0:
         return first_row, first_col, window_rows, window_cols
@@ -165,30 +163,26 @@ def penetrating(
     approach: float,
     pressure: Field,
     blocks: BlockSums,
-    window: tuple[int, int, int, int],
-    block: tuple[int, int],
+    loaded: tuple[int, int],
+    block: tuple[int, int, int, int],
     least: float,
 ) -> tuple[int, int, int, int]:
-    """Box of the cells of a block that penetrate outside the window; all are displaced by `least`
-    [m] at least.
+    """Box of the cells of a block that penetrate; all are displaced by `least` [m] at least.
 
-    window: first row and column, end row and column; block: its first row and column.
+    loaded: first and end row with pressure; block: first and end row, first and end column.
     """
-    rows, cols = gap.shape
-    i, j = block
-    first_row, first_col, end_row, end_col = window
-    top, bottom, left, right = rows, -1, cols, -1
-    for row in range(i, min(i + BLOCK, rows)):
-        for col in range(j, min(j + BLOCK, cols)):
+    top, bottom, left, right = gap.shape[0], -1, gap.shape[1], -1
+    for row in range(block[0], block[1]):
+        for col in range(block[2], block[3]):
             depth = approach - gap[row, col]
-            # Above the lower bound, or inside the window: decided
-            if depth <= least or (first_row <= row < end_row and first_col <= col < end_col):
+            # Above the lower bound: decided
+            if depth <= least:
                 continue
             # The bound of this cell alone is closer
             if least_displacement(half_space, blocks, row, col, 1, depth) >= depth:
                 continue
             # Direct sum of the pressure over this one cell
-            if displacement_at(half_space, pressure, blocks.fine.line, row, col, first_row, end_row) < depth:
+            if displacement_at(half_space, pressure, blocks.fine.line, row, col, loaded[0], loaded[1]) < depth:
                 top, bottom = min(top, row), max(bottom, row)
                 left, right = min(left, col), max(right, col)
     return top, bottom, left, right
@@ -309,18 +303,18 @@ def list_loaded(blocks: Blocks) -> None:
 
 
 @borrowing_kernel
-def lowest_of_columns(gap: Field, first: int, most: float, line: Values) -> bool:
-    """Lowest gap [m] of each column in the block of rows from ``first`` on, or `most` where none is
-    lower, into `line` [cols]; whether any is lower.
+def lowest_of_columns(gap: Field, rows: tuple[int, int], cols: tuple[int, int], most: float, line: Values) -> bool:
+    """Lowest gap [m] of each column between two rows and columns, or `most` where none is lower, into
+    `line` from 0 on; whether any is lower.
     """
-    cols, lower = gap.shape[1], 0
-    for j in range(cols):
+    number, lower = cols[1] - cols[0], 0
+    for j in range(number):
         line[j] = most
-    for i in range(first, min(first + BLOCK, gap.shape[0])):
-        row = gap[i]
-        for j in range(cols):
+    for i in range(rows[0], rows[1]):
+        row = gap[i, cols[0] : cols[1]]
+        for j in range(number):
             line[j] = row[j] if row[j] < line[j] else line[j]
-    for j in range(cols):
+    for j in range(number):
         lower += 1 if line[j] < most else 0
     return lower > 0
 
