@@ -11,7 +11,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.laws.elastic_law import elastic_force
-from contact_sim_pkg.laws.normal_force import pressure_factor
+from contact_sim_pkg.laws.normal_force import factor_of
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.contact_field import (
@@ -195,7 +195,7 @@ class ContactField(ABC):
         ``approach`` [m] and its ``rate`` [m/s] are those of the smooth contact.
         """
         assert self.contact is not None
-        factor = pressure_factor(self.contact.elastic, self.contact.dissipative, approach, rate, 1.0)
+        factor = factor_of(self.contact.elastic, self.contact.dissipative, approach, rate, 1.0)
         return found._replace(pressure=found.pressure * factor)
 
     def _solve_on(self, field: PressureField, approach: float, geometric: float) -> float:

@@ -57,6 +57,9 @@ SLOPE = 0.6  # part of the largest error of a rate that counts: it is that of an
 SETTLED = 0.5  # a correction that changes by this part of what is allowed is not corrected again
 
 
+Turns = tuple[Turn, Turn]
+
+
 class StepOutcome(NamedTuple):
     """Outcome of a coupling step."""
 
@@ -64,6 +67,7 @@ class StepOutcome(NamedTuple):
     ends: Corrections  # [m] that the bodies moved on
     bends: Corrections  # [m] the same
     found: Corrections  # [m] of the fields at the end
+    turns: Turns  # the courses to these
 
 
 class Coupling:
@@ -211,7 +215,7 @@ class Coupling:
         state.
         """
         saved, count = self.bodies.save(), step.segments
-        least = self._shortest
+        least, now = self._shortest, self._corrections()
         # A failure within the step counts only where no shorter step can avoid it.
         try:
             outcome = self._corrected(step, saved)
@@ -219,7 +223,7 @@ class Coupling:
             if not self._by_error or count == 1:
                 raise
             least = 1
-            outcome = StepOutcome(math.inf, self._corrections(), LINEAR, self._corrections())
+            outcome = StepOutcome(math.inf, now, LINEAR, now, self._turns(now, step))
         # The error grows with the square of the length; a rejected step is restored and repeated.
         ratio = min(max(SAFETY / max(outcome.error, 1e-9) ** 0.5, SHRINK), GROW)
         self._proposed = max(float(least), count * ratio)
@@ -273,46 +277,46 @@ class Coupling:
         most = self.model.corrector_passes
         solved = [step.last or not field.as_predicted for field in self.fields]
         ends = found = (self.tire.predicted(step.segments), self.seat.predicted(step.segments))
-        error = 0.0
+        turns, error = self._turns(ends, step), 0.0
         for passes_left in range(most, -1, -1):
             if passes_left < most:
                 self.bodies.restore(saved)
-            bends = self._bends(ends, step)
+            bends = self._bends(turns)
             self.bodies.move(step, self._corrections(), ends, bends)
             # Between published fields the last corrections are kept, unless the field is
             # viscoelastic.
             if passes_left or step.last or not most or self.tire.is_viscoelastic:
                 found = self._solve(step, solved, ends)
+                turns = self._turns(found, step)
             if passes_left == most:
-                (tire, seat), (of_tire, of_seat) = self._turns(found, step), self._allowances
+                (tire, seat), (of_tire, of_seat) = turns, self._allowances
                 error = max(of_tire.part(tire.height, SLOPE * tire.rate), of_seat.part(seat.height, SLOPE * seat.rate))
                 if self._by_error and step.segments > self._shortest and error > 1.0:
                     break
             if not passes_left or self._settled(ends, found, step.duration):
                 break
             ends = found
-        return StepOutcome(error, ends, bends, found)
+        return StepOutcome(error, ends, bends, found, turns)
 
     def _settled(self, ends: Corrections, found: Corrections, duration: float) -> bool:
         """Whether the change of the corrections is small as a height, and as a speed over
         ``duration`` [s].
         """
-        return all(
-            abs(a - b) <= SETTLED * min(allowed.height, allowed.speed * duration)
-            for a, b, allowed in zip(ends, found, self._allowances, strict=True)
-        )
+        tire, seat = self._allowances
+        most = min(tire.height, tire.speed * duration), min(seat.height, seat.speed * duration)
+        return abs(ends[0] - found[0]) <= SETTLED * most[0] and abs(ends[1] - found[1]) <= SETTLED * most[1]
 
-    def _bends(self, ends: Corrections, step: CouplingStep) -> Corrections:
+    def _bends(self, turns: Turns) -> Corrections:
         """Bends of the corrections over a step: of the parabolas through three solutions, and less
         where the step is as short as it may be and these say nothing, as at a wall.
         """
-        (tire, seat), (of_tire, of_seat) = self._turns(ends, step), self._allowances
+        (tire, seat), (of_tire, of_seat) = turns, self._allowances
         return (
             tire.bend / max(1.0, of_tire.part(tire.height, tire.rate)),
             seat.bend / max(1.0, of_seat.part(seat.height, seat.rate)),
         )
 
-    def _turns(self, ends: Corrections, step: CouplingStep) -> tuple[Turn, Turn]:
+    def _turns(self, ends: Corrections, step: CouplingStep) -> Turns:
         """Courses of the corrections to the ``ends`` of a step."""
         count, length = step.segments, step.segment_length
         return self.tire.turn(ends[0], count, length), self.seat.turn(ends[1], count, length)
@@ -351,7 +355,7 @@ class Coupling:
         What the curvature of the corrections means for the normal forces is counted as missed, with the
         part ``of_slope`` of a rate's error: all of it where the step is as short as it may be.
         """
-        ends, turns = outcome.ends, self._turns(outcome.found, step)
+        ends = outcome.ends
         approaches = (
             self.bodies.tire_approach(float(step.drive.smooth[-1]) + ends[0]),
             self.bodies.seat_approach(ends[1]),
@@ -359,7 +363,7 @@ class Coupling:
         self._roll(step, outcome, approaches[0])
         self.tire.store()
         self._lay_slopes(step)
-        for place, (field, allowed, turn) in enumerate(zip(self.fields, self._allowances, turns, strict=True)):
+        for place, (field, allowed, turn) in enumerate(zip(self.fields, self._allowances, outcome.turns, strict=True)):
             field.accept(outcome.found[place], step.segments, step.last or not field.as_predicted, allowed.height)
             if field.contact is None or field.grids is None:
                 continue
