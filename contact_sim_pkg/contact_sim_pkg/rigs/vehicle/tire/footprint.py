@@ -324,7 +324,7 @@ def clear_beyond(
 
 
 @borrowing_kernel
-def _any_deeper(road: Vector, crown: Vector, free: float) -> bool:
+def _any_deeper(road: Heights, crown: Vector, free: float) -> bool:
     """Whether any of a row of cells [cols] is below the road, ``free`` [m] nearer than its ``crown`` [m]."""
     below = 0
     for j in range(len(road)):
@@ -333,7 +333,7 @@ def _any_deeper(road: Vector, crown: Vector, free: float) -> bool:
 
 
 @borrowing_kernel
-def _deepest(road: Vector, crown: Vector, free: float, loaded: tuple[int, int]) -> tuple[float, int]:
+def _deepest(road: Heights, crown: Vector, free: float, loaded: tuple[int, int]) -> tuple[float, int]:
     """Largest depth [m] of such a row, 0 at least, and columns from the outermost cell below the road to
     the farthest of the ``loaded`` ones, first and last.
     """
