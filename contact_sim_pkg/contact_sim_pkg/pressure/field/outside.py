@@ -136,16 +136,16 @@ def enclose(
                 if not laid:
                     lay_belt(half_space, pressure, window, blocks.belt)
                     laid = True
-                if least_of(blocks.belt, i, BLOCK) >= depth:
+                depth -= least_of(blocks.belt, i, BLOCK)
+                if depth <= 0.0:
                     continue
                 if not added:
                     add_up(pressure, window, blocks)
                     added = True
                 # Cells of a block that the bound does not clear.
-                least = least_displacement(half_space, blocks, i, j, BLOCK, depth)
-                if least < depth:
+                if bound(half_space, blocks.coarse, i, j, BLOCK, depth) < depth:
                     block = (i, min(i + BLOCK, end), j, min(j + BLOCK, last))
-                    box = penetrating(half_space, gap, approach, pressure, blocks, (first_row, end_row), block, least)
+                    box = penetrating(half_space, gap, approach, pressure, blocks, (first_row, end_row), block)
                     top, bottom = min(top, box[0]), max(bottom, box[1])
                     left, right = min(left, box[2]), max(right, box[3])
     # The old contact and what penetrates beside it.
@@ -165,9 +165,8 @@ def penetrating(
     blocks: BlockSums,
     loaded: tuple[int, int],
     block: tuple[int, int, int, int],
-    least: float,
 ) -> tuple[int, int, int, int]:
-    """Box of the cells of a block that penetrate; all are displaced by `least` [m] at least.
+    """Box of the cells of a block that penetrate.
 
     loaded: first and end row with pressure; block: first and end row, first and end column.
     """
@@ -176,10 +175,7 @@ def penetrating(
         for col in range(block[2], block[3]):
             depth = approach - gap[row, col]
             # Above the lower bound: decided
-            if depth <= least:
-                continue
-            # The bound of this cell alone is closer
-            if least_displacement(half_space, blocks, row, col, 1, depth) >= depth:
+            if least_displacement(half_space, blocks, row, col, depth) >= depth:
                 continue
             # Direct sum of the pressure over this one cell
             if displacement_at(half_space, pressure, blocks.fine.line, row, col, loaded[0], loaded[1]) < depth:
@@ -189,16 +185,12 @@ def penetrating(
 
 
 @borrowing_kernel
-def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int, side: int, depth: float) -> float:
-    """Displacement [m] that all of the `side` x `side` cells from (i, j) have at least, computed
-    until it reaches `depth`.
-    """
-    belt = least_of(blocks.belt, i, side)
-    least = bound(half_space, blocks.coarse, i, j, side, depth - belt)
-    if least < depth - belt:
-        least = max(least, bound(half_space, blocks.middle, i, j, side, depth - belt))
-    if least < depth - belt:
-        least = max(least, bound(half_space, blocks.fine, i, j, side, depth - belt))
+def least_displacement(half_space: HalfSpace, blocks: BlockSums, row: int, col: int, depth: float) -> float:
+    """Displacement [m] that a cell has at least, computed until it reaches `depth`."""
+    least, belt = 0.0, blocks.belt[row]
+    for sums in (blocks.coarse, blocks.middle, blocks.fine):
+        if belt + least < depth:
+            least = max(least, bound(half_space, sums, row, col, 1, depth - belt))
     return belt + least
 
 
