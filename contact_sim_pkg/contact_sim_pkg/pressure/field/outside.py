@@ -187,7 +187,7 @@ def penetrating(
 @borrowing_kernel
 def least_displacement(half_space: HalfSpace, blocks: BlockSums, row: int, col: int, depth: float) -> float:
     """Displacement [m] that a cell has at least, computed until it reaches `depth`."""
-    least, belt = 0.0, blocks.belt[row]
+    least, belt = 0.0, float(blocks.belt[row])
     for sums in (blocks.coarse, blocks.middle, blocks.fine):
         if belt + least < depth:
             least = max(least, bound(half_space, sums, row, col, 1, depth - belt))
