@@ -17,7 +17,7 @@ from collections.abc import Callable
 from typing import Any
 
 from contact_sim_pkg.compiled.guards import require, require_not_negative
-from contact_sim_pkg.compiled.jit import kernel, kernel_overload
+from contact_sim_pkg.compiled.jit import entry, kernel, kernel_overload
 from contact_sim_pkg.laws.elastic_law import check_elastic, elastic_force
 from contact_sim_pkg.laws.general_dissipative import general_force, general_force_rate, general_tension_event
 from contact_sim_pkg.laws.normal_dissipative import (
@@ -110,11 +110,23 @@ def pressure_factor(
     1 without contact, and where the approach is so small that the elastic force underflows to 0.
     approach: [m]; approach_rate: [m/s], closing positive; the result: [1].
     """
-    force, spring = (
-        normal_force(elastic, dissipative, approach, approach_rate, hysteresis_factor),
-        elastic_force(elastic, approach),
+    _check(elastic, dissipative, approach, approach_rate, hysteresis_factor)
+    return factor_of(elastic, dissipative, approach, approach_rate, hysteresis_factor)
+
+
+@entry
+def factor_of(
+    elastic: ElasticLaw,
+    dissipative: NormalDissipation | None,
+    approach: float,
+    approach_rate: float,
+    hysteresis_factor: float,
+) -> float:
+    """See ``pressure_factor``; checks nothing."""
+    spring = elastic_force(elastic, approach)
+    return (
+        normal_force(elastic, dissipative, approach, approach_rate, hysteresis_factor) / spring if spring > 0.0 else 1.0
     )
-    return force / spring if spring > 0.0 else 1.0
 
 
 def check_dissipation(dissipative: NormalDissipation | None) -> None:

@@ -11,7 +11,6 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.rigs.vehicle.coupling.rule import AIM, UNLUCKIER, UNLUCKY, Allowance, MeasuredWay
 from contact_sim_pkg.rigs.vehicle.field_driver import CushionField
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
@@ -84,12 +83,12 @@ def test_a_single_step_changes_the_way_by_half_or_twice():
 
 def test_an_error_counts_under_the_load_that_it_acts_at():
     """On a spring: its stiffness times a height; a rate's error is a part of the force there, whatever is at rest."""
-    law, tolerance, damping = NormalElastic(1e5, 1.0), 1e-2, 0.05
+    stiffness, tolerance, damping = 1e5, 1e-2, 0.05
     allowed = Allowance(height=3e-4, force=tolerance * 3e3, load=3e3, speed=tolerance / damping)
-    assert allowed.missed_force(law, 0.03, 1e-4, 0.0) == pytest.approx(10.0)
-    assert allowed.missed_force(law, 0.03, 0.0, 0.1) == pytest.approx(3e3 * damping * 0.1)
-    assert allowed.missed_force(law, 0.12, 0.0, 0.1) == pytest.approx(12e3 * damping * 0.1)
-    assert allowed.missed_force(law, -0.01, 1e-4, 0.0) == pytest.approx(10.0)  # aloft, as at rest
+    assert allowed.missed_force(3e3, stiffness, 1e-4, 0.0) == pytest.approx(10.0)
+    assert allowed.missed_force(3e3, stiffness, 0.0, 0.1) == pytest.approx(3e3 * damping * 0.1)
+    assert allowed.missed_force(12e3, stiffness, 0.0, 0.1) == pytest.approx(12e3 * damping * 0.1)
+    assert allowed.missed_force(0.0, 0.0, 1e-4, 0.0) == pytest.approx(10.0)  # aloft, as at rest
 
 
 ROADS = {
@@ -133,7 +132,7 @@ def rate_error(steps):
     field.begin(0.0)
     for step in range(steps):
         start, end = (math.sin(2.0 * math.pi * (step + k) / steps) for k in (0, 1))
-        correction = (start, end, field.bend(end, count))
+        correction = (start, end, field.turn(end, count, length).bend)
         effective_between(level, level, correction, count * length, height, rate)
         time = (step * count + numpy.arange(count + 1)) * length
         if step:

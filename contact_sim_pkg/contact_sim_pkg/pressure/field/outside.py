@@ -120,31 +120,34 @@ def enclose(
     first_row, first_col, window_rows, window_cols = window
     end_row, end_col = first_row + window_rows, first_col + window_cols
     top, bottom, left, right = rows, -1, cols, -1
-    blocks, added, line = make_block_sums(half_space), False, numpy.empty(cols)
-    for i in range(0, rows, BLOCK):
-        inside_rows = first_row <= i and min(i + BLOCK, rows) <= end_row
-        if inside_rows and window_cols == cols:
-            continue
-        lowest_of_columns(gap, i, approach, line)
-        for j in range(0, cols, BLOCK):
-            # Blocks outside the window whose lowest gap is below the approach.
-            if inside_rows and first_col <= j and min(j + BLOCK, cols) <= end_col:
+    blocks, laid, added, line = make_block_sums(half_space), False, False, numpy.empty(cols)
+    behind, ahead = (0, first_row, 0, cols), (end_row, rows, 0, cols)
+    beside = (first_row, end_row, 0, first_col), (first_row, end_row, end_col, cols)
+    for start, end, first, last in (behind, ahead, *beside):
+        for i in range(start, end, BLOCK):
+            if not lowest_of_columns(gap, (i, min(i + BLOCK, end)), (first, last), approach, line):
                 continue
-            depth = 0.0
-            for col in range(j, min(j + BLOCK, cols)):
-                depth = max(depth, approach - line[col])
-            if depth <= 0.0:
-                continue
-            if not added:
-                add_up(half_space, pressure, window, blocks)
-                added = True
-            # Cells of a block that the bound does not clear.
-            least = least_displacement(half_space, blocks, i, j, BLOCK, depth)
-            if least < depth:
-                ends = (first_row, first_col, end_row, end_col)
-                box = penetrating(half_space, gap, approach, pressure, blocks, ends, block=(i, j), least=least)
-                top, bottom = min(top, box[0]), max(bottom, box[1])
-                left, right = min(left, box[2]), max(right, box[3])
+            for j in range(first, last, BLOCK):
+                # Blocks outside the window whose lowest gap is below the approach.
+                depth = approach - least_of(line, j - first, min(BLOCK, last - j))
+                if depth <= 0.0:
+                    continue
+                # Most of them lie above the belt alone.
+                if not laid:
+                    lay_belt(half_space, pressure, window, blocks.belt)
+                    laid = True
+                depth -= least_of(blocks.belt, i, BLOCK)
+                if depth <= 0.0:
+                    continue
+                if not added:
+                    add_up(pressure, window, blocks)
+                    added = True
+                # Cells of a block that the bound does not clear.
+                if bound(half_space, blocks.coarse, i, j, BLOCK, depth) < depth:
+                    block = (i, min(i + BLOCK, end), j, min(j + BLOCK, last))
+                    box = penetrating(half_space, gap, approach, pressure, blocks, (first_row, end_row), block)
+                    top, bottom = min(top, box[0]), max(bottom, box[1])
+                    left, right = min(left, box[2]), max(right, box[3])
     # The old contact and what penetrates beside it.
     if bottom < 0:
         return first_row, first_col, window_rows, window_cols
@@ -160,73 +163,87 @@ def penetrating(
     approach: float,
     pressure: Field,
     blocks: BlockSums,
-    window: tuple[int, int, int, int],
-    block: tuple[int, int],
-    least: float,
+    loaded: tuple[int, int],
+    block: tuple[int, int, int, int],
 ) -> tuple[int, int, int, int]:
-    """Box of the cells of a block that penetrate outside the window; all are displaced by `least`
-    [m] at least.
+    """Box of the cells of a block that penetrate.
 
-    window: first row and column, end row and column; block: its first row and column.
+    loaded: first and end row with pressure; block: first and end row, first and end column.
     """
-    rows, cols = gap.shape
-    i, j = block
-    first_row, first_col, end_row, end_col = window
-    top, bottom, left, right = rows, -1, cols, -1
-    for row in range(i, min(i + BLOCK, rows)):
-        for col in range(j, min(j + BLOCK, cols)):
+    top, bottom, left, right = gap.shape[0], -1, gap.shape[1], -1
+    for row in range(block[0], block[1]):
+        for col in range(block[2], block[3]):
             depth = approach - gap[row, col]
-            # Above the lower bound, or inside the window: decided
-            if depth <= least or (first_row <= row < end_row and first_col <= col < end_col):
-                continue
-            # The bound of this cell alone is closer
-            if least_displacement(half_space, blocks, row, col, 1, depth) >= depth:
+            # Above the lower bound: decided
+            if least_displacement(half_space, blocks, row, col, depth) >= depth:
                 continue
             # Direct sum of the pressure over this one cell
-            if displacement_at(half_space, pressure, blocks.fine.line, row, col, first_row, end_row) < depth:
+            if displacement_at(half_space, pressure, blocks.fine.line, row, col, loaded[0], loaded[1]) < depth:
                 top, bottom = min(top, row), max(bottom, row)
                 left, right = min(left, col), max(right, col)
     return top, bottom, left, right
 
 
 @borrowing_kernel
-def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int, side: int, depth: float) -> float:
-    """Displacement [m] that all of the `side` x `side` cells from (i, j) have at least, computed
-    until it reaches `depth`.
-    """
-    belt = float(blocks.belt[i])
-    for row in range(i + 1, min(i + side, len(blocks.belt))):
-        belt = min(belt, blocks.belt[row])
-    least = bound(half_space, blocks.coarse, i, j, side, depth - belt)
-    if least < depth - belt:
-        least = max(least, bound(half_space, blocks.middle, i, j, side, depth - belt))
-    if least < depth - belt:
-        least = max(least, bound(half_space, blocks.fine, i, j, side, depth - belt))
+def least_displacement(half_space: HalfSpace, blocks: BlockSums, row: int, col: int, depth: float) -> float:
+    """Displacement [m] that a cell has at least, computed until it reaches `depth`."""
+    least, belt = 0.0, float(blocks.belt[row])
+    for sums in (blocks.coarse, blocks.middle, blocks.fine):
+        if belt + least < depth:
+            least = max(least, bound(half_space, sums, row, col, 1, depth - belt))
     return belt + least
 
 
 @borrowing_kernel
-def add_up(half_space: HalfSpace, pressure: Field, window: tuple[int, int, int, int], blocks: BlockSums) -> None:
-    """Sums of the pressure over blocks of all sizes, and the displacement of the belt; blocks of
-    zeros before.
+def least_of(values: Values, first: int, number: int) -> float:
+    """Least of so many values, or as many as there are, from `first` on."""
+    least = float(values[first])
+    for k in range(first + 1, min(first + number, len(values))):
+        least = min(least, values[k])
+    return least
+
+
+@borrowing_kernel
+def lay_belt(half_space: HalfSpace, pressure: Field, window: tuple[int, int, int, int], belt: Values) -> None:
+    """Displacement [m] [rows] of the belt, zeros before.
 
     pressure: [rows, cols] [Pa], zero outside the window.
     """
-    rows, cols = pressure.shape
-    first, end = window[0], window[0] + window[2]
-    along, belt = half_space.along, blocks.belt
-    for k in range(first, end if len(half_space.belt) > 0 else first):
-        total = 0.0
-        for j in range(cols):
-            total += pressure[k, j]
+    rows, along = len(belt), half_space.along
+    first, left, right = window[0], window[1], window[1] + window[3]
+    for k in range(first, first + window[2] if len(half_space.belt) > 0 else first):
+        total = total_of_row(pressure[k, left:right])
         if total > 0.0:
             for i in range(k):
                 belt[i] += total * along[k - i]
             for i in range(k, rows):
                 belt[i] += total * along[i - k]
-    add_up_cells(pressure, first, end, blocks.fine)
+
+
+@borrowing_kernel
+def add_up(pressure: Field, window: tuple[int, int, int, int], blocks: BlockSums) -> None:
+    """Sums of the pressure over blocks of all sizes.
+
+    pressure: [rows, cols] [Pa], zero outside the window.
+    """
+    add_up_cells(pressure, window[0], window[0] + window[2], blocks.fine)
     add_up_blocks(blocks.fine, blocks.middle)
     add_up_blocks(blocks.middle, blocks.coarse)
+
+
+@borrowing_kernel
+def total_of_row(row: Values) -> float:
+    """Sum over a row, in four parts: a single one would wait for each addition."""
+    first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
+    whole = len(row) - len(row) % 4
+    for j in range(0, whole, 4):
+        first += row[j]
+        second += row[j + 1]
+        third += row[j + 2]
+        fourth += row[j + 3]
+    for j in range(whole, len(row)):
+        first += row[j]
+    return (first + second) + (third + fourth)
 
 
 @borrowing_kernel
@@ -278,17 +295,20 @@ def list_loaded(blocks: Blocks) -> None:
 
 
 @borrowing_kernel
-def lowest_of_columns(gap: Field, first: int, most: float, line: Values) -> None:
-    """Lowest gap [m] of each column in the block of rows from ``first`` on, or `most` where none is
-    lower, into `line` [cols].
+def lowest_of_columns(gap: Field, rows: tuple[int, int], cols: tuple[int, int], most: float, line: Values) -> bool:
+    """Lowest gap [m] of each column between two rows and columns, or `most` where none is lower, into
+    `line` from 0 on; whether any is lower.
     """
-    cols = gap.shape[1]
-    for j in range(cols):
+    number, lower = cols[1] - cols[0], 0
+    for j in range(number):
         line[j] = most
-    for i in range(first, min(first + BLOCK, gap.shape[0])):
-        row = gap[i]
-        for j in range(cols):
+    for i in range(rows[0], rows[1]):
+        row = gap[i, cols[0] : cols[1]]
+        for j in range(number):
             line[j] = row[j] if row[j] < line[j] else line[j]
+    for j in range(number):
+        lower += 1 if line[j] < most else 0
+    return lower > 0
 
 
 @borrowing_kernel

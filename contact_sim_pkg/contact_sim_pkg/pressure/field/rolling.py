@@ -159,7 +159,7 @@ class RollingField:
                 return self._settle(window, gap, request, spent, repeats)
             if found.window == window:
                 self._end(repeats, found.box)
-                return self._judged(FieldResult(CONVERGED, spent, found.load, found.approach, found.residual))
+                return FieldResult(self._status(), spent, found.load, found.approach, found.residual)
             window, share, lengths = GridWindow(*found.window), FROM_PRESSURE, START
 
     def _begin(self) -> tuple[bool, bool]:
@@ -167,13 +167,15 @@ class RollingField:
         same instant, and whether the road of the last field has left.
         """
         repeats = self._cells is None and self._instants > 0
-        for field in (self._last, self._before):
-            field.value.place[4] += self._cells or 0
+        last, before = self._last.value.place, self._before.value.place
+        if self._cells:
+            last[4] += self._cells
+            before[4] += self._cells
         self._cells = None
-        top, _left, bottom, _right, moved = self._last.value.place.tolist()
+        top, _left, bottom, _right, moved = last.tolist()
         has_left = abs(moved) > MOST_TRAVEL * (bottom - top)
         if has_left:
-            self._last.value.place[4], self._instants = 0, min(self._instants, 1)
+            last[4], self._instants = 0, min(self._instants, 1)
         return repeats, has_left
 
     def _end(self, repeats: bool, box: Box) -> None:
@@ -222,12 +224,13 @@ class RollingField:
                 break
             window, spent = grown, spent + result.iterations
             result = self._solve_in(window, gap, request, spent)
+        result = result._replace(iterations=result.iterations + spent)
         if result.load > 0.0:
             part, target = self._part(window.rows, window.cols), self._last if repeats else self._before
             self._end(repeats, store_window(part, window.first_row, window.first_col, target, self.pressure))
-        else:
-            self._instants, self._box = 0, NOWHERE
-        return self._judged(result._replace(iterations=result.iterations + spent))
+            return result._replace(status=self._status()) if result.status in (CONVERGED, EDGE) else result
+        self._instants, self._box = 0, NOWHERE
+        return result
 
     def _solve_in(self, window: GridWindow, gap: Field, request: FieldRequest, spent: int) -> FieldResult:
         part = self._part(window.rows, window.cols).value
@@ -247,13 +250,11 @@ class RollingField:
             return window
         return GridWindow(*grown_window(self.whole, gap, approach, self.pressure, window[:]))
 
-    def _judged(self, result: FieldResult) -> FieldResult:
+    def _status(self) -> int:
         """EDGE is about the whole grid's edge: the window's edge was checked."""
-        if result.status not in (CONVERGED, EDGE) or self._box == NOWHERE:
-            return result
         top, bottom, left, right = self._box
         at_edge = top == 0 or left == 0 or bottom == self.half_space.rows - 1 or right == self.half_space.cols - 1
-        return result._replace(status=EDGE if at_edge else CONVERGED)
+        return EDGE if at_edge else CONVERGED
 
     def _part(self, rows: int, cols: int) -> Held[Part]:
         part = self._parts.get((rows, cols))

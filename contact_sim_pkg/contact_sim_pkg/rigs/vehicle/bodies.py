@@ -20,7 +20,7 @@ from contact_sim_pkg.run.errors import RunError
 
 Sampled = tuple[Vector, Vector, Vector]  # states, rates, forces; [samples, ...] each
 Corrections = tuple[float, float]  # [m] of tire and seat
-STRAIGHT: Corrections = (0.0, 0.0)
+LINEAR: Corrections = (0.0, 0.0)
 """Bends of corrections that are linear in time."""
 
 
@@ -34,16 +34,12 @@ class CouplingStep(NamedTuple):
     last: bool  # of its interval: its fields are published
     row: int  # of the next sample
     behind_sample: int  # segments since the last sample
+    segments: int
 
     @property
     def duration(self) -> float:
         """In [s]."""
         return self.segments * self.segment_length
-
-    @property
-    def segments(self) -> int:
-        """Number of segments."""
-        return len(self.drive.smooth) - 1
 
 
 class Saved(NamedTuple):
@@ -63,7 +59,11 @@ class Bodies:
 
     def __init__(self, model: Model) -> None:
         """Make the buffers."""
-        self.model = model
+        rig, self.model = model.rig, model
+        ring, seat = rig.rigid_ring, rig.seat
+        # States: height of what touches the road, and of who sits
+        self._tread = None if rig.tire is None else 0 if ring is None else ring.offset
+        self._seated = None if seat is None else seat.offset
         self.reset()
 
     def reset(self) -> None:
@@ -128,7 +128,7 @@ class Bodies:
         self.state[:], self.mode[:], work.event_direction[:], work.step[:], work.last_event[:] = saved
 
     def move(
-        self, step: CouplingStep, starts: Corrections, ends: Corrections, bends: Corrections = STRAIGHT, part: int = 0
+        self, step: CouplingStep, starts: Corrections, ends: Corrections, bends: Corrections = LINEAR, part: int = 0
     ) -> None:
         """Move over a coupling step, or over its first ``part`` segments, with corrections from
         ``starts`` to ``ends`` [m] that lie a quarter of ``bends`` [m] below straight lines in the
@@ -165,10 +165,7 @@ class Bodies:
 
     def tire_approach(self, height: float) -> float:
         """Approach in [m] of tire or belt to a road of ``height`` [m]; 0 without a tire."""
-        rig = self.model.rig
-        if rig.tire is None:
-            return 0.0
-        return height - float(self.state[0 if rig.rigid_ring is None else rig.rigid_ring.offset])
+        return 0.0 if self._tread is None else height - self.state.item(self._tread)
 
     def tread_rate(self) -> float:
         """Vertical speed [m/s] of tire or belt; 0 without a tire."""
@@ -186,8 +183,7 @@ class Bodies:
         """Approach in [m] of the occupant to a cushion of height ``cushion`` [m]; 0 without
         a seat.
         """
-        rig = self.model.rig
-        if rig.seat is None:
+        if self._seated is None:
             return 0.0
-        floor = float(self.state[1]) if rig.tire is not None else 0.0
-        return floor + cushion - float(self.state[rig.seat.offset])
+        floor = 0.0 if self._tread is None else self.state.item(1)
+        return floor + cushion - self.state.item(self._seated)

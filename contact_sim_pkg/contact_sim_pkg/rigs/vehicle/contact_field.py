@@ -19,7 +19,8 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.held import Held, hold
-from contact_sim_pkg.laws.elastic_law import approach_of_force
+from contact_sim_pkg.compiled.jit import entry
+from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_energy, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import ElasticLaw, NormalElastic
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, make_half_space
 from contact_sim_pkg.pressure.field.rolling import RollingField
@@ -192,5 +193,21 @@ def correction_of(elastic: ElasticLaw, field: PressureField, gap: Field, approac
     approach is minus the smallest distance.
     """
     if field.load > 0.0:
-        return float(approach_of_force(elastic, field.load)) - geometric
+        return approach_at(elastic, field.load) - geometric
     return min(0.0, approach - float(gap.min())) - geometric
+
+
+@entry
+def law_at(elastic: ElasticLaw, approach: float, change: float) -> tuple[float, float, float, float]:
+    """Force [N] and stiffness [N/m] of a law at an ``approach`` [m]; force [N] and energy [J] that it
+    gains with a ``change`` [m] of that.
+    """
+    force, energy, moved = elastic_force(elastic, approach), elastic_energy(elastic, approach), approach + change
+    more, stored = elastic_force(elastic, moved) - force, elastic_energy(elastic, moved) - energy
+    return force, elastic_stiffness(elastic, approach), more, stored
+
+
+@entry
+def approach_at(elastic: ElasticLaw, force: float) -> float:
+    """Approach [m] at which a law gives a ``force`` [N]."""
+    return approach_of_force(elastic, force)

@@ -232,6 +232,26 @@ def _slide_energies(friction, back, seat, mode, normal, state):
 
 
 @entry
+def lay_slopes(
+    forces: Vector, row: int, behind_sample: int, sample_every: int, segments: int, slope: float, end: float
+) -> None:
+    """Write a slope [1] from ``slope`` to ``end`` of so many ``segments`` into their samples, which are
+    ``forces`` [samples, FORCES] from ``row`` on; the rest as of ``Course``.
+    """
+    for i in range(-behind_sample % sample_every, segments, sample_every):
+        forces[row, TIRE_SLOPE] = slope + (end - slope) * i / segments
+        row += 1
+
+
+@entry
+def raise_to(largest: Vector, forces: Vector) -> None:
+    """Raise what was ``largest`` so far, [FORCES], to the samples of an interval, [samples, FORCES]."""
+    for i in range(forces.shape[0]):
+        for j in range(forces.shape[1]):
+            largest[j] = max(largest[j], forces[i, j])
+
+
+@entry
 def energies_of(moving: Held[Moving], height: float, cushion: float) -> tuple[float, float, float, float, float]:
     """See ``energies``."""
     return _energies(moving.value.rig, moving.value.mode, moving.value.state, height, cushion)

@@ -5,12 +5,13 @@ behind it.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force
-from contact_sim_pkg.laws.normal_force import pressure_factor
+from contact_sim_pkg.laws.elastic_law import elastic_force
+from contact_sim_pkg.laws.normal_force import factor_of
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.contact_field import (
@@ -18,6 +19,7 @@ from contact_sim_pkg.rigs.vehicle.contact_field import (
     FieldError,
     FieldGrids,
     PressureField,
+    approach_at,
     correction_of,
 )
 from contact_sim_pkg.rigs.vehicle.model import seat_cells, seat_gap_on
@@ -33,6 +35,16 @@ AT_REST = 1e-8
 AS_PREDICTED = 0.1
 """Of the allowed height: a correction that differs by less from the expected one is as predicted.
 """
+
+
+class Turn(NamedTuple):
+    """How far a correction is from straight over a coupling step: on the parabola through the last two
+    solutions and its end.
+    """
+
+    height: float  # [m] largest distance from the straight line
+    rate: float  # [m/s] largest difference of the slopes
+    bend: float  # [m] four times the sagitta; 0 at the start of a run
 
 
 class ContactField(ABC):
@@ -85,29 +97,12 @@ class ContactField(ABC):
         """
         return self._solved + self._slope * (self._since + count)
 
-    def bend(self, correction: float, count: int) -> float:
-        """Four times the sagitta [m], over ``count`` segments, of the parabola through the last two
-        solutions and ``correction`` [m] at their end; 0 at the start of a run.
-        """
-        if self._is_first:
-            return 0.0
+    def turn(self, correction: float, count: int, length: float) -> Turn:
+        """The course to a ``correction`` [m], ``count`` segments of a ``length`` [s] on."""
         span = self._since + count
-        return ((correction - self._solved) / span - self._slope) * count**2 / (self._count + span)
-
-    def interpolation_error(self, correction: float, count: int) -> float:
-        """Largest distance [m] between the straight line to ``correction`` [m], ``count`` segments
-        on, and a parabola through the last three solutions.
-        """
-        span = self._since + count
-        slope = (correction - self._solved) / span
-        return abs(slope - self._slope) * span**2 / (4.0 * (self._count + span))
-
-    def slope_error(self, correction: float, count: int) -> float:
-        """Largest difference [m] per segment between the slopes of that line and of the
-        parabola.
-        """
-        span = self._since + count
-        return abs((correction - self._solved) / span - self._slope) * span / (self._count + span)
+        whole, change = self._count + span, (correction - self._solved) / span - self._slope
+        bend = 0.0 if self._is_first else change * count**2 / whole
+        return Turn(abs(change) * span**2 / (4.0 * whole), abs(change) * span / whole / length, bend)
 
     def accept(self, correction: float, count: int, solved: bool, allowed: float) -> None:
         """Accept a coupling step of ``count`` segments with the ``correction`` [m] at its end.
@@ -134,7 +129,7 @@ class ContactField(ABC):
         # The usual grid serves unless the contact reaches beyond it.
         try:
             correction = self._solve_on(self.grids.usual, approach, geometric)
-            if not self.touches_beyond(self.grids, approach):
+            if self.is_clear(self.grids, approach) or not self.touches_beyond(self.grids, approach):
                 return correction
         except FieldEdgeError:
             self.grids.usual.reset()
@@ -165,7 +160,7 @@ class ContactField(ABC):
                 approach = field.solve_load(self.gap(field.settings), load, min(AT_REST, field.settings.tolerance))
                 level = self.level_height(field)
                 if level is not None and self.contact is not None:
-                    approach = float(approach_of_force(self.contact.elastic, load)) - level
+                    approach = approach_at(self.contact.elastic, load) - level
                 if field is grids.wide:
                     self.refuse_beyond(grids, approach, 0)
                 elif self.touches_beyond(grids, approach):
@@ -200,7 +195,7 @@ class ContactField(ABC):
         ``approach`` [m] and its ``rate`` [m/s] are those of the smooth contact.
         """
         assert self.contact is not None
-        factor = pressure_factor(self.contact.elastic, self.contact.dissipative, approach, rate, 1.0)
+        factor = factor_of(self.contact.elastic, self.contact.dissipative, approach, rate, 1.0)
         return found._replace(pressure=found.pressure * factor)
 
     def _solve_on(self, field: PressureField, approach: float, geometric: float) -> float:
@@ -228,6 +223,10 @@ class ContactField(ABC):
     def road_row(self, settings: FieldSettings) -> int:
         """Row of the road under the first row of a grid."""
         return 0
+
+    def is_clear(self, grids: FieldGrids, approach: float) -> bool:
+        """Whether a bound says that it does not."""
+        return True
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
         """Whether the contact solved on the usual grid at ``approach`` [m] extends beyond it, as at

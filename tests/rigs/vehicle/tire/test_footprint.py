@@ -5,11 +5,16 @@ import math
 import numpy
 import pytest
 
+from contact_sim_pkg.compiled.held import hold
+from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import (
+    clear_beyond,
     effective_between,
     effective_heights,
     hertz_weights,
+    level_under,
+    mean_slope,
     touches_beyond,
 )
 
@@ -160,3 +165,46 @@ def test_a_correction_the_same_way_as_the_road_leaves_its_form():
 def test_a_bump_inside_the_interval_is_kept():
     bump = 0.03 * numpy.sin(numpy.pi * PLACE)
     assert between(bump, 0.01, 0.01) == pytest.approx(bump + 0.01)
+
+
+def clear(road, approach, pressure):
+    """What the bound says of that grid."""
+    whole = hold(make_half_space(40, 20, CELL, CELL, 2e6))
+    return clear_beyond(whole, road.astype(numpy.float32), 0, TireForm(0.3, 0.5), 60, 0.4, approach, pressure, 40)
+
+
+def test_a_bound_says_of_no_road_that_touches_that_it_does_not():
+    """Beside a loaded strip the surface has sunk: the road may stand above it and be clear still."""
+    strip = numpy.zeros((20, 10))
+    strip[5:15, 2:8] = 2e5
+    beside, found = abs(ACROSS) > 0.03, []
+    for height in numpy.linspace(-2e-3, 6e-3, 81):
+        road = numpy.where(beside, height, -0.01)
+        found.append((clear(road, 0.002, strip), beyond(road, 0.002, strip), clear(road, 0.002, 0.0 * strip)))
+    assert not any(bound and touches for bound, touches, _none in found)
+    first = [[bool(row[k]) for row in found].index(wanted) for k, wanted in ((0, False), (1, True), (2, False))]
+    assert first[2] + 5 < first[0] <= first[1]
+
+
+def test_a_grid_that_the_road_does_not_hold_is_not_said_to_be_clear():
+    whole, none = hold(make_half_space(40, 20, CELL, CELL, 2e6)), numpy.zeros((20, 20))
+    flat = numpy.full((30, 20), -1.0, dtype=numpy.float32)
+    assert not clear_beyond(whole, flat, 0, TireForm(0.3, 0.5), 0, 0.1, 0.002, none, 40)
+
+
+def test_the_slope_under_a_field_is_that_of_its_centre_on_a_parabola():
+    pressure = numpy.zeros((7, 5))
+    pressure[1, 2], pressure[4, 3] = 1.0, 3.0
+    expected = (1.0 * (-0.01 + CELL) + 3.0 * (-0.01 + 4 * CELL)) / 4.0 / 0.3
+    assert mean_slope(TireForm(0.3, 0.5), pressure, -0.01, CELL) == pytest.approx(expected, rel=1e-14)
+    assert mean_slope(TireForm(0.3, 0.5), 0.0 * pressure, -0.01, CELL) == 0.0
+
+
+@pytest.mark.parametrize(("place", "level"), [((9, 9), True), ((10, 12), False), ((13, 10), False), ((14, 14), True)])
+def test_what_a_field_rests_on_is_level_with_the_nodes_beside_it(place, level):
+    road, pressure = numpy.full((30, 20), 0.25, dtype=numpy.float32), numpy.zeros((8, 6))
+    road[place] = 0.26
+    pressure[1:4, 1:3] = 1.0  # on nodes 11 to 13, 11 to 12; 10 to 14, 10 to 13 with those beside
+    found = level_under(road, 10, 10, pressure)
+    assert found == 0.25 if level else math.isnan(found)
+    assert math.isnan(level_under(road, 10, 10, 0.0 * pressure))

@@ -107,10 +107,9 @@ class MissedSoFar:
         self._square = before + WEIGHT * numpy.nan_to_num(square - before)
         self._block = numpy.fmax(self._block, values)
 
-    def add_estimate(self, tire: float, seat: float) -> None:
-        """Count errors [N] of the normal forces by the curvature over a step."""
-        for place, error in ((0, tire), (len(KINDS), seat)):
-            self._block[place] = max(self._block[place], error)
+    def add_estimate(self, contact: int, error: float) -> None:
+        """Count the error [N] of a normal force by the curvature over a step."""
+        self._block[len(KINDS) * contact] = max(self._block[len(KINDS) * contact], error)
 
     def pop(self) -> Vector:
         """Estimated errors of the block that ends, [contacts, `KINDS`] in SI units; NaN: not known."""

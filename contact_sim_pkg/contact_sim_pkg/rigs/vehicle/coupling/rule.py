@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy
-
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, elastic_stiffness
-from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, NormalDissipative
+from contact_sim_pkg.compiled.jit import entry
+from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
+from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
 from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -80,15 +79,18 @@ class Allowance(NamedTuple):
     force: float = math.inf  # [N]
     load: float = 0.0  # [N] at rest
 
-    def missed_force(self, law: ElasticLaw, approach: float, height: float, rate: float) -> float:
-        """Error [N] of the force at an ``approach`` [m] by an error of the ``height`` [m], or of its
-        ``rate`` [m/s], which the loss sees; at least that at rest, since a load may leap in a step.
+    def part(self, height: float, rate: float) -> float:
+        """An error of the ``height`` [m], or of its ``rate`` [m/s], over the allowed one."""
+        return max(height / self.height, rate / self.speed)
+
+    def missed_force(self, force: float, stiffness: float, height: float, rate: float) -> float:
+        """Error [N] of a ``force`` [N] on a ``stiffness`` [N/m] by an error of the ``height`` [m], or of
+        its ``rate`` [m/s], which the loss sees; at least that at rest, since a load may leap in a step.
         """
         if self.load <= 0.0:
             return 0.0
-        stiffness = max(float(elastic_stiffness(law, approach)), self.force / self.height)
-        load = max(float(elastic_force(law, approach)), self.load)
-        return max(stiffness * height, load * rate * self.force / self.load / self.speed)
+        by_rate = max(force, self.load) * rate * self.force / self.load / self.speed
+        return max(max(stiffness, self.force / self.height) * height, by_rate)
 
 
 class MeasuredWay:
@@ -234,7 +236,20 @@ def even_part(whole: int, most: float) -> int:
     return -(-whole // parts)
 
 
+@entry
+def extent_of(values: Vector) -> float:
+    """Largest value over the least."""
+    least, largest = values[0], values[0]
+    for value in values:
+        least, largest = min(least, value), max(largest, value)
+    return largest - least
+
+
+@entry
 def bend_of(height: Vector) -> float:
     """Largest distance [m] of a height [points] [m] from the straight line between its ends."""
-    line = height[0] + (height[-1] - height[0]) / (len(height) - 1) * numpy.arange(len(height))
-    return float(abs(height - line).max())
+    last, bend = len(height) - 1, 0.0
+    slope = (height[last] - height[0]) / last
+    for i in range(1, last):
+        bend = max(bend, abs(height[i] - (height[0] + slope * i)))
+    return bend

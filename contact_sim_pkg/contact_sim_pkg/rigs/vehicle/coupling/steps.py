@@ -24,19 +24,26 @@ The coupling steps of a viscoelastic tread have one length; the error is only re
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
-from contact_sim_pkg.rigs.vehicle.bodies import Bodies, Corrections, CouplingStep, Saved
+from contact_sim_pkg.rigs.vehicle.bodies import LINEAR, Bodies, Corrections, CouplingStep, Saved
+from contact_sim_pkg.rigs.vehicle.contact_field import law_at
 from contact_sim_pkg.rigs.vehicle.coupling.check import CouplingCheck, Middle, MissedSoFar, middle_of
-from contact_sim_pkg.rigs.vehicle.coupling.rule import STRAIGHT, Allowance, MeasuredWay, bend_of, even_part
+from contact_sim_pkg.rigs.vehicle.coupling.rule import STRAIGHT, Allowance, MeasuredWay, bend_of, even_part, extent_of
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
-from contact_sim_pkg.rigs.vehicle.entries import SEAT_NORMAL, TIRE_NORMAL, TIRE_SHEAR, TIRE_SLOPE
-from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField
+from contact_sim_pkg.rigs.vehicle.entries import (
+    FORCES,
+    SEAT_NORMAL,
+    TIRE_NORMAL,
+    TIRE_SHEAR,
+    TIRE_SLOPE,
+    lay_slopes,
+    raise_to,
+)
+from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField, Turn
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, TireStep
@@ -50,12 +57,17 @@ SLOPE = 0.6  # part of the largest error of a rate that counts: it is that of an
 SETTLED = 0.5  # a correction that changes by this part of what is allowed is not corrected again
 
 
+Turns = tuple[Turn, Turn]
+
+
 class StepOutcome(NamedTuple):
     """Outcome of a coupling step."""
 
     error: float  # estimated, over the allowed one
     ends: Corrections  # [m] that the bodies moved on
+    bends: Corrections  # [m] the same
     found: Corrections  # [m] of the fields at the end
+    turns: Turns  # the courses to these
 
 
 class Coupling:
@@ -83,7 +95,8 @@ class Coupling:
         self.bodies.reset()
         self._slope = 0.0  # of the road under the tire, at the last solution of its field
         self._proposed = float(self.model.timing.segments)  # length of the next coupling step in segments
-        self._largest = [allowed.load for allowed in self._allowances]  # [N] forces of both contacts so far
+        self._largest = numpy.zeros(FORCES)  # so far
+        self._largest[[TIRE_NORMAL, SEAT_NORMAL]] = [allowed.load for allowed in self._allowances]
         self.missed = MissedSoFar()
         self._way.reset()
         if self._check is not None:
@@ -135,12 +148,11 @@ class Coupling:
             step = CouplingStep(
                 block, (block * timing.intervals * timing.segments + first) * timing.segment_length,
                 timing.segment_length, whole.part(first, count),
-                done + count == timing.segments, -(-done // timing.sample_every), done % timing.sample_every,
+                done + count == timing.segments, -(-done // timing.sample_every), done % timing.sample_every, count,
             )  # fmt: skip
             if self._advance_step(step, record):
                 done += count
-        for place, column in enumerate((TIRE_NORMAL, SEAT_NORMAL)):
-            self._largest[place] = max(self._largest[place], float(self.bodies.sampled[2][:, column].max()))
+        raise_to(self._largest, self.bodies.sampled[2])
 
     def _lay_slopes(self, step: CouplingStep) -> None:
         """Write the effective slope of the road at the samples of a coupling step, linear between the
@@ -149,29 +161,27 @@ class Coupling:
         if self.model.tire_geometry is None:
             return
         every, drive = self.model.timing.sample_every, step.drive
-        at = numpy.arange(-step.behind_sample % every, step.segments, every)
-        slopes = self.bodies.sampled[2][step.row : step.row + len(at), TIRE_SLOPE]
         if self.tire.grids is None:
+            at = numpy.arange(-step.behind_sample % every, step.segments, every)
+            slopes = self.bodies.sampled[2][step.row : step.row + len(at), TIRE_SLOPE]
             way = numpy.gradient(drive.travel)[at]
             slopes[:] = 0.0
             numpy.divide(numpy.gradient(drive.smooth)[at], way, out=slopes, where=way != 0.0)
             return
         end = self.tire.effective_slope()
-        slopes[:] = self._slope + (end - self._slope) * at / step.segments
+        lay_slopes(self.bodies.sampled[2], step.row, step.behind_sample, every, step.segments, self._slope, end)
         self._slope = end
 
-    def _roll(self, step: CouplingStep, risen: float) -> None:
-        """Roll bristles and belt on to the field at the end of a coupling step, over which the
-        correction has ``risen`` by so much [m]; their samples go into their columns.
+    def _roll(self, step: CouplingStep, outcome: StepOutcome, approach: float) -> None:
+        """Roll bristles and belt on to the field at the end of a coupling step, at an ``approach`` [m];
+        their samples go into their columns.
         """
         found = self.tire.published
         if self.shear is None or found is None:
             return
         # The pressure with its loss, by the approach and its rate at the end.
-        bend = self._bends((self.tire.correction + risen, self.seat.correction), step)[0]
-        rising = (risen + bend) / step.duration
+        rising = (outcome.ends[0] - self.tire.correction + outcome.bends[0]) / step.duration
         rate = float(step.drive.rate[-1]) + rising - self.bodies.tread_rate()
-        approach = self.bodies.tire_approach(float(step.drive.smooth[-1]) + self.tire.correction + risen)
         pressure = self.tire.with_loss(found, approach, rate).pressure
         load = float(pressure.sum()) * self.tire.cell_area
         every = self.model.timing.sample_every
@@ -190,8 +200,7 @@ class Coupling:
             return left
         if rule.segments is not None:
             return min(rule.segments, left)
-        travel = float(numpy.ptp(whole.travel[first : first + left + 1]))
-        count = left
+        count, travel = left, extent_of(whole.travel[first : first + left + 1])
         # The longer way only where the road is nearly straight all along it.
         for longest in rule.longest:
             longest = min(longest, self._way.longest)
@@ -206,7 +215,7 @@ class Coupling:
         state.
         """
         saved, count = self.bodies.save(), step.segments
-        least = self._shortest
+        least, now = self._shortest, self._corrections()
         # A failure within the step counts only where no shorter step can avoid it.
         try:
             outcome = self._corrected(step, saved)
@@ -214,7 +223,7 @@ class Coupling:
             if not self._by_error or count == 1:
                 raise
             least = 1
-            outcome = StepOutcome(math.inf, self._corrections(), self._corrections())
+            outcome = StepOutcome(math.inf, now, LINEAR, now, self._turns(now, step))
         # The error grows with the square of the length; a rejected step is restored and repeated.
         ratio = min(max(SAFETY / max(outcome.error, 1e-9) ** 0.5, SHRINK), GROW)
         self._proposed = max(float(least), count * ratio)
@@ -231,36 +240,17 @@ class Coupling:
             self.bodies.restore(saved)
             record.stretches_repeated += 1
             return False
-        self.missed.add_estimate(*self._estimated(outcome, step, error))
         record.stretches += 1
         if self.model.coupling is not None:
             record.coupling_error = max(record.coupling_error, outcome.error * self.model.coupling.tolerance)
-        self._close(step, outcome, record)
+        self._close(step, outcome, record, SLOPE if error <= 1.0 else 1.0)
         return True
-
-    def _estimated(self, outcome: StepOutcome, step: CouplingStep, error: float) -> tuple[float, ...]:
-        """Errors [N] of the normal forces of tire and seat by the curvature of their corrections, under
-        the loads at the end of a step; with all of a rate's error where the step is as short as it may
-        be.
-        """
-        of_slope = 1.0 if error > 1.0 else SLOPE
-        return tuple(
-            allowed.missed_force(field.contact.elastic, approach, height, of_slope * rate)
-            if field.contact is not None else 0.0
-            for field, approach, allowed, (height, rate)
-            in zip(self.fields, self._approaches(step, outcome), self._allowances, self._misses(outcome.found, step), strict=True)
-        )  # fmt: skip
-
-    def _approaches(self, step: CouplingStep, outcome: StepOutcome) -> tuple[float, float]:
-        """Approaches [m] of tire and seat at the end of a step."""
-        height, cushion = float(step.drive.smooth[-1]) + outcome.ends[0], outcome.ends[1]
-        return self.bodies.tire_approach(height), self.bodies.seat_approach(cushion)
 
     def _look(self, check: CouplingCheck, step: CouplingStep, saved: Saved, outcome: StepOutcome) -> Middle:
         """What a step missed in its middle."""
         end, ends = self.bodies.save(), outcome.ends
         self.bodies.restore(saved)
-        self.bodies.move(step, self._corrections(), ends, self._bends(ends, step), middle_of(step))
+        self.bodies.move(step, self._corrections(), ends, outcome.bends, middle_of(step))
         found = check.look(self.bodies, step, (self._slope, self.tire.effective_slope()))
         self.bodies.restore(end)
         return found
@@ -270,15 +260,16 @@ class Coupling:
         are as long as it lets them be.
         """
         errors = (max(found.tire.normal, found.tire.along), found.seat.normal)
+        loads = self._largest[[TIRE_NORMAL, SEAT_NORMAL]].tolist()
         parts = [
             error / (allowed.force * largest / allowed.load)
-            for error, allowed, largest in zip(errors, self._allowances, self._largest, strict=True)
+            for error, allowed, largest in zip(errors, self._allowances, loads, strict=True)
             if math.isfinite(error)
         ]
         worst = max(parts, default=0.0)
         if step.segments < 2:  # its middle is its end
             return worst
-        self._way.learn(float(numpy.ptp(step.drive.travel)), worst)
+        self._way.learn(extent_of(step.drive.travel), worst)
         return worst
 
     def _corrected(self, step: CouplingStep, saved: Saved) -> StepOutcome:
@@ -286,42 +277,49 @@ class Coupling:
         most = self.model.corrector_passes
         solved = [step.last or not field.as_predicted for field in self.fields]
         ends = found = (self.tire.predicted(step.segments), self.seat.predicted(step.segments))
-        error = 0.0
+        turns, error = self._turns(ends, step), 0.0
         for passes_left in range(most, -1, -1):
             if passes_left < most:
                 self.bodies.restore(saved)
-            self.bodies.move(step, self._corrections(), ends, self._bends(ends, step))
+            bends = self._bends(turns)
+            self.bodies.move(step, self._corrections(), ends, bends)
             # Between published fields the last corrections are kept, unless the field is
             # viscoelastic.
             if passes_left or step.last or not most or self.tire.is_viscoelastic:
                 found = self._solve(step, solved, ends)
+                turns = self._turns(found, step)
             if passes_left == most:
-                error = self._error(found, step)
+                (tire, seat), (of_tire, of_seat) = turns, self._allowances
+                error = max(of_tire.part(tire.height, SLOPE * tire.rate), of_seat.part(seat.height, SLOPE * seat.rate))
                 if self._by_error and step.segments > self._shortest and error > 1.0:
                     break
             if not passes_left or self._settled(ends, found, step.duration):
                 break
             ends = found
-        return StepOutcome(error, ends, found)
+        return StepOutcome(error, ends, bends, found, turns)
 
     def _settled(self, ends: Corrections, found: Corrections, duration: float) -> bool:
         """Whether the change of the corrections is small as a height, and as a speed over
         ``duration`` [s].
         """
-        return all(
-            abs(a - b) <= SETTLED * min(allowed.height, allowed.speed * duration)
-            for a, b, allowed in zip(ends, found, self._allowances, strict=True)
-        )
+        tire, seat = self._allowances
+        most = min(tire.height, tire.speed * duration), min(seat.height, seat.speed * duration)
+        return abs(ends[0] - found[0]) <= SETTLED * most[0] and abs(ends[1] - found[1]) <= SETTLED * most[1]
 
-    def _bends(self, ends: Corrections, step: CouplingStep) -> Corrections:
+    def _bends(self, turns: Turns) -> Corrections:
         """Bends of the corrections over a step: of the parabolas through three solutions, and less
         where the step is as short as it may be and these say nothing, as at a wall.
         """
-        tire, seat = self._errors(ends, step, 1.0)
+        (tire, seat), (of_tire, of_seat) = turns, self._allowances
         return (
-            self.tire.bend(ends[0], step.segments) / max(1.0, tire),
-            self.seat.bend(ends[1], step.segments) / max(1.0, seat),
+            tire.bend / max(1.0, of_tire.part(tire.height, tire.rate)),
+            seat.bend / max(1.0, of_seat.part(seat.height, seat.rate)),
         )
+
+    def _turns(self, ends: Corrections, step: CouplingStep) -> Turns:
+        """Courses of the corrections to the ``ends`` of a step."""
+        count, length = step.segments, step.segment_length
+        return self.tire.turn(ends[0], count, length), self.seat.turn(ends[1], count, length)
 
     def _corrections(self) -> Corrections:
         return self.tire.correction, self.seat.correction
@@ -351,42 +349,26 @@ class Coupling:
         approach = self.bodies.seat_approach(0.0)
         return self.seat.solve(approach, approach, block)
 
-    def _error(self, found: Corrections, step: CouplingStep) -> float:
-        """Largest error of a linear correction, as height or as rate, over the allowed one."""
-        return max(self._errors(found, step))
+    def _close(self, step: CouplingStep, outcome: StepOutcome, record: BlockRecord, of_slope: float) -> None:
+        """Accept the fields and their corrections; the energy of the remaining jump counts as supplied.
 
-    def _errors(self, found: Corrections, step: CouplingStep, of_slope: float = SLOPE) -> tuple[float, ...]:
-        """The same of tire and seat; ``of_slope`` is the part of a rate's error that counts."""
-        return tuple(
-            max(height / allowed.height, of_slope * rate / allowed.speed)
-            for (height, rate), allowed in zip(self._misses(found, step), self._allowances, strict=True)
-        )
-
-    def _misses(self, found: Corrections, step: CouplingStep) -> Iterator[tuple[float, float]]:
-        """Errors of linear corrections of tire and seat: of the height [m], and of its rate [m/s]."""
-        count = step.segments
-        for field, correction in zip(self.fields, found, strict=True):
-            yield (
-                field.interpolation_error(correction, count),
-                field.slope_error(correction, count) / step.segment_length,
-            )
-
-    def _close(self, step: CouplingStep, outcome: StepOutcome, record: BlockRecord) -> None:
-        """Accept the fields and their corrections; the energy of the remaining jump counts as
-        supplied.
+        What the curvature of the corrections means for the normal forces is counted as missed, with the
+        part ``of_slope`` of a rate's error: all of it where the step is as short as it may be.
         """
-        self._roll(step, outcome.ends[0] - self.tire.correction)
+        ends = outcome.ends
+        approaches = (
+            self.bodies.tire_approach(float(step.drive.smooth[-1]) + ends[0]),
+            self.bodies.seat_approach(ends[1]),
+        )
+        self._roll(step, outcome, approaches[0])
         self.tire.store()
         self._lay_slopes(step)
-        pairs = zip(
-            self.fields, self._approaches(step, outcome), outcome.ends, outcome.found, self._allowances, strict=True
-        )
-        for field, approach, end, correction, allowed in pairs:
-            field.accept(correction, step.segments, step.last or not field.as_predicted, allowed.height)
-            change = correction - end
-            if field.contact is None or change == 0.0:
+        for place, (field, allowed, turn) in enumerate(zip(self.fields, self._allowances, outcome.turns, strict=True)):
+            field.accept(outcome.found[place], step.segments, step.last or not field.as_predicted, allowed.height)
+            if field.contact is None or field.grids is None:
                 continue
-            law = field.contact.elastic
-            self.bodies.supply(elastic_energy(law, approach + change) - elastic_energy(law, approach))
-            jump = abs(elastic_force(law, approach + change) - elastic_force(law, approach))
-            record.field_jump = max(record.field_jump, jump)
+            change = outcome.found[place] - ends[place]
+            force, stiffness, jump, energy = law_at(field.contact.elastic, approaches[place], change)
+            self.missed.add_estimate(place, allowed.missed_force(force, stiffness, turn.height, of_slope * turn.rate))
+            self.bodies.supply(energy)
+            record.field_jump = max(record.field_jump, abs(jump))

@@ -17,13 +17,15 @@ instants the pressure field itself decides.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.compiled.held import Held
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
+from contact_sim_pkg.pressure.field.halfspace import HalfSpace
+from contact_sim_pkg.pressure.field.outside import total_of_row
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 
 Heights = NDArray[numpy.float32]
@@ -174,12 +176,54 @@ def height_along(form: TireForm, x: float) -> float:
     return 0.5 * x * x / radius
 
 
-def slope_along(form: TireForm, x: NDArray[numpy.floating[Any]]) -> NDArray[numpy.float64]:
-    """Slope dz/dx [1] of the height of the tire at ``x`` [m] [points] before its lowest point."""
+@kernel
+def slope_along(form: TireForm, x: float) -> float:
+    """Slope dz/dx [1] of the height of the tire at ``x`` [m] before its lowest point."""
     radius = form.radius_rolling
     if form.circular:
-        return numpy.asarray(x / numpy.sqrt(numpy.maximum(radius**2 - x**2, 1e-6 * radius**2)), dtype=numpy.float64)
-    return numpy.asarray(x / radius, dtype=numpy.float64)
+        return x / math.sqrt(max(radius * radius - x * x, 1e-6 * radius * radius))
+    return x / radius
+
+
+@entry
+def mean_slope(form: TireForm, pressure: Pressures, origin: float, cell_x: float) -> float:
+    """Mean slope [1] of the tire under a ``pressure`` [rows, cols] [Pa], which is its weight; 0 without
+    one. Row 0 lies ``origin`` [m] before the lowest point.
+    """
+    total, climb = 0.0, 0.0
+    for i in range(pressure.shape[0]):
+        line = total_of_row(pressure[i])
+        total += line
+        climb += line * slope_along(form, origin + i * cell_x)
+    return climb / total if total > 0.0 else 0.0
+
+
+@entry
+def level_under(height: Heights, first: int, margin: int, pressure: Pressures) -> float:
+    """Height [m] of the road under all loaded cells and beside them, where it is the same; else NaN.
+
+    ``pressure`` [rows, cols] lies on the nodes of ``height`` from row ``first`` and column ``margin`` on.
+    Nodes beside count: at an edge the contact would go on where the road does not.
+    """
+    rows, cols = pressure.shape
+    # Two cells in the middle of the contact decide on most roads.
+    i, j = rows // 2, cols // 2
+    rises = height[first + i, margin + j] != height[first + i + 1, margin + j]
+    if rises and pressure[i, j] > 0.0 and pressure[i + 1, j] > 0.0:
+        return math.nan
+    top, bottom, left, right = rows, -1, cols, -1
+    for i in range(rows):
+        for j in range(cols):
+            if pressure[i, j] > 0.0:
+                top, bottom, left, right = min(top, i), i, min(left, j), max(right, j)
+    if bottom < 0:
+        return math.nan
+    top, left = max(first + top - 1, 0), max(margin + left - 1, 0)
+    for i in range(top, min(first + bottom + 2, height.shape[0])):
+        for j in range(left, min(margin + right + 2, height.shape[1])):
+            if height[i, j] != height[top, left]:
+                return math.nan
+    return float(height[top, left])
 
 
 @kernel
@@ -236,6 +280,81 @@ def _sunk(pressure: Pressures, row: int, col: int, modulus: float, cell_x: float
             if pressure[i, j] > 0.0:
                 total += pressure[i, j] / math.hypot((row - i) * cell_x, (col - j) * cell_y)
     return total * cell_x * cell_y / (math.pi * modulus)
+
+
+@entry
+def clear_beyond(
+    whole: Held[HalfSpace], height: Heights, first_row: int, form: TireForm, first: int, travel: float, approach: float,
+    pressure: Pressures, rows: int,
+) -> bool:  # fmt: skip
+    """Whether a bound says that the road does not touch the tire outside the grid of ``pressure`` [Pa]:
+    on the columns of the ``whole`` grid, whose rows the lattice must hold, and on ``rows`` rows.
+
+    A row of cells is displaced by the belt, and by each line of the pressure as if all of it lay as far
+    across as a cell can. The rest as in `touches_beyond`.
+    """
+    half_space, own_rows, own_cols = whole.value, pressure.shape[0], pressure.shape[1]
+    cols, reach = half_space.cols, rows // 2 - half_space.rows // 2
+    top, margin, middle = rows // 2 - own_rows // 2, (height.shape[1] - cols) // 2, 0.5 * (cols - 1)
+    last_row = first_row + height.shape[0]
+    if first + reach < first_row or first + reach + half_space.rows > last_row or margin < 0:
+        return False
+    lines, left = numpy.empty(own_rows), (cols - own_cols) // 2
+    for k in range(own_rows):
+        lines[k] = total_of_row(pressure[k])
+    across, beside = numpy.empty(cols), numpy.empty(cols)
+    for j in range(cols):
+        across[j] = height_across(form, (j - middle) * half_space.cell_y)
+        beside[j] = numpy.inf if left <= j < left + own_cols else across[j]
+    for i in range(max(0, first_row - first), min(rows, last_row - first)):
+        free, row = approach - height_along(form, (first + i) * half_space.cell_x - travel), i - top
+        road, crown = height[first + i - first_row, margin : margin + cols], beside if 0 <= row < own_rows else across
+        if not _any_deeper(road, crown, free):
+            continue
+        if max(row, own_rows - 1 - row) >= half_space.rows:
+            return False
+        # Most of what is below lies above the belt
+        belt = _displaced(lines, half_space.along, row)
+        if not _any_deeper(road, crown, free - belt):
+            continue
+        depth, far = _deepest(road, crown, free - belt, (left, left + own_cols - 1))
+        if depth + belt > _displaced(lines, half_space.influence[:, far], row):
+            return False
+    return True
+
+
+@borrowing_kernel
+def _any_deeper(road: Heights, crown: Vector, free: float) -> bool:
+    """Whether any of a row of cells [cols] is below the road, ``free`` [m] nearer than its ``crown`` [m]."""
+    below = 0
+    for j in range(len(road)):
+        below += 1 if road[j] + free > crown[j] else 0
+    return below > 0
+
+
+@borrowing_kernel
+def _deepest(road: Heights, crown: Vector, free: float, loaded: tuple[int, int]) -> tuple[float, int]:
+    """Largest depth [m] of such a row, 0 at least, and columns from the outermost cell below the road to
+    the farthest of the ``loaded`` ones, first and last.
+    """
+    deepest, far = 0.0, 0
+    for j in range(len(road)):
+        depth = road[j] + free - crown[j]
+        if depth > 0.0:
+            deepest, far = max(deepest, depth), max(far, j - loaded[0], loaded[1] - j)
+    return deepest, far
+
+
+@borrowing_kernel
+def _displaced(lines: Vector, influence: Vector, row: int) -> float:
+    """Displacement [m] of a row of cells by sums across [Pa] of rows from 0 on."""
+    even, odd, whole = 0.0, 0.0, len(lines) - len(lines) % 2
+    for k in range(0, whole, 2):
+        even += lines[k] * influence[abs(row - k)]
+        odd += lines[k + 1] * influence[abs(row - k - 1)]
+    for k in range(whole, len(lines)):
+        even += lines[k] * influence[abs(row - k)]
+    return even + odd
 
 
 @entry

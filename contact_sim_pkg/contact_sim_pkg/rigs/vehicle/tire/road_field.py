@@ -13,7 +13,7 @@ from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, Infla
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field_driver import AT_REST, ContactField, Gap
 from contact_sim_pkg.rigs.vehicle.outputs import FieldRecord
-from contact_sim_pkg.rigs.vehicle.tire.footprint import slope_along, tire_gap, touches_beyond
+from contact_sim_pkg.rigs.vehicle.tire.footprint import clear_beyond, level_under, mean_slope, tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
 from contact_sim_pkg.run.errors import RunError
@@ -124,15 +124,8 @@ class RoadField(ContactField):
         out = self._gaps[settings.rows]
         # Height of the tire over the road.
         inside = tire_gap(
-            road.height,
-            road.first_row,
-            cell_x=settings.cell_x,
-            cell_y=settings.cell_y,
-            form=geometry.form,
-            first=self.road_row(settings),
-            travel=self.travel,
-            out=out,
-        )
+            road.height, road.first_row, settings.cell_x, settings.cell_y, geometry.form, self.road_row(settings), self.travel, out
+        )  # fmt: skip
         if not inside:
             raise RunError(
                 f"road/patch: block {road.block} does not reach over the pressure grid at {self.travel:.6g} m"
@@ -143,6 +136,15 @@ class RoadField(ContactField):
             row, col = whole.shape[0] // 2 - settings.rows // 2, (whole.shape[1] - settings.cols) // 2
             out += whole[row : row + settings.rows, col : col + settings.cols]
         return out
+
+    def is_clear(self, grids: FieldGrids, approach: float) -> bool:
+        """See `ContactField`; what a tread remembers is not in the bound."""
+        geometry, road = self._geometry, self._road
+        assert geometry is not None
+        return self._tread_state is None and clear_beyond(
+            grids.wide.half_space, road.height, road.first_row, geometry.form, self._first_row(grids.usual.settings), self.travel,
+            approach, grids.usual.pressure, geometry.lattice.road_rows,
+        )  # fmt: skip
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
         """See `ContactField`."""
@@ -178,23 +180,15 @@ class RoadField(ContactField):
         # All nodes of the road below the tire count, not only those of the grid.
         geometry, road, settings = self._geometry, self._road, field.settings
         assert geometry is not None
-        rows, cols = geometry.lattice.road_rows, geometry.lattice.road_cols
-        return bool(
-            touches_beyond(
-                road.height,
-                road.first_row,
-                form=geometry.form,
-                first=round(self.travel / settings.cell_x) - rows // 2,
-                travel=self.travel,
-                approach=approach,
-                modulus=settings.modulus,
-                cell_x=settings.cell_x,
-                cell_y=settings.cell_y,
-                pressure=field.pressure,
-                rows=rows,
-                cols=cols,
-            )
-        )
+        return touches_beyond(
+            road.height, road.first_row, geometry.form, self._first_row(settings), self.travel, approach, settings.modulus,
+            settings.cell_x, settings.cell_y, field.pressure, geometry.lattice.road_rows, geometry.lattice.road_cols,
+        )  # fmt: skip
+
+    def _first_row(self, settings: FieldSettings) -> int:
+        """Row of the road under the rear of the lattice, which reaches as far as a tire does."""
+        assert self._geometry is not None
+        return round(self.travel / settings.cell_x) - self._geometry.lattice.road_rows // 2
 
     def level_height(self, field: PressureField) -> float | None:
         """See `ContactField`; the law of an inflated tire is its field on a level road."""
@@ -204,27 +198,10 @@ class RoadField(ContactField):
             or not isinstance(self.contact.elastic, TabulatedElastic)
         ):
             return None
-        first = self.road_row(field.settings) - self._road.first_row
-        margin = (self._road.height.shape[1] - field.settings.cols) // 2
-        # Two cells in the middle of the contact decide on most roads.
-        row, col = field.settings.rows // 2, field.settings.cols // 2
-        here, beside = self._road.height[first + row : first + row + 2, margin + col]
-        if here != beside and (field.pressure[row : row + 2, col] > 0.0).all():
-            return None
-        loaded = field.pressure > 0.0
-        rows, cols = numpy.flatnonzero(loaded.any(axis=1)), numpy.flatnonzero(loaded.any(axis=0))
-        if not len(rows):
-            return None
-        # The cells around the contact too: at an edge it would go on where the road does not
-        top, bottom, left, right = (
-            first + rows[0] - 1,
-            first + rows[-1] + 2,
-            margin + cols[0] - 1,
-            margin + cols[-1] + 2,
-        )
-        under = self._road.height[max(top, 0) : bottom, max(left, 0) : right]
-        level = float(under[0, 0])
-        return level if (under == level).all() else None
+        road, first = self._road, self.road_row(field.settings) - self._road.first_row
+        margin = (road.height.shape[1] - field.settings.cols) // 2
+        level = level_under(road.height, first, margin, field.pressure)
+        return None if math.isnan(level) else level
 
     def effective_slope(self) -> float:
         """Slope [1] of the even ground with the same longitudinal force, of the last solution.
@@ -234,13 +211,11 @@ class RoadField(ContactField):
         level road it is 0 for an elastic tread.
         """
         found, geometry = self.published, self._geometry
-        if found is None or found.is_level or geometry is None:
+        if found is None or geometry is None:
             return 0.0
         if self._slope_of[0] is not found:
-            x = found.origin_x + numpy.arange(len(found.pressure)) * geometry.lattice.cell_x
-            lines = found.pressure.sum(axis=1)
-            total = float(lines.sum())
-            self._slope_of = found, float(lines @ slope_along(geometry.form, x) / total) if total > 0.0 else 0.0
+            slope = mean_slope(geometry.form, found.pressure, found.origin_x, geometry.lattice.cell_x)
+            self._slope_of = found, 0.0 if found.is_level else slope
         return self._slope_of[1]
 
     def rolling_force(self) -> float:
