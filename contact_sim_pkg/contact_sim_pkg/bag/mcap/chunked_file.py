@@ -34,7 +34,7 @@ CHUNK_BYTES = (
     4 << 20
 )  # ten blocks of a road, most of it that of the block before: packed together they take a third less
 PACKING = zstandard.ZstdCompressionParameters.from_level(-8, window_log=22, hash_log=17)
-"""Sees a whole chunk, and skips quickly what does not repeat (docs/decisions/0030-chunks-of-our-own.md)."""
+"""Sees a whole chunk, and skips quickly what does not repeat (docs/decisions/0031-chunks-of-our-own.md)."""
 
 _MESSAGE = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log and publish time
 _CHUNK = struct.Struct("<BQQQQII4sQ")  # opcode, length, first and last time, size, checksum, "zstd", packed size
