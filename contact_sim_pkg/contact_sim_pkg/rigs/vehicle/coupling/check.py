@@ -95,17 +95,17 @@ class MissedSoFar:
 
     def __init__(self) -> None:
         """No check yet."""
-        self._square: Vector | None = None
-        self._block = numpy.zeros(COLUMNS)
+        self._square, self._block = [math.nan] * COLUMNS, [0.0] * COLUMNS
 
     def add(self, found: Middle) -> None:
         """Count the errors of a check."""
-        values = numpy.array([*_errors(found.tire, found.tire_grid), *_errors(found.seat, found.seat_grid)])
-        square = values**2
-        before = square if self._square is None else self._square
-        before = numpy.where(numpy.isnan(before), square, before)
-        self._square = before + WEIGHT * numpy.nan_to_num(square - before)
-        self._block = numpy.fmax(self._block, values)
+        values = (*_errors(found.tire, found.tire_grid), *_errors(found.seat, found.seat_grid))
+        for place, value in enumerate(values):
+            if math.isnan(value):
+                continue
+            square, before = value * value, self._square[place]
+            self._square[place] = square if math.isnan(before) else before + WEIGHT * (square - before)
+            self._block[place] = max(self._block[place], value)
 
     def add_estimate(self, contact: int, error: float) -> None:
         """Count the error [N] of a normal force by the curvature over a step."""
@@ -113,9 +113,10 @@ class MissedSoFar:
 
     def pop(self) -> Vector:
         """Estimated errors of the block that ends, [contacts, `KINDS`] in SI units; NaN: not known."""
-        usual = numpy.full(COLUMNS, numpy.nan) if self._square is None else UNLUCKY * numpy.sqrt(self._square)
-        found, self._block = numpy.fmax(self._block, usual), numpy.zeros(COLUMNS)
-        return numpy.where(numpy.isnan(usual) & (found == 0.0), numpy.nan, SAMPLED * found).reshape(-1, len(KINDS))
+        usual = [UNLUCKY * math.sqrt(square) for square in self._square]
+        found = [max(largest, each) or each for largest, each in zip(self._block, usual, strict=True)]
+        self._block = [0.0] * COLUMNS
+        return SAMPLED * numpy.array(found).reshape(-1, len(KINDS))
 
 
 def _errors(middle: Missed, grid: Missed) -> tuple[float, ...]:
