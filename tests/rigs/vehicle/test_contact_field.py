@@ -20,8 +20,8 @@ def gap_at(row):
 
 def expected_at(field, row, approach):
     pressure = numpy.zeros((52, 48))
-    workspace = make_workspace(field.half_space.value)
-    solve_at_approach(field.half_space.value, workspace, gap_at(row), approach, 1e-11, 900, pressure)
+    workspace = make_workspace(field.whole.value.half_space)
+    solve_at_approach(field.whole.value.half_space, workspace, gap_at(row), approach, 1e-11, 900, pressure)
     return pressure
 
 

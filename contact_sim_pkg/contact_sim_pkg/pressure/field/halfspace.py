@@ -117,6 +117,8 @@ def part_of(whole: HalfSpace, rows: int, cols: int) -> HalfSpace:
     """
     rows = require_count("half-space: rows", rows, least=MINIMUM_CELLS, most=whole.rows)
     cols = require_count("half-space: cols", cols, least=MINIMUM_CELLS, most=whole.cols)
+    if (rows, cols) == (whole.rows, whole.cols):
+        return whole
     influence, further = whole.influence[:rows, :cols], whole.further[:rows, :cols]
     return _half_space(influence, further, whole.cell_x, whole.cell_y, whole.modulus)
 

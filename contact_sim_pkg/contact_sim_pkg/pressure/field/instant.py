@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.held import Held
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.pressure.field.follow import correct
-from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
+from contact_sim_pkg.pressure.field.halfspace import Field
 from contact_sim_pkg.pressure.field.iteration import SolverWorkspace
 from contact_sim_pkg.pressure.field.nested import start_from_half
 from contact_sim_pkg.pressure.field.outside import enclose
@@ -84,7 +84,7 @@ def all_finite(gap: Field) -> bool:
 
 @entry
 def solve_instant(
-    whole: Held[HalfSpace], part: Held[Part], last: Held[PreviousField], before: Held[PreviousField], gap: Field,
+    whole: Held[Part], part: Held[Part], last: Held[PreviousField], before: Held[PreviousField], gap: Field,
     half: Held[PreviousField], request: FieldRequest, start: Start, lengths: Values, pressure: Field,
 ) -> InstantResult:  # fmt: skip
     """Solve on the window of the size of `part` at the place of `start`; `pressure` of the whole
@@ -138,7 +138,7 @@ def store_window(
 
 @entry
 def grown_window(
-    whole: Held[HalfSpace], gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int]
+    whole: Held[Part], gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int]
 ) -> tuple[int, int, int, int]:
     """See `enclose`.
 

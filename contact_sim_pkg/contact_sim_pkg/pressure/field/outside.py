@@ -1,5 +1,5 @@
 """Does a field that was solved on a window hold outside it? Bounds first, direct sums where they
-do not decide.
+do not decide, and where these are many one convolution.
 
 A window is enough if no cell outside it penetrates. The gap of a block of cells outside is not less
 than its lowest gap plus the displacement that the pressure of each block inside causes at the
@@ -18,7 +18,8 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
-from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
+from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, convolve
+from contact_sim_pkg.pressure.field.window import Part
 
 __all__ = ["enclose", "widened"]
 
@@ -31,8 +32,11 @@ MIDDLE, COARSE = 8, 16
 
 MARGIN = 2
 """Cells around a contact that belong to its window."""
+MOST_BLOCKS = 96
+"""Blocks that the bound does not clear: of more a convolution on the whole grid takes less time."""
 
 Values = NDArray[numpy.float64]
+Box = tuple[int, int, int, int]
 Places = NDArray[numpy.int64]
 
 
@@ -109,7 +113,7 @@ def good_side(least: int, most: int) -> int:
 
 @kernel
 def enclose(
-    half_space: HalfSpace, gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int]
+    whole: Part, gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int]
 ) -> tuple[int, int, int, int]:
     """Smallest window that holds `window` and every cell outside it that penetrates.
 
@@ -117,10 +121,30 @@ def enclose(
     [rows, cols] [Pa].
     """
     rows, cols = gap.shape
-    first_row, first_col, window_rows, window_cols = window
-    end_row, end_col = first_row + window_rows, first_col + window_cols
-    top, bottom, left, right = rows, -1, cols, -1
-    blocks, laid, added, line = make_block_sums(half_space), False, False, numpy.empty(cols)
+    blocks, places = make_block_sums(whole.half_space), numpy.empty((MOST_BLOCKS, 4), dtype=numpy.int64)
+    number = uncertain_blocks(whole.half_space, gap, approach, pressure, window, blocks, places)
+    if number > MOST_BLOCKS:
+        return around(penetrating_anywhere(whole, gap, approach, pressure, window), window, rows, cols)
+    box, loaded = (rows, -1, cols, -1), (window[0], window[0] + window[2])
+    for k in range(number):
+        found = penetrating(whole.half_space, gap, approach, pressure, blocks, loaded, places[k])
+        box = min(box[0], found[0]), max(box[1], found[1]), min(box[2], found[2]), max(box[3], found[3])
+    return around(box, window, rows, cols)
+
+
+@kernel
+def uncertain_blocks(
+    half_space: HalfSpace, gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int],
+    blocks: BlockSums, places: Places,
+) -> int:  # fmt: skip
+    """How many blocks of cells outside the window the bound does not clear, and where the first of them
+    lie: first and end row, first and end column, into `places` [blocks, 4].
+
+    The sums of `blocks` are made where they are needed.
+    """
+    rows, cols = gap.shape
+    first_row, first_col, end_row, end_col = window[0], window[1], window[0] + window[2], window[1] + window[3]
+    line, laid, added, number = numpy.empty(cols), False, False, 0
     behind, ahead = (0, first_row, 0, cols), (end_row, rows, 0, cols)
     beside = (first_row, end_row, 0, first_col), (first_row, end_row, end_col, cols)
     for start, end, first, last in (behind, ahead, *beside):
@@ -128,7 +152,7 @@ def enclose(
             if not lowest_of_columns(gap, (i, min(i + BLOCK, end)), (first, last), approach, line):
                 continue
             for j in range(first, last, BLOCK):
-                # Blocks outside the window whose lowest gap is below the approach.
+                # Blocks whose lowest gap is below the approach.
                 depth = approach - least_of(line, j - first, min(BLOCK, last - j))
                 if depth <= 0.0:
                     continue
@@ -142,18 +166,45 @@ def enclose(
                 if not added:
                     add_up(pressure, window, blocks)
                     added = True
-                # Cells of a block that the bound does not clear.
+                # Those that the bound does not clear.
                 if bound(half_space, blocks.coarse, i, j, BLOCK, depth) < depth:
-                    block = (i, min(i + BLOCK, end), j, min(j + BLOCK, last))
-                    box = penetrating(half_space, gap, approach, pressure, blocks, (first_row, end_row), block)
-                    top, bottom = min(top, box[0]), max(bottom, box[1])
-                    left, right = min(left, box[2]), max(right, box[3])
-    # The old contact and what penetrates beside it.
-    if bottom < 0:
+                    if number < len(places):
+                        places[number, 0], places[number, 1] = i, min(i + BLOCK, end)
+                        places[number, 2], places[number, 3] = j, min(j + BLOCK, last)
+                    number += 1
+    return number
+
+
+@kernel
+def around(box: Box, window: tuple[int, int, int, int], rows: int, cols: int) -> tuple[int, int, int, int]:
+    """Window that holds the old one's contact and what penetrates beside it: first and last row, first
+    and last column of a `box`, the last negative where nothing does. All in [cells].
+    """
+    first_row, first_col, window_rows, window_cols = window
+    if box[1] < 0:
         return first_row, first_col, window_rows, window_cols
-    top, bottom = min(top, first_row + MARGIN), max(bottom, end_row - 1 - MARGIN)
-    left, right = min(left, first_col + MARGIN), max(right, end_col - 1 - MARGIN)
+    top, bottom = min(box[0], first_row + MARGIN), max(box[1], first_row + window_rows - 1 - MARGIN)
+    left, right = min(box[2], first_col + MARGIN), max(box[3], first_col + window_cols - 1 - MARGIN)
     return widened(rows, cols, top, bottom, left, right)
+
+
+@kernel
+def penetrating_anywhere(
+    whole: Part, gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int]
+) -> Box:
+    """Box of all cells outside the window that penetrate, by the displacement of the whole grid."""
+    rows, cols = gap.shape
+    moved = whole.workspace.filtered
+    convolve(whole.half_space, whole.workspace.buffers, pressure, moved)
+    top, bottom, left, right = rows, -1, cols, -1
+    for i in range(rows):
+        inside = window[0] <= i < window[0] + window[2]
+        for j in range(cols):
+            is_outside = not (inside and window[1] <= j < window[1] + window[3])
+            if is_outside and gap[i, j] + moved[i, j] < approach:
+                top, bottom = min(top, i), max(bottom, i)
+                left, right = min(left, j), max(right, j)
+    return top, bottom, left, right
 
 
 @borrowing_kernel
@@ -164,8 +215,8 @@ def penetrating(
     pressure: Field,
     blocks: BlockSums,
     loaded: tuple[int, int],
-    block: tuple[int, int, int, int],
-) -> tuple[int, int, int, int]:
+    block: Places,
+) -> Box:
     """Box of the cells of a block that penetrate.
 
     loaded: first and end row with pressure; block: first and end row, first and end column.

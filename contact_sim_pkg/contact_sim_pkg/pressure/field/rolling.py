@@ -83,13 +83,13 @@ class RollingField:
         """
         self.half_space = half_space
         self.pressure: Field = numpy.zeros((half_space.rows, half_space.cols))
-        self.whole = hold(half_space)
         self._last, self._before = hold(make_previous_field(half_space)), hold(make_previous_field(half_space))
         self._instants = 0  # stored, at most 2
         self._cells: int | None = None  # of travel since the last field, if a new instant began
         self._box: Box = NOWHERE  # of the last field's contact
         self._lengths: Values = numpy.full((3, MOST_CORRECTIONS), FIRST_LENGTH)
         self._parts: dict[tuple[int, int], Held[Part]] = {}
+        self.whole = self._part(half_space.rows, half_space.cols)
         self._half = _half_of(half_space)
         self._cells_of_half = 0  # of travel since its last field, in cells of this grid
         self._gap_of_half: Field = numpy.zeros((half_space.rows // 2, half_space.cols // 2))
@@ -277,15 +277,15 @@ def compile_now() -> None:
     middle of a run.
     """
     half_space, field, wide = make_half_space(2, 2, 1.0, 1.0, 1.0), numpy.zeros((2, 2)), numpy.zeros((4, 4))
-    part, whole, previous = make_part(half_space, 2, 2), hold(half_space), hold(make_previous_field(half_space))
+    part, previous = make_part(half_space, 2, 2), hold(make_previous_field(half_space))
     held, lengths = hold(part), numpy.full(MOST_CORRECTIONS, FIRST_LENGTH)
     all_finite(field)
     # The arguments have the types of a run; their values do not matter
     request, start = FieldRequest(1.0, True, 1.0, 1), Start(0, 0, False, FROM_PRESSURE)
-    solve_instant(whole, held, previous, previous, field, previous, request, start, lengths, field)
+    solve_instant(held, held, previous, previous, field, previous, request, start, lengths, field)
     solve_at_load(half_space, part.workspace, field, 1.0, 1.0, 1, field)
     store_window(held, 0, 0, previous, field)
-    grown_window(whole, field, 1.0, field, (0, 0, 2, 2))
+    grown_window(held, field, 1.0, field, (0, 0, 2, 2))
     copy_window(field, 0, 0, part.gap)
     write_window(part.gap, 0, 0, field)
     halve(wide, field)

@@ -18,13 +18,14 @@ from dataclasses import dataclass
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.held import Held, hold
+from contact_sim_pkg.compiled.held import Held
 from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_energy, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import ElasticLaw, NormalElastic
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, make_half_space
 from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, refuse_bad_gap
+from contact_sim_pkg.pressure.field.window import Part
 from contact_sim_pkg.pressure.settings import FieldSettings, widened
 from contact_sim_pkg.rigs.vehicle.tire.envelopment import yielding_of
 from contact_sim_pkg.scene.errors import Fault, SceneError
@@ -65,8 +66,8 @@ class PressureField:
         """
         self.settings = settings
         self.contact = contact
-        self.half_space: Held[HalfSpace] = hold(half_space_of(settings))
-        self._field = SOLVER(self.half_space.value)
+        self._field = SOLVER(half_space_of(settings))
+        self.whole: Held[Part] = self._field.whole
         self._row: int | None = None  # of the road under row 0, at the last solve
         self.pressure: Field = self._field.pressure
         self.load = 0.0

@@ -7,6 +7,7 @@ import pytest
 
 from contact_sim_pkg.compiled.held import hold
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
+from contact_sim_pkg.pressure.field.window import make_part
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import (
     clear_beyond,
@@ -169,7 +170,7 @@ def test_a_bump_inside_the_interval_is_kept():
 
 def clear(road, approach, pressure):
     """What the bound says of that grid."""
-    whole = hold(make_half_space(40, 20, CELL, CELL, 2e6))
+    whole = hold(make_part(make_half_space(40, 20, CELL, CELL, 2e6), 40, 20))
     return clear_beyond(whole, road.astype(numpy.float32), 0, TireForm(0.3, 0.5), 60, 0.4, approach, pressure, 40)
 
 
@@ -187,7 +188,7 @@ def test_a_bound_says_of_no_road_that_touches_that_it_does_not():
 
 
 def test_a_grid_that_the_road_does_not_hold_is_not_said_to_be_clear():
-    whole, none = hold(make_half_space(40, 20, CELL, CELL, 2e6)), numpy.zeros((20, 20))
+    whole, none = hold(make_part(make_half_space(40, 20, CELL, CELL, 2e6), 40, 20)), numpy.zeros((20, 20))
     flat = numpy.full((30, 20), -1.0, dtype=numpy.float32)
     assert not clear_beyond(whole, flat, 0, TireForm(0.3, 0.5), 0, 0.1, 0.002, none, 40)
 

@@ -24,8 +24,8 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.held import Held
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
-from contact_sim_pkg.pressure.field.halfspace import HalfSpace
 from contact_sim_pkg.pressure.field.outside import total_of_row
+from contact_sim_pkg.pressure.field.window import Part
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 
 Heights = NDArray[numpy.float32]
@@ -284,7 +284,7 @@ def _sunk(pressure: Pressures, row: int, col: int, modulus: float, cell_x: float
 
 @entry
 def clear_beyond(
-    whole: Held[HalfSpace], height: Heights, first_row: int, form: TireForm, first: int, travel: float, approach: float,
+    whole: Held[Part], height: Heights, first_row: int, form: TireForm, first: int, travel: float, approach: float,
     pressure: Pressures, rows: int,
 ) -> bool:  # fmt: skip
     """Whether a bound says that the road does not touch the tire outside the grid of ``pressure`` [Pa]:
@@ -293,7 +293,7 @@ def clear_beyond(
     A row of cells is displaced by the belt, and by each line of the pressure as if all of it lay as far
     across as a cell can. The rest as in `touches_beyond`.
     """
-    half_space, own_rows, own_cols = whole.value, pressure.shape[0], pressure.shape[1]
+    half_space, own_rows, own_cols = whole.value.half_space, pressure.shape[0], pressure.shape[1]
     cols, reach = half_space.cols, rows // 2 - half_space.rows // 2
     top, margin, middle = rows // 2 - own_rows // 2, (height.shape[1] - cols) // 2, 0.5 * (cols - 1)
     last_row = first_row + height.shape[0]

@@ -142,7 +142,7 @@ class RoadField(ContactField):
         geometry, road = self._geometry, self._road
         assert geometry is not None
         return self._tread_state is None and clear_beyond(
-            grids.wide.half_space, road.height, road.first_row, geometry.form, self._first_row(grids.usual.settings), self.travel,
+            grids.wide.whole, road.height, road.first_row, geometry.form, self._first_row(grids.usual.settings), self.travel,
             approach, grids.usual.pressure, geometry.lattice.road_rows,
         )  # fmt: skip
 
@@ -158,7 +158,7 @@ class RoadField(ContactField):
         """
         pressure, window = self._on_wide(grids.usual.pressure), self._middle(grids.usual.pressure)
         gap = self.gap(grids.wide.settings)
-        return bool(grown_window(grids.wide.half_space, gap, approach, pressure, window) != window)
+        return bool(grown_window(grids.wide.whole, gap, approach, pressure, window) != window)
 
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:
         """See `ContactField`."""
