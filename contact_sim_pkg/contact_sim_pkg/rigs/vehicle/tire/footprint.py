@@ -328,7 +328,7 @@ def _any_deeper(road: Heights, crown: Vector, free: float) -> bool:
     """Whether any of a row of cells [cols] is below the road, ``free`` [m] nearer than its ``crown`` [m]."""
     below = 0
     for j in range(len(road)):
-        below += 1 if road[j] + free > crown[j] else 0
+        below += 1 if free - crown[j] + road[j] > 0.0 else 0
     return below > 0
 
 
@@ -339,7 +339,7 @@ def _deepest(road: Heights, crown: Vector, free: float, loaded: tuple[int, int])
     """
     deepest, far = 0.0, 0
     for j in range(len(road)):
-        depth = road[j] + free - crown[j]
+        depth = free - crown[j] + road[j]
         if depth > 0.0:
             deepest, far = max(deepest, depth), max(far, j - loaded[0], loaded[1] - j)
     return deepest, far
