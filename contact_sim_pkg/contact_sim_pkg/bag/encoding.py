@@ -7,6 +7,7 @@ The bytes are little-endian CDR with the header 00 01 00 00, filled up with zero
 
 import struct
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from math import prod
 from typing import Any, NamedTuple
 
@@ -91,7 +92,7 @@ def to_bytes(leaf: Leaf) -> Callable[[Any], tuple[bytes, Shape]]:
     It raises TypeError, ValueError or AttributeError for another value.
     """
     if leaf.type == "string":
-        return _texts if leaf.is_array else _text
+        return (lambda values: _texts(tuple(values))) if leaf.is_array else _text
     kind = numpy.dtype(leaf.type)
 
     def array(value: Any) -> tuple[bytes, Shape]:
@@ -102,12 +103,14 @@ def to_bytes(leaf: Leaf) -> Callable[[Any], tuple[bytes, Shape]]:
     return array
 
 
+@lru_cache(maxsize=256)  # frames and names are few, and come with every message
 def _text(value: str) -> tuple[bytes, Shape]:
     data = value.encode() + b"\0"
     return data, (len(data),)
 
 
-def _texts(values: Sequence[str]) -> tuple[bytes, Shape]:
+@lru_cache(maxsize=256)
+def _texts(values: tuple[str, ...]) -> tuple[bytes, Shape]:
     data = b""
     for value in values:
         text, (size,) = _text(value)
