@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy
 
+from contact_sim_pkg.compiled.held import hold
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
 from contact_sim_pkg.pressure.field.solver import CONVERGED, FieldResult
+from contact_sim_pkg.pressure.field.window import make_part
 from contact_sim_pkg.rigs.vehicle import contact_field
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -27,6 +29,7 @@ class _Spring:
 
     def __init__(self, half_space: HalfSpace) -> None:
         self._cell = half_space.cell_x * half_space.cell_y
+        self.whole = hold(make_part(half_space, half_space.rows, half_space.cols))
         self.pressure: Field = numpy.zeros((half_space.rows, half_space.cols))
 
     def reset(self) -> None:
