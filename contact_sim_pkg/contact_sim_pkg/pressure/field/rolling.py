@@ -97,7 +97,7 @@ class RollingField:
 
     @property
     def convolutions(self) -> int:
-        """Done so far on this grid, coarser ones not counted."""
+        """Of the solves so far on this grid; coarser ones, and looks outside a window, not counted."""
         return sum(int(part.value.workspace.buffers.convolutions[0]) for part in self._parts.values())
 
     def roll(self, cells: int) -> None:
