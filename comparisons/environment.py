@@ -116,7 +116,7 @@ class Environment:
 def clean(environ: Mapping[str, str]) -> dict[str, str]:
     """The variables to run in it: this project importable, nothing else, one thread everywhere."""
     kept = {name: value for name, value in environ.items() if not name.startswith("PYTHON")}
-    path = os.pathsep.join([str(ROOT), str(ROOT / "contact_sim_pkg")])
+    path = os.pathsep.join(str(ROOT / folder) for folder in (".", "contact_sim_pkg", "contact_sim_lab"))
     return {**kept, "PYTHONPATH": path, **dict.fromkeys(ONE_THREAD, "1")}
 
 

@@ -1,7 +1,9 @@
 """Comparisons in environments of their own: pinned, outside of the project's dependencies, and honest about what is missing."""
 
 import json
+import os
 import re
+import subprocess
 import sys
 
 import pytest
@@ -39,6 +41,13 @@ def test_the_environment_has_one_thread_and_no_path_from_outside():
     assert kept["OMP_NUM_THREADS"] == kept["NUMBA_NUM_THREADS"] == "1"
     assert "/elsewhere" not in kept["PYTHONPATH"]
     assert "PYTHONHOME" not in kept
+
+
+@pytest.mark.parametrize("module", ["comparisons.field.run", "comparisons.dynamics.run"])
+def test_what_measures_is_found_by_the_variables_of_the_environment(module):
+    command, kept = [sys.executable, "-c", f"import {module}"], environment.clean(dict(os.environ))
+    ran = subprocess.run(command, env=kept, cwd=environment.ROOT, capture_output=True, text=True, timeout=120)
+    assert ran.returncode == 0, ran.stderr
 
 
 @pytest.fixture
