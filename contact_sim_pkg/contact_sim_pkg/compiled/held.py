@@ -15,6 +15,7 @@ from typing import Any, Generic, TypeVar
 from numba import config
 from numba.core import types
 from numba.experimental import structref
+from numba.extending import intrinsic
 
 from contact_sim_pkg.compiled.jit import entry
 
@@ -37,9 +38,21 @@ class Held(structref.StructRefProxy, Generic[Value]):
 structref.define_proxy(Held, _HeldType, ["value"])
 
 
+def _empty_of(typing_context: Any, value: Any) -> Any:
+    """What holds a value of this type; `Held(value)` would compile a constructor for each type."""
+    held: Any = _HeldType([("value", value)])
+    _, generate = structref.new._defn(typing_context, types.TypeRef(held))
+    return held(value), generate
+
+
+_empty: Any = intrinsic(_empty_of)
+
+
 @entry
 def _handed_over(value: Any) -> Any:
-    return Held(value)
+    held = _empty(value)
+    held.value = value
+    return held
 
 
 def hold(value: Value) -> Held[Value]:
