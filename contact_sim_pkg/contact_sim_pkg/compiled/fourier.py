@@ -119,12 +119,8 @@ def twos(source: Values, out: Values, count: int, stride: int, twiddles: Values,
         for q in range(stride):
             a, b = (q + stride * p) * FURTHER, (q + stride * p) * FURTHER + apart
             to, next_to = (q + stride * 2 * p) * FURTHER, (q + stride * (2 * p + 1)) * FURTHER
-            ar, ai, br, bi = (
-                load(source, a),
-                load(source, a + IMAGINARY),
-                load(source, b),
-                load(source, b + IMAGINARY),
-            )
+            ar, ai = load(source, a), load(source, a + IMAGINARY)
+            br, bi = load(source, b), load(source, b + IMAGINARY)
             store(out, to, ar + br)
             store(out, to + IMAGINARY, ai + bi)
             put(out, next_to, ar - br, ai - bi, twiddles, place + 2 * p)
@@ -159,18 +155,10 @@ def fours(source: Values, out: Values, count: int, stride: int, twiddles: Values
         for q in range(stride):
             a, to = (q + stride * p) * FURTHER, (q + stride * 4 * p) * FURTHER
             b, c, d = a + apart, a + 2 * apart, a + 3 * apart
-            ar, ai, cr, ci = (
-                load(source, a),
-                load(source, a + IMAGINARY),
-                load(source, c),
-                load(source, c + IMAGINARY),
-            )
-            br, bi, dr, di = (
-                load(source, b),
-                load(source, b + IMAGINARY),
-                load(source, d),
-                load(source, d + IMAGINARY),
-            )
+            ar, ai = load(source, a), load(source, a + IMAGINARY)
+            cr, ci = load(source, c), load(source, c + IMAGINARY)
+            br, bi = load(source, b), load(source, b + IMAGINARY)
+            dr, di = load(source, d), load(source, d + IMAGINARY)
             er, ei, fr, fi = ar + cr, ai + ci, ar - cr, ai - ci
             gr, gi, hr, hi = br + dr, bi + di, br - dr, bi - di
             store(out, to, er + gr)
@@ -190,18 +178,10 @@ def fives(source: Values, out: Values, count: int, stride: int, twiddles: Values
             a, to = (q + stride * p) * FURTHER, (q + stride * 5 * p) * FURTHER
             b, c, d, e = a + apart, a + 2 * apart, a + 3 * apart, a + 4 * apart
             ar, ai = load(source, a), load(source, a + IMAGINARY)
-            br, bi, er, ei = (
-                load(source, b),
-                load(source, b + IMAGINARY),
-                load(source, e),
-                load(source, e + IMAGINARY),
-            )
-            cr, ci, dr, di = (
-                load(source, c),
-                load(source, c + IMAGINARY),
-                load(source, d),
-                load(source, d + IMAGINARY),
-            )
+            br, bi = load(source, b), load(source, b + IMAGINARY)
+            er, ei = load(source, e), load(source, e + IMAGINARY)
+            cr, ci = load(source, c), load(source, c + IMAGINARY)
+            dr, di = load(source, d), load(source, d + IMAGINARY)
             sr, si, tr, ti = br + er, bi + ei, cr + dr, ci + di
             fr, fi, gr, gi = br - er, bi - ei, cr - dr, ci - di
             store(out, to, ar + (sr + tr))
