@@ -18,10 +18,14 @@ Where a belt yields in series with the half-space its lines are taken off z and 
 adds (`pressure/field/belt.py`). A correction then leaves a third of the error on most roads, and no
 step is rescaled.
 
+After a correction larger than one before, steps are not conjugate any more: the next takes nothing
+from it.
+
 It ends when the residual is at most the tolerance and the last correction changed the field by at
-most `CHANGE` times the tolerance in L2. The second is the better measure of the error: the error
-was 0.4 to 0.9 of the change where it was measured (tire on rough roads), while the residual weighs
-a clearance by its depth and hardly sees the short waves of the pressure.
+most `CHANGE` times the tolerance in L2, and a single cell by `LARGEST_CHANGE` times. The change is
+the better measure of the error: the error was 0.4 to 0.9 of it where it was measured (tire on rough
+roads), while the residual weighs a clearance by its depth and hardly sees the short waves of the
+pressure.
 
 Source: Tire/Road Contact eqs 1 to 4; Polonsky and Keer, Wear 231 (1999) 206.
 """
@@ -48,7 +52,7 @@ CHANGE = 6.0
 LARGEST_CHANGE = 40.0
 """The same of the pressure of one cell, over the largest pressure."""
 
-MOST_CORRECTIONS = 24
+MOST_CORRECTIONS = 14
 """After so many the prediction was of no use, or the tolerance needs lengths without guessing.
 """
 
@@ -105,11 +109,12 @@ def correct(
     factor_belt(half_space.belt, half_space.strip, workspace.pressure, workspace.belt)
     none = min(contact, 0)  # left; of a literal 0 another version would be compiled
     state = evaluate(workspace, contact, none, approach, holds_load)
+    smallest, stalled = numpy.inf, False
     for correction in range(min(request.max_iterations, MOST_CORRECTIONS)):
         if contact == 0 or not abs(state.approach) < numpy.inf:
             break
         # A step of the learned length, scaled to the load.
-        response_known = correction > (0 if is_exact else 1)
+        response_known = correction > (0 if is_exact else 1) and not stalled
         search_direction(half_space, workspace, state.free, holds_load, response_known)
         contact, left = move(workspace, state.free, pulling, lengths[correction])
         keep_lines(half_space.belt, workspace.pressure, workspace.clipped, workspace.cells.left, left, workspace.belt)
@@ -120,6 +125,8 @@ def correct(
         apply_operator(half_space, workspace)
         change = accept_step(workspace, contact, left, state.approach)
         state = evaluate(workspace, contact, left, approach, holds_load)
+        stalled = change.size > smallest
+        smallest = min(smallest, change.size)
         # Length learned for next time.
         longer = lengths[correction] * math.sqrt(math.sqrt(change.factor))
         lengths[correction] = min(max(longer, LENGTHS[0]), LENGTHS[1])

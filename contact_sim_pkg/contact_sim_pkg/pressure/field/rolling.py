@@ -58,6 +58,11 @@ TOLERANCE_OF_HALF = 5e-2
 MOST_TRAVEL = 0.1
 """Of a window's rows: after more travel the last field is no start where the road took it."""
 
+CLOSER, CLOSEST = 0.1, 1e-6
+"""Of the tolerance, and no closer than, where the solver goes on: its residual alone hardly sees the
+pressure of a cell.
+"""
+
 NOWHERE = (0, -1, 0, -1)
 
 NEW, REPEAT, START = 0, 1, 2
@@ -236,10 +241,9 @@ class RollingField:
         part = self._part(window.rows, window.cols).value
         copy_window(gap, window.first_row, window.first_col, part.gap)
         copy_window(self.pressure, window.first_row, window.first_col, part.pressure)
+        closer = min(request.tolerance, max(CLOSER * request.tolerance, CLOSEST))
         solve, iterations = solve_at_load if request.holds_load else solve_at_approach, request.max_iterations - spent
-        result = solve(
-            part.half_space, part.workspace, part.gap, request.prescribed, request.tolerance, iterations, part.pressure
-        )
+        result = solve(part.half_space, part.workspace, part.gap, request.prescribed, closer, iterations, part.pressure)
         write_window(part.pressure, window.first_row, window.first_col, self.pressure)
         return result
 

@@ -1,0 +1,36 @@
+"""The pressure of every cell that a run with a loose tolerance certifies, beside fields solved far beyond it."""
+
+from tests.run.scenes import resolved
+
+from contact_sim_pkg.pressure.field.rolling import RollingField
+from contact_sim_pkg.rigs.vehicle import contact_field
+from contact_sim_pkg.run.offline import run_offline
+
+errors = []
+
+LARGEST = 0.2
+"""Error of a cell over the largest pressure: the field's tolerance of 0.003 allows 0.12 of last change."""
+
+
+class Judged(RollingField):
+    """A field with a twin that is solved from nothing."""
+
+    def __init__(self, half_space):
+        super().__init__(half_space)
+        self.twin = RollingField(half_space)
+
+    def solve_at_approach(self, gap, approach, tolerance, max_iterations):
+        result = super().solve_at_approach(gap, approach, tolerance, max_iterations)
+        self.twin.reset()
+        self.twin.solve_at_approach(gap, approach, 1e-8, 900)
+        if self.twin.pressure.any():
+            errors.append(abs(self.pressure - self.twin.pressure).max() / self.twin.pressure.max())
+        return result
+
+
+def test_no_cell_of_a_certified_field_stands_out(monkeypatch):
+    errors.clear()
+    monkeypatch.setattr(contact_field, "SOLVER", Judged)
+    run_offline(resolved("tire_texture", "duration=0.3"), None)
+    assert len(errors) >= 60
+    assert max(errors) <= LARGEST
