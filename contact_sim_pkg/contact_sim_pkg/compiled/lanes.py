@@ -20,6 +20,7 @@ from typing import Any
 import numpy
 from llvmlite import ir
 from numba.core import types
+from numba.core.errors import TypingError
 from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, models, register_model
 from numba.np.arrayobj import make_array
@@ -66,8 +67,18 @@ def _store(builder: Any, value: Any, place: Any) -> None:
     builder.store(value, place).align = 8
 
 
+def _require_rows(*arrays: Any) -> None:
+    """Refuse, as it is compiled, what does not lie in memory row after row."""
+    for array in arrays:
+        if array.layout != "C" or array.dtype != types.float64:
+            raise TypingError(f"lanes: an array is {array}; it must be float64 and contiguous by rows")
+
+
 def _load_lanes(typing_context: Any, array: Any, index: Any) -> Any:
-    """Lanes from element ``index`` of a contiguous array on, in its order of memory. Not checked."""
+    """Lanes from element ``index`` of a contiguous array on, in its order of memory. The index is not
+    checked.
+    """
+    _require_rows(array)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return _load(builder, _place(context, builder, signature.args[0], *arguments))
@@ -76,7 +87,8 @@ def _load_lanes(typing_context: Any, array: Any, index: Any) -> Any:
 
 
 def _store_lanes(typing_context: Any, array: Any, index: Any, value: Any) -> Any:
-    """Write lanes from element ``index`` of a contiguous array on. Not checked."""
+    """Write lanes from element ``index`` of a contiguous array on. The index is not checked."""
+    _require_rows(array)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         array, index, value = arguments
@@ -90,8 +102,10 @@ def _transpose_lanes(
     typing_context: Any, source: Any, first: Any, stride: Any, target: Any, first_there: Any, stride_there: Any
 ) -> Any:
     """Transpose a tile of eight by eight numbers: lane j of the lanes at ``first + i stride`` of
-    ``source`` becomes lane i of those at ``first_there + j stride_there`` of ``target``. Not checked.
+    ``source`` becomes lane i of those at ``first_there + j stride_there`` of ``target``. Places are
+    not checked.
     """
+    _require_rows(source, target)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         source, first, stride, target, first_there, stride_there = arguments

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy
 import pytest
+from numba.core.errors import TypingError
 from scipy.signal import fftconvolve
 
 from contact_sim_lab.twins import halfspace as reference
@@ -29,6 +30,13 @@ def test_influence_equals_love_s_logarithms(cell_x: float, cell_y: float) -> Non
         for j in (0, 1, 3, 29):
             expected = reference.cell_displacement(i * cell_x, j * cell_y, cell_x / 2, cell_y / 2, MODULUS)
             assert table[i, j] == pytest.approx(expected, rel=1e-11), (i, j)
+
+
+@pytest.mark.parametrize("field", [numpy.ones((20, 20))[3:12, 4:15], numpy.ones((9, 11), order="F")])
+def test_a_field_that_is_not_contiguous_is_refused_and_not_misread(field: numpy.ndarray) -> None:
+    half_space, result = make_half_space(9, 11, 1e-3, 1e-3, MODULUS), numpy.empty((9, 11))
+    with pytest.raises(TypingError, match="must be float64 and contiguous by rows"):
+        displacement(half_space, make_buffers(half_space), field, result)
 
 
 def test_a_far_cell_acts_as_a_point_load() -> None:

@@ -1,5 +1,8 @@
 """A contact that outgrows its grid: solved on a wider one, recorded, summarised; refused by name where that is too small."""
 
+import subprocess
+import sys
+
 import numpy
 import pytest
 from tests.run.scenes import resolved
@@ -12,6 +15,16 @@ from contact_sim_pkg.report.reading import FieldReader, read_recording
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.errors import SceneError
+
+LEFT_OUT = """
+import sys
+from contact_sim_pkg.compiled.jit import never_called
+from contact_sim_pkg.run.rigs import make_simulation
+from contact_sim_pkg.scene.resolve import load_resolved
+
+make_simulation(load_resolved("tire_half_space", sys.argv[1])).prepare()
+print(*(entry.__name__ for entry in never_called()))
+"""
 
 
 def test_a_high_bump_is_run_on_two_grids_and_summarised(tmp_path):
@@ -32,6 +45,13 @@ def test_a_grid_that_the_standing_contact_fills_compiles_nothing_later():
     small = ("effects.tire.contact_field.length=0.14", "effects.tire.contact_field.width=0.22")
     scene = resolved("tire_bump", *small, "road.height=0.015", "duration=1.2")
     assert run_offline(scene, None).failure == ""
+
+
+def test_what_looks_beside_a_grid_is_compiled_where_the_run_starts_on_the_wide_one():
+    """In a process of its own: here another test may have called it."""
+    grid = "effects.tire.contact_field={length: 0.15, width: 0.2, rows: 31, cols: 27}"
+    done = subprocess.run([sys.executable, "-c", LEFT_OUT, grid], capture_output=True, text=True, check=True)
+    assert not {"clear_beyond", "touches_beyond", "grown_window", "level_under"} & set(done.stdout.split())
 
 
 def test_a_heavy_car_starts_on_the_wide_grid():

@@ -195,10 +195,10 @@ def love_coefficients(rows: int, cols: int, cell_x: float, cell_y: float) -> Fie
 
 @entry
 def displacement(half_space: HalfSpace, buffers: Buffers, pressure: Field, result: Field) -> None:
-    """Surface displacement [m] under a pressure field [Pa], both float64 [rows, cols]; `result` is
-    overwritten.
+    """Surface displacement [m] under a pressure field [Pa], both float64 [rows, cols], contiguous by
+    rows (others are a numba `TypingError`); `result` is overwritten.
 
-    Not checked.
+    Shapes are not checked.
     """
     convolve(half_space, buffers, pressure, result)
 

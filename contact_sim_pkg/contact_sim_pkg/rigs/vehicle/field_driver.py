@@ -153,6 +153,7 @@ class ContactField(ABC):
         """Approach [m] under ``load`` [N], and the field that carries it: the usual or the wide
         one.
         """
+        self.is_clear(grids, 0.0)  # compiled here, whichever grid the run starts on
         for field in grids.both():
             try:
                 field.roll_to(self.road_row(field.settings))
