@@ -51,7 +51,7 @@ def test_what_looks_beside_a_grid_is_compiled_where_the_run_starts_on_the_wide_o
     """In a process of its own: here another test may have called it."""
     grid = "effects.tire.contact_field={length: 0.15, width: 0.2, rows: 31, cols: 27}"
     done = subprocess.run([sys.executable, "-c", LEFT_OUT, grid], capture_output=True, text=True, check=True)
-    assert not {"clear_beyond", "touches_beyond", "grown_window", "level_under"} & set(done.stdout.split())
+    assert not {"clear_beyond", "touches_beyond", "grown_window", "mean_slope"} & set(done.stdout.split())
 
 
 def test_a_heavy_car_starts_on_the_wide_grid():
