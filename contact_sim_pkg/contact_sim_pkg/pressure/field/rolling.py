@@ -58,7 +58,7 @@ TOLERANCE_OF_HALF = 5e-2
 MOST_TRAVEL = 0.1
 """Of a window's rows: after more travel the last field is no start where the road took it."""
 
-CLOSER, CLOSEST = 0.1, 1e-6
+CLOSER, CLOSEST = 0.1, 1e-10
 """Of the tolerance, and no closer than, where the solver goes on: its residual alone hardly sees the
 pressure of a cell.
 """
