@@ -39,7 +39,7 @@ def command(
     given: tuple[str, ...], output: Path | None, everything: bool, overwrite: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """The five papers: systems, figures, equations and errata; each figure with the number expected
-    beside the number obtained.
+    beside the number obtained. Status 1 where a number of a figure is OUTSIDE its tolerance.
     """
     chosen = [name for name, value in (("--figure", figure), ("--equation", equation), ("--system", system)) if value]
     _check_use(paper, chosen, given, output, source, everything)
@@ -96,7 +96,13 @@ def _contents(paper: Paper, as_json: bool) -> None:
     from contact_sim_pkg.records.table import Section
 
     systems = [
-        {"system": each.name, "what": each.title, "equations": each.equations, "command": each.command}
+        {
+            "system": each.name,
+            "what": each.title,
+            "equations": each.equations,
+            "command": each.command,
+            "shown in": "; ".join(place for _, place in each.shows),
+        }
         for each in paper.systems
     ]
     figures = [
@@ -143,10 +149,17 @@ def _figure(
             "paper": paper.key, "figure": number, "title": figure.title, "kind": figure.kind, "judged_by": figure.judged_by,
             "values": values, "numbers": rows, "output": str(place),
         })  # fmt: skip
-        return
-    shown = [_line(row) for row in rows]
-    title = f"{paper.short}, figure {number}: {figure.title}"
-    show_sections([Section(title, shown, f"{figure.kind}: {figure.judged_by}\ndrawn in {place}")])
+    else:
+        shown = [_line(row) for row in rows]
+        title = f"{paper.short}, figure {number}: {figure.title}"
+        show_sections([Section(title, shown, f"{figure.kind}: {figure.judged_by}\ndrawn in {place}")])
+    _end([row["verdict"] for row in rows])
+
+
+def _end(verdicts: Sequence[str]) -> None:
+    """Status 1 where a number is beyond its tolerance."""
+    if "OUTSIDE" in verdicts:
+        raise SystemExit(1)
 
 
 def _line(row: Mapping[str, Any]) -> dict[str, Any]:
@@ -200,11 +213,16 @@ def _system(
         save(place, result.draw, result.size, overwrite=overwrite)
     drawn = None if result.draw is None else str(place)
     if as_json:
-        print_json({"paper": paper.key, "system": name, "values": values, "rows": list(result.rows), "note": result.note,
-                    "output": drawn})  # fmt: skip
+        print_json({"paper": paper.key, "system": name, "values": values, "rows": list(result.rows),
+                    "course": list(result.course), "note": result.note, "output": drawn})  # fmt: skip
         return
     note = "\n".join(filter(None, (result.note, drawn and f"drawn in {drawn}")))
-    show_sections([Section(f"{paper.short}: {system.title}", result.rows, note)])
+    rows, course = (
+        [{key: _six_digits(value) for key, value in row.items()} for row in table]
+        for table in (result.rows, result.course)
+    )
+    sections = [Section(f"{paper.short}: {system.title}", rows, note)]
+    show_sections([*sections, *([Section("", course)] if course else [])])
 
 
 def _all(paper: Paper | None, output: Path | None, overwrite: bool, as_json: bool) -> None:
@@ -222,8 +240,9 @@ def _all(paper: Paper | None, output: Path | None, overwrite: bool, as_json: boo
     }
     if as_json:
         print_json({"figures": rows, "counted": counted})
-        return
-    show_sections([Section("", rows, ", ".join(f"{count} {verdict}" for verdict, count in counted.items()))])
+    else:
+        show_sections([Section("", rows, ", ".join(f"{count} {verdict}" for verdict, count in counted.items()))])
+    _end(list(counted))
 
 
 def _output(output: Path | None, name: str, overwrite: bool, inputs: Sequence[Path] = ()) -> Path:
@@ -245,6 +264,12 @@ def save(place: Path, draw: Callable[[Canvas], None], size: tuple[float, float],
 
     with new_file(place, overwrite=overwrite, ours=made_here) as file:
         file.write(picture(draw, size, DOT))
+
+
+def _six_digits(value: Any) -> Any:
+    if isinstance(value, (tuple, list)):
+        return ", ".join(_six_digits(each) for each in value)
+    return f"{value:.6g}" if isinstance(value, float) else value
 
 
 def _shown(value: Any) -> str:

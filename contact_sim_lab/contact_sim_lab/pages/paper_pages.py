@@ -92,13 +92,14 @@ def page(paper: Paper, shown: Sequence[tuple[Figure, Sequence[Number]]]) -> str:
         _prose(paper.models),
         _prose("Contents: [systems](#systems), [figures](#figures), [equations](#equations), [errata](#errata)."),
         "## Systems\n",
-        _table("| system | equations | command |\n|---|---|---|", (_system(each) for each in paper.systems)),
+        _table(
+            "| system | equations | command | shown in |\n|---|---|---|---|", (_system(each) for each in paper.systems)
+        ),
         "## Figures\n",
         _prose(
             f"Drawn by `bench paper {paper.key} --figure N [--set KEY=VALUE] [--output PNG]`, which prints the same numbers. "
-            "The expected values come from elsewhere than the bench; the union of dangerous "
-            "volumes alone, for which there is no other value, is judged by refinement. *Not reached*: the bench yields no such "
-            "number, for the reason that is given."
+            "The expected values come from elsewhere than the bench. *Not reached*: the bench yields no such number, for the "
+            "reason that is given."
         ),
     ]
     for figure, numbers in shown:
@@ -159,7 +160,8 @@ def index(papers: Sequence[Paper], rows: Sequence[dict[str, Any]]) -> str:
 
 
 def _system(system: System) -> str:
-    return f"| {_cell(system.title)} | {system.equations} | `{_cell(system.command)}` |"
+    places = "; ".join(f"`{_cell(place)}`" for _, place in system.shows)
+    return f"| {_cell(system.title)} | {system.equations} | `{_cell(system.command)}` | {places} |"
 
 
 def _figure(paper: Paper, figure: Figure, numbers: Sequence[Number]) -> str:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from contact_sim_lab.records.paper import PaperError
 from contact_sim_pkg.files import printable, read_regular_file
+from contact_sim_pkg.scene.yaml.document import parse_plain
 
 __all__ = ["is_bag", "numbers_of", "read_document", "read_table"]
 
@@ -55,17 +56,12 @@ def read_table(path: Path, *choices: Sequence[str], fewest: int = 1) -> dict[str
 
 
 def read_document(path: Path) -> Mapping[str, Any]:
-    """A YAML document of named sections. Raises PaperError where it is none."""
-    from ruamel.yaml import YAML
-    from ruamel.yaml.error import YAMLError
+    """A YAML document of named sections, within the limits of a scene.
 
-    try:
-        content = YAML(typ="safe", pure=True).load(_text(path))
-    except YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        where = "" if mark is None else f", line {mark.line + 1}"
-        raise PaperError(f"{path}{where}: no YAML: {getattr(error, 'problem', None) or 'it cannot be read'}") from None
-    if not isinstance(content, dict) or not all(isinstance(key, str) for key in content):
+    Raises SceneError where it is no such YAML, PaperError where it has no sections.
+    """
+    content = parse_plain(_text(path), str(path))
+    if not isinstance(content, dict):
         raise PaperError(f"{path}: keys with values are needed")
     return content
 

@@ -187,14 +187,17 @@ class SystemResult(NamedTuple):
     draw: Callable[[Canvas], None] | None = None
     note: str = ""
     size: tuple[float, float] = (7.0, 4.2)
+    course: Sequence[Mapping[str, Any]] = ()
+    """what the drawing shows, row by row, in a table of its own"""
 
 
 class System(NamedTuple):
     """A system of the paper, and the command that reaches it."""
 
     title: str
-    equations: str
-    """their numbers, as text"""
+    shows: tuple[tuple[str, str], ...]
+    """equations, and where the command shows them: ``topic: columns`` of a run, the names of its output, the N of
+    `--equation N`"""
     command: str
     """as the user types it"""
     name: str = ""
@@ -204,6 +207,11 @@ class System(NamedTuple):
     input: str = ""
     """what the file or bag holds, as text; empty: it takes none"""
     parameters: tuple[Parameter, ...] = ()
+
+    @property
+    def equations(self) -> str:
+        """Their numbers, as text."""
+        return ", ".join(equations for equations, _ in self.shows)
 
 
 class Erratum(NamedTuple):

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from contact_sim_lab.pages.paper_pages import write_pages
+from contact_sim_lab.papers.contact_area import figures
 from contact_sim_lab.papers.registry import figure_of, paper_of
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.files import FileRefusedError
@@ -61,6 +62,18 @@ def test_the_command_draws_and_prints(tmp_path, capsys, monkeypatch):
     assert main(["paper", "contact-area", "--equation", "115", "--set", "loss_tangent=0.5", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["results"]["time"] == pytest.approx(0.5 / 1750.0)
     assert main(["paper"]) == main(["paper", "tire-road"]) == 0
+
+
+@pytest.mark.parametrize("as_json", [[], ["--json"]])
+def test_a_number_outside_ends_with_status_1(tmp_path, capsys, monkeypatch, as_json):
+    """Of one figure, and of all; the picture and the numbers are there."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(figures, "INSIDE", 1e-18)
+    assert main(["paper", "contact-area", "--figure", "4", *as_json]) == 1
+    assert "OUTSIDE" in capsys.readouterr().out
+    assert (tmp_path / "contact-area_figure_4.png").exists()
+    assert main(["paper", "contact-area", "--all", *as_json]) == 1
+    assert "OUTSIDE" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

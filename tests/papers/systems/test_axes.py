@@ -5,7 +5,9 @@ import pytest
 from tests.identify import foreign_bag, motions
 
 from contact_sim_lab.papers.driver_seat.system_distance import rotation_about
-from contact_sim_lab.papers.identifiability.system_axes import axes, moments_of
+from contact_sim_lab.papers.identifiability import system_axes
+from contact_sim_lab.papers.identifiability.system_axes import Moments, axes, moments_of
+from contact_sim_lab.papers.registry import paper_of
 from contact_sim_lab.records.paper import PaperError
 from contact_sim_pkg.identify.contact.two_point import impact_equations
 
@@ -56,6 +58,36 @@ def test_the_motion_of_a_box_gives_its_moments(tmp_path):
     found = [row["I_over_m_m2"] for row in result.rows]
     assert found == pytest.approx(numpy.diag(motions.SPATIAL_INERTIA), rel=1e-6)
     assert "rank 3 of 3" in result.note
+
+
+def test_deviations_are_those_of_weighted_least_squares():
+    """Noisy equations, each over the size of its right side: sqrt of the diagonal of s^2 (A'A)^-1, by numpy's inverse."""
+    random = numpy.random.default_rng(8)
+    matrices, rights = zip(*(impact(seed) for seed in (4, 5, 6, 7)), strict=True)
+    rights = [right * (1.0 + 1e-3 * random.normal(size=3)) for right in rights]
+    sizes = [numpy.linalg.norm(right) for right in rights]
+    a = numpy.concatenate([each / size for each, size in zip(matrices, sizes, strict=True)])
+    b = numpy.concatenate([each / size for each, size in zip(rights, sizes, strict=True)])
+    best, rest = numpy.linalg.lstsq(a, b)[:2]
+    wanted = numpy.sqrt(numpy.diag(numpy.linalg.inv(a.T @ a)) * rest[0] / (12 - 3))
+    found = moments_of(list(matrices), rights)
+    assert found.values == pytest.approx(best, rel=1e-10)
+    assert found.deviations == pytest.approx(wanted, rel=1e-9)
+    assert len(set(numpy.round(wanted, 9))) == 3
+
+
+def test_a_row_carries_its_own_deviation(tmp_path, monkeypatch):
+    found = Moments(numpy.array([0.5, 0.25, 0.125]), numpy.array([0.03, numpy.inf, 0.01]), 2, numpy.zeros((1, 3)))
+    monkeypatch.setattr(system_axes, "moments_of", lambda _matrices, _rights: found)
+    foreign_bag.write_odometry(tmp_path / "bag", motions.states_of(motions.spatial()))
+    rows = axes(tmp_path / "bag", {"box": tuple(motions.LENGTHS), "axes": (0.0, 0.0, 0.0), "gravity": 9.81}).rows
+    assert [tuple(row.values()) for row in rows] == [
+        ("x", 0.5, 0.03, 2.0),
+        ("y", None, None, None),
+        ("z", 0.125, 0.01, 8.0),
+    ]
+    (shown,) = (each.shows for each in paper_of("identifiability").systems if each.name == "axes")
+    assert {name for _, place in shown for name in place.split(", ")} <= set(rows[0])
 
 
 def test_three_lengths_and_an_impact_are_needed(tmp_path):

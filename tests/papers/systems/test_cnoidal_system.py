@@ -36,6 +36,10 @@ def test_the_fit_finds_the_parameter_of_the_exact_motion(tmp_path):
     result = cnoidal(path, VALUES)
     assert result.rows[0]["residual"] < 1e-5
     term = result.rows[3]
+    # Without the quotient only the sum of both amplitudes is determined: y3 - y2, twice the size of the cn^2 motion.
+    assert term["alpha"] is None
+    assert term["beta"] is None
+    assert term["alpha_plus_beta"] == pytest.approx(values.max() - values.min(), rel=1e-4)
     # B of eq A5: q = exp(B/2) = exp(-pi K(1 - m)/K(m)).
     assert term["m"] == pytest.approx(m, rel=1e-3)
     assert term["B"] == pytest.approx(-2.0 * math.pi * ellipk(1.0 - term["m"]) / ellipk(term["m"]), rel=1e-9)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from contact_sim_lab.papers.registry import load, papers
+from contact_sim_lab.papers.registry import load, paper_of, papers
 from contact_sim_pkg.cli.main import main
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "papers"
@@ -16,6 +16,7 @@ ON_EXAMPLES = [
     ("tire-road", "profile", "profile_outline.csv", ("load=4000",)),
     ("identifiability", "inertia", "inertia.csv", ()),
 ]
+LABELS = {"by", "fit", "form", "parameter", "unit"}
 
 
 def ran(capsys, paper, system, source, values, output):
@@ -28,8 +29,25 @@ def ran(capsys, paper, system, source, values, output):
 def test_each_example_runs_and_is_drawn(capsys, tmp_path, paper, system, file, values):
     status, text = ran(capsys, paper, system, EXAMPLES / file, values, tmp_path / "picture.png")
     assert status == 0
-    assert json.loads(text.out)["rows"]
+    found = json.loads(text.out)
+    # What the table of systems says that the command shows, numbers as numbers.
+    keys = {key for row in [*found["rows"], *found["course"]] for key in row}
+    (shown,) = (each.shows for each in paper_of(paper).systems if each.name == system)
+    assert {name for _, place in shown for name in place.split(", ")} <= keys
+    for row in [*found["rows"], *found["course"]]:
+        assert not [value for key, value in row.items() if isinstance(value, str) and key not in LABELS]
     assert (tmp_path / "picture.png").stat().st_size > 5000
+
+
+def test_a_table_for_a_person_has_six_digits(capsys, tmp_path):
+    arguments = ["paper", "tire-road", str(EXAMPLES / "profile_tip.csv"), "--system", "profile"]
+    arguments += ["--set", "load=40.123456", "--output", str(tmp_path / "picture.png")]
+    assert main(arguments) == 0
+    text = capsys.readouterr().out
+    assert "40.1235" in text
+    assert main([*arguments, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert f"{found['rows'][-1]['approach_m']:.6g}" in text
 
 
 def test_every_system_that_runs_is_there_and_says_what_it_takes():

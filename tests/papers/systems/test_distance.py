@@ -8,6 +8,7 @@ from scipy import optimize
 
 from contact_sim_lab.papers.driver_seat.system_distance import body_of, distance, rotation_about
 from contact_sim_lab.records.paper import PaperError
+from contact_sim_pkg.files import RefusedError
 
 SEED = {"seed": 1}
 
@@ -82,6 +83,26 @@ def test_a_file_without_two_bodies_is_refused(tmp_path):
     path.write_text("body_1: {kind: sphere}\n", encoding="utf-8")
     with pytest.raises(PaperError, match="the keys body_1 and body_2 are needed, not body_1"):
         distance(path, SEED)
-    path.write_text("body_1: [1, 2\n", encoding="utf-8")
-    with pytest.raises(PaperError, match=r"line \d+: no YAML"):
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("body_1: [1, 2\n", r"bodies\.yaml:\d+:\d+: "),
+        ("%YAML 1.1\n---\nbody_1: 1\n", "another YAML version"),
+        ("body_1: " + "[" * 30 + "]" * 30 + "\n", "nested deeper than 20 levels"),
+        ("body_1: " + "[" * 5000 + "\n", "nested deeper than 20 levels"),
+        ("body_1: [" + "1," * 20000 + "1]\n", "more than 10000 keys and values"),
+        ("a: &a [1, 2]\nb: [" + "*a," * 40 + "]\n", "more than 32 aliases"),
+        ("body_1: !!python/name:os.system x\n", "the tag .* is not allowed"),
+        ("body_1: 1\nbody_1: 2\n", "the key is given twice"),
+        ("", "is empty"),
+        ("- 1\n", "keys with values are needed"),
+        ("body_1: 1\n" + "#" * (1 << 20), "at most 1048576 are read"),
+    ],
+)
+def test_a_file_outside_the_limits_of_a_scene_is_refused(tmp_path, text, sentence):
+    path = tmp_path / "bodies.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(RefusedError, match=sentence):
         distance(path, SEED)

@@ -24,11 +24,22 @@ def test_a_parabolic_tip_is_hertz(tmp_path):
     """f = r^2/(2 R): a^3 = 3 P R/(4 E*), delta = a^2/R, p0 = 3 P/(2 pi a^2)."""
     r = numpy.linspace(0.0, 0.006, 400)
     path = table(tmp_path, "r,height", zip(r, r**2 / (2.0 * 0.02), strict=True))
-    row = profile(path, {"modulus": MODULUS, "load": 10.0}).rows[-1]
+    result = profile(path, {"modulus": MODULUS, "load": 10.0})
+    row = result.rows[-1]
     radius = (3.0 * 10.0 * 0.02 / (4.0 * MODULUS)) ** (1.0 / 3.0)
     assert row["contact_radius_m"] == pytest.approx(radius, rel=1e-5)
     assert row["approach_m"] == pytest.approx(radius**2 / 0.02, rel=1e-5)
     assert row["centre_pressure_Pa"] == pytest.approx(1.5 * 10.0 / (math.pi * radius**2), rel=1e-3)
+    # p(r) of each load, from the centre to the border.
+    for share in (0.1, 0.25, 0.5, 1.0):
+        course = [each for each in result.course if each["load_N"] == pytest.approx(share * 10.0)]
+        places, found = (numpy.array([each[name] for each in course]) for name in ("r_m", "pressure_Pa"))
+        border = radius * share ** (1.0 / 3.0)
+        assert places == pytest.approx(numpy.linspace(0.0, border, 11), rel=1e-5)
+        peak = 1.5 * share * 10.0 / (math.pi * border**2)
+        assert found == pytest.approx(
+            peak * numpy.sqrt(numpy.maximum(1.0 - (places / border) ** 2, 0.0)), abs=5e-3 * peak
+        )
 
 
 def test_the_outline_of_a_superellipse_gives_its_exponent_and_carries_the_load(tmp_path):

@@ -28,6 +28,8 @@ START_PARAMETER = 0.1  # m
 LARGEST_PARAMETER = 1.0 - 1e-9
 SMALLEST_DENOMINATOR = 1e-6
 LARGEST_EVALUATIONS = 300
+FLAT = 1e-3  # of the largest singular value, columns of length 1: directions below are not determined
+SHARE = 0.1  # of such a direction above which an unknown is not determined
 
 
 class AnsatzFit(NamedTuple):
@@ -41,6 +43,7 @@ class AnsatzFit(NamedTuple):
     shifts: Array  # f [N] [rad]
     residual: float  # rms of the difference over the rms of the samples about their mean
     unknowns: int
+    apart: Array  # [N] whether a and b are determined each, and not their sum alone
 
 
 def harmonics_of_period(count: int, terms: int = 2) -> Array:
@@ -85,6 +88,7 @@ def fit_ansatz(samples: Array, phases: Array, *, nonlinear: bool = True) -> Ansa
         shifts=f,
         residual=residual,
         unknowns=unknowns,
+        apart=_apart(found.jac, terms, nonlinear),
     )
 
 
@@ -115,6 +119,19 @@ def _start(scaled: Array, phases: Array, nonlinear: bool) -> Array:
     rest = numpy.zeros(2 * terms if nonlinear else 0)
     shifts = numpy.angle(components)
     return numpy.concatenate([[-0.5 * linear.sum()], linear, numpy.full(terms, START_PARAMETER), shifts, rest])
+
+
+def _apart(slopes: Array, terms: int, nonlinear: bool) -> Array:
+    """Whether a and b of each term are determined one by one [terms]; slopes [n, unknowns]. As g falls to 0 their sum
+    alone is, ``a C + b C/(1 + g C)``.
+    """
+    lengths = numpy.linalg.norm(slopes, axis=0)
+    _left, singular, directions = numpy.linalg.svd(
+        slopes / numpy.where(lengths > 0.0, lengths, 1.0), full_matrices=False
+    )
+    flat = numpy.linalg.norm(directions[singular < FLAT * singular[0]], axis=0) > SHARE
+    _c, a, _m, _f, b, _g = _parts(flat, terms, nonlinear)
+    return numpy.logical_not(numpy.logical_or(a, b))
 
 
 def _parts(values: Array, terms: int, nonlinear: bool) -> tuple[float, Array, Array, Array, Array, Array]:

@@ -135,11 +135,14 @@ def _strongest(time: Array, values: Array) -> float:
     return float((place + shift) / (len(part) * (even[1] - even[0])))
 
 
-def _term(number: int, m: float, fit: AnsatzFit) -> dict[str, float | str]:
-    """A term of the fit, with its one-phase theta function (A1-A5)."""
-    row: dict[str, float | str] = {
-        "fit": f"term {number}", "m": m, "alpha": float(fit.linear[number - 1]), "beta": float(fit.numerator[number - 1]),
-        "gamma": float(fit.denominator[number - 1]),
+def _term(number: int, m: float, fit: AnsatzFit) -> dict[str, float | str | None]:
+    """A term of the fit, with its one-phase theta function (A1-A5); alpha and beta where not their sum alone is
+    determined.
+    """
+    alpha, beta, apart = (float(each[number - 1]) for each in (fit.linear, fit.numerator, fit.apart))
+    row: dict[str, float | str | None] = {
+        "fit": f"term {number}", "m": m, "alpha_plus_beta": alpha + beta, "alpha": alpha if apart else None,
+        "beta": beta if apart else None, "gamma": float(fit.denominator[number - 1]),
     }  # fmt: skip
     if not LEAST_PARAMETER < m < 1.0:
         return row

@@ -142,12 +142,12 @@ def _overlap(first: ConvexBody, second: ConvexBody, seed: int) -> SystemResult:
     return SystemResult(rows, lambda canvas: _draw(canvas, (first, second), points, found.depth), note, (8.0, 4.0))
 
 
-def _places(points: Array) -> dict[str, str]:
+def _places(points: Array) -> dict[str, list[float]]:
     return {**_place("point_1", points[0]), **_place("point_2", points[1])}
 
 
-def _place(name: str, point: Array) -> dict[str, str]:
-    return {f"{name}_m": ", ".join(f"{value:.6g}" for value in point)}
+def _place(name: str, point: Array) -> dict[str, list[float]]:
+    return {f"{name}_m": [float(value) for value in point]}
 
 
 def _draw(canvas: Canvas, bodies: tuple[ConvexBody, ConvexBody], points: Array, diameter: float) -> None:

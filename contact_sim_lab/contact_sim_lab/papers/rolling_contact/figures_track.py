@@ -23,7 +23,7 @@ from contact_sim_lab.rigs.roller.paper_bench import (
     SHAFT_RADIUS,
 )
 from contact_sim_lab.twins.hertz import contact_at_load
-from contact_sim_lab.twins.subsurface import tensor_under_ellipse
+from contact_sim_lab.twins.subsurface import worst_under_ellipse
 from contact_sim_pkg.library import Series, load_scene
 from contact_sim_pkg.rigs.roller.theory.ellipse import contact_of_rollers
 from contact_sim_pkg.rigs.roller.theory.volumes import box_volume, dangerous_volumes
@@ -214,23 +214,12 @@ def _growth(waves: int, slope: float) -> float:
 @lru_cache(maxsize=1)
 def _dangerous_shares() -> tuple[Array, Array]:
     """Load [points] [N] from which on each point of a quarter of the box is dangerous, and its share [points] of the box;
-    coordinates over the larger semi-axis, which grows with F^(1/3) as p0 does.
-
-    Eqs 22 to 24 by the twin's quadrature. Above 0.06 a, where that fails, the stress is that of this depth.
+    coordinates over the larger semi-axis, which grows with F^(1/3) as p0 does (eqs 22 to 24).
     """
     roller, rolling, shaft, _ = CURVATURES
     hertz = contact_at_load(0.5 * roller, 0.5 * (rolling + shaft), MODULUS, LOAD)
-    wide, slim = max(hertz.a, hertz.b), min(hertz.a, hertz.b)
-    places = (numpy.arange(COUNTED) + 0.5) / COUNTED
-    x, y, z = (
-        part.ravel()
-        for part in numpy.meshgrid(2.0 * places, 2.0 * places * slim / wide, 3.0 * places**1.5, indexing="ij")
-    )
-    below = numpy.stack([x, y, numpy.maximum(z, 0.06)], axis=1)
-    stress = numpy.abs(tensor_under_ellipse((1.0, slim / wide), below, POISSON)) * hertz.peak_pressure
-    worst = numpy.maximum(stress[:3].max(axis=0) / LIMITS[0], stress[3:].max(axis=0) / LIMITS[1])
-    share = numpy.tile(1.5 * places**0.5, COUNTED**2) / COUNTED**3
-    return LOAD / worst**3, share
+    worst, share = worst_under_ellipse(min(hertz.a, hertz.b) / max(hertz.a, hertz.b), POISSON, LIMITS, COUNTED)
+    return LOAD / (worst * hertz.peak_pressure) ** 3, share
 
 
 def _damage(load: float) -> float:

@@ -26,8 +26,7 @@ PAPER = Paper(
     equations=EQUATIONS,
     errata=ERRATA,
     not_shown=(
-        "Figures 1, 7 and 8 are schemes, figure 5 is a photograph, figure 15 is the flow chart of one "
-        "interval, which `bench run roller_corrugation` follows."
+        "Figures 1, 7 and 8 are schemes, figure 5 is a photograph, figure 15 is the flow chart of one interval."
     ),
     left_open=(
         (

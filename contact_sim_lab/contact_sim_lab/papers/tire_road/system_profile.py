@@ -4,6 +4,7 @@ rigid axisymmetric tip and by the forms of a Lamé domain for an outline (Tire/R
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -44,6 +45,7 @@ Array = NDArray[numpy.float64]
 FEWEST = 5  # points on the hull of an outline
 LOADS = (0.1, 0.25, 0.5, 1.0)  # shares of the load
 PLACES = 200
+ROWS = 11  # from the centre to the border
 
 
 def profile(path: Path | None, values: Values) -> SystemResult:
@@ -70,7 +72,18 @@ def _tip(table: dict[str, Array], values: Values) -> SystemResult:
         for share, radius in zip(LOADS, radii, strict=True)
     ]  # fmt: skip
     note = "Sneddon's integrals for a rigid tip in an elastic half-space; between the points of the profile cubic polynomials"
-    return SystemResult(rows, lambda canvas: _draw_tip(canvas, table, shape, modulus, radii), note)
+    course = [
+        {"load_N": share * load, "r_m": float(r), "pressure_Pa": float(p)}
+        for share, radius in zip(LOADS, radii, strict=True)
+        for r, p in _over(radius, lambda r, radius=radius: pressure(shape, modulus, radius, r))
+    ]
+    return SystemResult(rows, lambda canvas: _draw_tip(canvas, table, shape, modulus, radii), note, course=course)
+
+
+def _over(border: float, pressures: Callable[[Array], Array]) -> Iterator[tuple[float, float]]:
+    """Places from the centre to the border [m], and the pressures [Pa] there."""
+    places: Array = border * numpy.linspace(0.0, 1.0, ROWS, dtype=numpy.float64)
+    return zip(places, pressures(places), strict=True)
 
 
 def _draw_tip(canvas: Canvas, table: dict[str, Array], shape: SlopeProfile, modulus: float, radii: list[float]) -> None:
@@ -104,7 +117,12 @@ def _outline(table: dict[str, Array], values: Values) -> SystemResult:
         f"{lame_area(fit.a, fit.b, fit.exponent):.6g} m², rms deviation {fit.deviation:.2g} of the radius. For n above 2 the "
         "largest pressure lies near the edge, the ansatz is up to 60 % high in the centre and 15 % low in the approach"
     )
-    return SystemResult(rows, lambda canvas: _draw_outline(canvas, table, fit, (ansatz, ellipse)), note)
+    course = [
+        {"form": row["form"], "x_m": float(x), "pressure_Pa": float(p)}
+        for row, contact in zip(rows, (ansatz, ellipse), strict=True)
+        for x, p in _over(contact.a, lambda x, contact=contact: lame_pressure(contact, x, numpy.zeros(1)))
+    ]
+    return SystemResult(rows, lambda canvas: _draw_outline(canvas, table, fit, (ansatz, ellipse)), note, course=course)
 
 
 def _row(name: str, contact: LamePressure) -> dict[str, float | str]:

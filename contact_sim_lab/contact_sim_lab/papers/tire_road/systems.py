@@ -7,14 +7,23 @@ from contact_sim_lab.records.paper import Parameter, System
 __all__ = ["SYSTEMS"]
 
 SYSTEMS = (
-    System("elastic half-space on a rigid road: domain, pressure, displacement", "1-4", "bench run tire_half_space"),
-    System("single bump and irregular road", "section 3", "bench paper tire-road --figure 4"),
-    System("Lamé ansatz of the pressure, and its equivalent ellipse", "5-9", "bench paper tire-road --equation 7"),
-    System("travelling impulsive forces of asperities", "10",
-           "bench run tire_irregular_road"),
+    System("elastic half-space on a rigid road under a wheel: domain and pressure",
+           (("2-4", "tire/patch: load, area, approach, pressure"),), "bench run tire_half_space"),
+    System("displacement of its surface over a single bump", (("1", "largest u"), ("2", "load, ∬ p")),
+           "bench paper tire-road --figure 2"),
+    System("pressure over a single bump", (("section 3", "largest p/p_ref,max"),), "bench paper tire-road --figure 4"),
+    System("pressure over an irregular road", (("section 3", "largest p/p_ref,max"),), "bench paper tire-road --figure 5"),
     System(
-        "contact of a shape of one's own: Sneddon's integrals of a tip, Lamé forms of an outline", "5-9, text",
-        "bench paper tire-road --system profile examples/papers/profile_tip.csv", name="profile",
+        "Lamé ansatz of the pressure, and its equivalent ellipse",
+        (("5", "5"), ("6", "6"), ("7-9", "8")),
+        "bench paper tire-road --equation N",
+    ),
+
+    System("travelling impulsive forces of asperities", (("10", "tire/force: impulses"),), "bench run tire_irregular_road"),
+    System(
+        "contact of a shape of one's own: Lamé forms of an outline, or Sneddon's integrals of a tip",
+        (("5-9", "centre_pressure_Pa, approach_m, pressure_Pa"),),
+        "bench paper tire-road --system profile examples/papers/profile_outline.csv", name="profile",
         run="contact_sim_lab.papers.tire_road.system_profile:profile",
         input="a CSV file with columns r, height of a tip, or x, y of an outline [m], as examples/papers/profile_*.csv",
         parameters=(
@@ -23,7 +32,7 @@ SYSTEMS = (
         ),
     ),
     System(
-        "load of a wheel over the uncertainty of its road: mean and spread", "section 3",
+        "load of a wheel over the uncertainty of its road: mean and spread", (("section 3", "mean load"),),
         "bench paper tire-road --system load tire_irregular_road", name="load",
         run="contact_sim_lab.papers.tire_road.system_load:load_over_seeds",
         input="a scene of rig tire or car, by name or file",
