@@ -76,6 +76,37 @@ def test_an_import_against_the_order_is_seen():
     assert not against_the_order("cli.main", "records.rig")
 
 
+def bound_twice(tree):
+    """Names that a module binds twice at its top; one that a condition or an exception chooses counts as bound once,
+    and each part of a package that is imported has a name of its own.
+    """
+    bound = []
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            bound.append(node.name)
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            bound += [alias.asname or alias.name for alias in node.names]
+        elif isinstance(node, ast.Assign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            names = (each for target in targets for each in ast.walk(target) if isinstance(each, ast.Name))
+            bound += [each.id for each in names if isinstance(each.ctx, ast.Store)]
+    return {name for name in bound if name != "_" and bound.count(name) > 1}
+
+
+def test_no_module_binds_a_name_twice():
+    everywhere = [
+        each for root in (PACKAGE, LABORATORY, PACKAGE.parents[1] / "tests") for each in modules(root).values()
+    ]
+    assert {each.path: twice for each in everywhere if (twice := bound_twice(each.tree))} == {}
+
+
+def test_a_name_that_is_bound_twice_is_seen():
+    twice = "import numpy\nimport numpy.linalg\nLIMIT = 1e-12\nLIMIT: float = 1e-9\n"
+    assert bound_twice(ast.parse(twice)) == {"LIMIT"}
+    assert bound_twice(ast.parse("def run(): ...\nrun, stop = 1, 2")) == {"run"}
+    assert bound_twice(ast.parse("try:\n    import a as b\nexcept ImportError:\n    b = None\n")) == set()
+
+
 def test_no_modules_import_each_other(edges):
     assert circles(edges) == []
 

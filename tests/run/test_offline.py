@@ -1,6 +1,11 @@
 """The offline run: what it writes, how it ends, and running a bag's excitation again."""
 
+import os
+import subprocess
+import sys
+
 import pytest
+from tests.bench_process import LONGEST_COMMAND
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.errors import BagError
@@ -9,6 +14,28 @@ from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.run.from_bag import sources_from_bag
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.sources import make_sources
+
+UNCOMPILED = """
+import sys
+from contact_sim_pkg.compiled.jit import compiled_functions
+from contact_sim_pkg.records.registry import rigs
+from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.scene.resolve import load_resolved
+
+scenes = [load_resolved(*each.split("; ")) for each in sys.argv[1:]]
+assert {scene.rig for scene in scenes} == set(rigs())
+for scene in scenes:
+    outcome = run_offline(scene, None)
+    assert (outcome.failure, outcome.blocks) == ("", 1), (scene.name, outcome)
+assert not any(hasattr(each, "overloads") for each in compiled_functions())
+"""
+
+ONE_BLOCK = (
+    "impact_rubber_drop; duration=0.01", "roller_steady; duration=0.1; effects.roller.subsurface=null",
+    "block_slope; duration=0.01", "seat_slap; duration=0.01", "seat_ride; duration=0.01", "seat_ride_full; duration=0.01",
+    "tire_half_space; duration=0.01; effects.tire.contact_field={rows: 8, cols: 8}",
+    "car_full_bench; duration=0.01; effects.tire={normal_elastic: {}, normal_dissipative: {}}",
+)  # fmt: skip
 
 
 def recorded(path):
@@ -91,3 +118,11 @@ def test_a_fault_of_the_program_itself_is_named_in_the_bag_that_it_leaves(tmp_pa
     told = open_bag(tmp_path / "bag").metadata
     assert (told["ended"], told["blocks_done"]) == ("failed", "3")
     assert told["failure"] == "unexpected ZeroDivisionError: nothing to divide by"
+
+
+def test_a_block_of_each_rig_runs_uncompiled():
+    """As `NUMBA_DISABLE_JIT=1 bench run SCENE --offline`: Python raises where compiled code divides by zero."""
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1", "CONTACT_BENCH_PLUGINS": "off"}
+    command = [sys.executable, "-c", UNCOMPILED, *ONE_BLOCK]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=LONGEST_COMMAND)
+    assert done.returncode == 0, done.stderr[-2000:]

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy
 from llvmlite import ir
-from numba.core import types
+from numba.core import config, types
 from numba.core.errors import TypingError
 from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, models, register_model
@@ -167,12 +167,31 @@ for _operation, _instruction in ((operator.add, "fadd"), (operator.sub, "fsub"),
     _register(_operation, _instruction)
 
 
-def _intrinsic(generator: Any) -> Any:
-    return intrinsic(generator)
-
-
 Values = NDArray[numpy.float64]
-load: Callable[[Values, int], float] = _intrinsic(_load_lanes)
-store: Callable[[Values, int, float], None] = _intrinsic(_store_lanes)
-transpose: Callable[[Values, int, int, Values, int, int], None] = _intrinsic(_transpose_lanes)
+ACROSS = numpy.arange(WIDTH)
+
+
+def _load_plain(array: Values, index: int) -> Any:
+    return array.reshape(-1)[index + ACROSS]
+
+
+def _store_plain(array: Values, index: int, value: Any) -> None:
+    array.reshape(-1)[index + ACROSS] = value
+
+
+def _transpose_plain(
+    source: Values, first: int, stride: int, target: Values, first_there: int, stride_there: int
+) -> None:
+    tile = source.reshape(-1)[first + stride * ACROSS[:, None] + ACROSS]
+    target.reshape(-1)[first_there + stride_there * ACROSS[:, None] + ACROSS] = tile.T
+
+
+def _intrinsic(generator: Any, plain: Any) -> Any:
+    """With NUMBA_DISABLE_JIT=1 the same in Python, on arrays of eight."""
+    return plain if config.DISABLE_JIT else intrinsic(generator)  # type: ignore[attr-defined]
+
+
+load: Callable[[Values, int], float] = _intrinsic(_load_lanes, _load_plain)
+store: Callable[[Values, int, float], None] = _intrinsic(_store_lanes, _store_plain)
+transpose: Callable[[Values, int, int, Values, int, int], None] = _intrinsic(_transpose_lanes, _transpose_plain)
 """To a type checker lanes are a number: what is done with them is done with each."""

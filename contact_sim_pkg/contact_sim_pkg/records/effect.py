@@ -54,7 +54,8 @@ class Effect:
             nothing: a function of a resolved scene that returns a `run.observers.Observer`; empty: the
             rig's own simulation has the effect.
         feeds: topics of the contact whose values it changes.
-        inputs: sections of the scene, or dotted keys, that act through it alone.
+        inputs: sections of the scene, or dotted keys, that act through it, or through others that name
+            them too: they go with the last one.
         called_for: what in the data of a scene calls for it. That it acts by more than the requested
             accuracy there is for a measurement to show.
         not_below: numerical error, by kind as of `definitions.KINDS`, that no request makes smaller:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import hashlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from io import StringIO
 from pathlib import Path
@@ -163,17 +163,19 @@ class ResolvedScene:
                 yield record, load(record.section).model_validate(named[record.name])
 
     def without(self, *effects: Effect) -> ResolvedScene:
-        """The scene less some effects, those that need them, and the keys that act through them
-        alone.
+        """The scene less some effects, those that need them, and the inputs that no other effect
+        names.
         """
         data = copy.deepcopy(self.data)
+        gone: list[Effect] = []
         for contact in rigs()[self.rig].contacts:
             left_out = [record for record in contact.effects if record in effects]
             while left_out:
                 record = left_out.pop()
                 (data["effects"].get(contact.name) or {}).pop(record.name, None)
-                drop_inputs(data, record)
+                gone.append(record)
                 left_out += [other for other in contact.effects if record.name in other.needs]
+        drop_inputs(data, gone)
         return ResolvedScene(data, self.files)
 
     def to_yaml(self) -> str:
@@ -214,9 +216,18 @@ class ResolvedScene:
         return path
 
 
-def drop_inputs(data: dict[str, Any], effect: Effect) -> None:
-    """Take out of plain data of a scene what acts through an effect alone."""
-    for where in effect.inputs:
+def drop_inputs(data: dict[str, Any], gone: Iterable[Effect]) -> None:
+    """Take out of plain data of a scene the inputs of effects that are ``gone`` from it, but for those that
+    an effect names which the scene still has.
+    """
+    stay = {
+        where
+        for contact in rigs()[data["rig"]].contacts
+        for effect in contact.effects
+        if (data["effects"].get(contact.name) or {}).get(effect.name) is not None
+        for where in effect.inputs
+    }
+    for where in {where for effect in gone for where in effect.inputs} - stay:
         *sections, key = where.split(".")
         found = data
         for section in sections:

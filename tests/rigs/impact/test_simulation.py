@@ -24,6 +24,7 @@ from contact_sim_pkg.rigs.impact.material.errors import MaterialError
 from contact_sim_pkg.rigs.impact.material.options import Options
 from contact_sim_pkg.rigs.impact.material.report import material_report
 from contact_sim_pkg.rigs.impact.model import build_impact
+from contact_sim_pkg.rigs.impact.motion import ImpactMotion, Rest
 from contact_sim_pkg.rigs.impact.report.series import missing_impacts
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
 from contact_sim_pkg.rigs.impact.theory.contact import static_depth
@@ -185,6 +186,21 @@ def test_restitution_of_a_pendulum_does_not_depend_on_speed_and_times_scale_down
     assert e["depth"] / e["speed"] ** 0.8 == pytest.approx(e["depth"][0] / e["speed"][0] ** 0.8, rel=1e-9)
     assert e["speed"][-1] > 1e-9 > k * e["speed"][-1]
     assert of(messages, "bench/energy", EnergyLedger)[-1].dissipated == pytest.approx(0.1, rel=1e-12)
+
+
+def test_a_sphere_rests_once_its_swings_have_a_million_millionth_of_the_work_of_its_weight():
+    """With so little loss each phase in contact leaves a fourteenth of that energy."""
+    motion = ImpactMotion(build_impact(resolved("impact_rubber_drop", "impact.sample.loss_tangent=0.02")))
+    motion.state(numpy.array([10.0]))
+    assert isinstance(motion.segments[-1].motion, Rest)
+    excesses = []
+    for segment in motion.segments[-3:-1]:
+        mass, gravity, elastic, *_ = segment.motion.law
+        depth, speed = segment.motion.last_depth, segment.motion.last_speed
+        static = (mass * gravity / elastic) ** (2.0 / 3.0)
+        excess = 0.5 * mass * speed**2 + 0.4 * elastic * depth**2.5 - mass * gravity * (depth - 0.6 * static)
+        excesses.append(excess / (mass * gravity * static))
+    assert excesses[1] <= 1e-12 < excesses[0]
 
 
 def test_a_slow_touch_under_weight_swings_with_the_frequency_of_small_swings_at_rest():

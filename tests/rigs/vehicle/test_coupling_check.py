@@ -170,6 +170,24 @@ CORNERS = {
         "changes there by 0.4 at once",
     ),
     "a sharp edge": ("{kind: cleat, position: 3, height: 0.01, length: 0.1}", "the edge is 0 mm long"),
+    "a short bar": (
+        "{kind: cleat, position: 3, height: 0.02, length: 0.008, edge: 0.004}",
+        "the obstacle is 8 mm long, 3 cells of effects.tire.contact_field are 11.2 mm",
+    ),
+    "a short hole": (
+        "{kind: pothole, position: 3, depth: 0.02, length: 0.011}",
+        "force and motion may err there by 0.1 and 0.3",
+    ),
+    "a short bump": (
+        "{kind: bump, position: 3, height: 0.02, length: 0.01}",
+        "force and motion may err there by 0.1 and 0.3",
+    ),
+    "a bump of few cells": (
+        "{kind: bump, position: 3, height: 0.02, length: 0.029}",
+        "8 cells of effects.tire.contact_field are 30 mm; force and motion converge",
+    ),
+    "a bump of nine cells": ("{kind: bump, position: 3, height: 0.02, length: 0.034}", ""),
+    "a pebble": ("{kind: bump, position: 3, height: 5.0e-5, length: 0.01}", ""),
     "a ramp of 1 %": ("{kind: step, position: 3, height: 0.02, length: 2.0}", ""),
     "a bump": ("{kind: bump, position: 3, height: 0.05, length: 0.5}", ""),
     "class C": ("{kind: iso8608, roughness_class: C}", ""),

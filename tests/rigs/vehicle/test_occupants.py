@@ -55,6 +55,15 @@ def shaken(name, frequency, *values):
     return force / motion[1], motion[1 + head] / motion[1] if head else 0.0
 
 
+def test_a_link_so_stiff_that_it_is_rigid_leaves_no_noise_in_the_acceleration_of_the_frame():
+    """A damper c moves its ends together but for the rate of its force over c, here 2e-3 m/s^2."""
+    own = "seat.occupant={model: own, frame_mass: 6.7, masses: [33.4], stiffness: [35776], damping: [1.0e+6]}"
+    found = outputs_of("seat_ride", 0.2, own)
+    _floor, frame, body = numpy.hstack([record.acceleration for record in records_of(found, "bench/motion")])
+    force = max(float(record.normal.max()) for record in records_of(found, "seat/force"))
+    assert float(numpy.abs(frame - body).max()) < 3e-3 * force / 6.7
+
+
 @pytest.mark.parametrize("name", OCCUPANTS)
 @pytest.mark.parametrize("frequency", [2.0, 4.0, 5.0, 8.0, 16.0])
 def test_a_named_occupant_has_its_apparent_mass_and_its_way_to_the_head_in_free_simulation(name, frequency):

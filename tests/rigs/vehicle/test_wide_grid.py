@@ -10,7 +10,7 @@ from tests.run.scenes import resolved
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.records.messages import ContactPatch
+from contact_sim_pkg.records.messages import ContactPatch, SolverCost
 from contact_sim_pkg.report.reading import FieldReader, read_recording
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.offline import run_offline
@@ -30,7 +30,8 @@ print(*(entry.__name__ for entry in never_called()))
 def test_a_high_bump_is_run_on_two_grids_and_summarised(tmp_path):
     outcome = run_offline(resolved("tire_bump", "road.height=0.1", "duration=1.2"), tmp_path / "bag")
     assert outcome.failure == ""
-    fields = [decode(ContactPatch, m.data) for m in open_bag(tmp_path / "bag").messages() if m.topic == "/tire/patch"]
+    messages = list(open_bag(tmp_path / "bag").messages())
+    fields = [decode(ContactPatch, m.data) for m in messages if m.topic == "/tire/patch"]
     assert {field.pressure.shape for field in fields} == {(72, 48), (144, 96)}
     for field in fields:
         assert float(field.pressure.sum()) * field.cell_x * field.cell_y == pytest.approx(
@@ -38,6 +39,14 @@ def test_a_high_bump_is_run_on_two_grids_and_summarised(tmp_path):
         )
     field = read_recording(open_bag(tmp_path / "bag")).fields["tire"]
     assert field.peak.max() == pytest.approx(max(each.peak for each in fields), rel=1e-6)
+    # Behind the bump a block has the residual of its own fields: no two are the same to the bit, and a
+    # wheel in the air has none
+    behind = 1 + max(field.block for field in fields if field.pressure.shape == (144, 96))
+    touching = {field.block for field in fields if field.load > 0.0}
+    costs = [decode(SolverCost, m.data) for m in messages if m.topic == "/bench/cost"][behind:]
+    residuals = [cost.field_residual for cost in costs if cost.block in touching]
+    assert len(set(residuals)) == len(residuals) > 5
+    assert {cost.field_residual for cost in costs if cost.block not in touching} == {0.0}
 
 
 def test_a_grid_that_the_standing_contact_fills_compiles_nothing_later():

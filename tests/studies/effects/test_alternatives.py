@@ -1,9 +1,15 @@
 """Scenes with one effect left out, or one more."""
 
+import itertools
+
 import numpy
 import pytest
+from ruamel.yaml import YAML
 
+from contact_sim_pkg.records.registry import rigs
+from contact_sim_pkg.rigs.vehicle.tire.schema import SidewallComplianceSection
 from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.studies.effects import absent, reduced
 from contact_sim_pkg.studies.effects.alternatives import effects_of, with_effect, without_effects
 
@@ -47,6 +53,54 @@ def test_what_acts_through_an_effect_alone_goes_with_it():
     assert alternative("tire_braking", "tire.brush", on=True).scene.slip is None
     assert alternative("tire_braking", "tire.brush", on=True).beside == ("sidewall_compliance",)
     assert "sliding" not in alternative("seat_slap", "backrest.friction", on=True).scene.data["backrest"]
+
+
+def test_an_input_stays_with_an_effect_that_names_it_too():
+    """The bristles act by the slip with or without a belt that yields; so they do in the file that
+    `--write` makes.
+    """
+    scene = load_resolved("tire_braking")
+    less = alternative("tire_braking", "tire.sidewall_compliance", on=True).scene
+    assert (less.data["slip"], less.effect("tire", SidewallComplianceSection)) == (scene.data["slip"], None)
+    text = reduced.text_of("tire_braking", [], reduced.Reduced(less, (), (), (), 1.0, 1.0), 1e-2)
+    assert YAML(typ="safe").load(text)["slip"]["points"] == scene.data["slip"]["points"]
+
+
+def test_over_all_pairs_of_effects_an_input_goes_with_the_last_that_names_it():
+    """One of two effects of a rig is left out, of the same contact or of two."""
+    pairs = [
+        (rig.name, *pair)
+        for rig in rigs().values()
+        for pair in itertools.permutations([(each.name, effect) for each in rig.contacts for effect in each.effects], 2)
+    ]
+    kept = set()
+    for rig, (contact, gone), (other, stays) in pairs:
+        data = {"rig": rig, "effects": {contact: {gone.name: {}}}}
+        data["effects"].setdefault(other, {})[stays.name] = {}
+        for where in {*gone.inputs, *stays.inputs}:
+            _give(data, where)
+        left = ResolvedScene(data).without(gone).data
+        expected = stays.inputs if stays.name in left["effects"].get(other, {}) else ()
+        for where in {*gone.inputs, *stays.inputs}:
+            assert _has(left, where) == (where in expected), (rig, gone.name, stays.name, where)
+        kept |= {(gone.name, where) for where in expected}
+    assert ("sidewall_compliance", "slip") in kept
+    assert ("brush", "slip") not in kept, "what needs it goes as well"
+
+
+def _give(data, where):
+    *sections, key = where.split(".")
+    for section in sections:
+        data = data.setdefault(section, {})
+    data[key] = 1.0
+
+
+def _has(data, where):
+    for key in where.split("."):
+        if key not in data:
+            return False
+        data = data[key]
+    return True
 
 
 def test_all_that_can_act_together_keeps_what_is_on():

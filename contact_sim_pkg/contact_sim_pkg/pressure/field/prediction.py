@@ -127,9 +127,11 @@ def scale_to(workspace: SolverWorkspace, approach: float, total: float) -> bool:
                 present += p
                 work += p * (approach - height[i, j])
                 energy += p * surface[i, j]
+    if not (present > 0.0 and energy > 0.0):
+        return False
     # At an approach: the scale of least energy, within bounds
     factor = total / present if total >= 0.0 else min(max(work / energy, SCALES[0]), SCALES[1])
-    if not (present > 0.0 and energy > 0.0 and 0.0 < factor < numpy.inf):
+    if not 0.0 < factor < numpy.inf:
         return False
     for i in range(rows):
         for j in range(cols):

@@ -32,8 +32,8 @@ from contact_sim_pkg.run.errors import RunError
 
 # Energy of a motion in contact, over that of the weight on the static depth, below which the
 # sphere rests
-AT_REST = 1.0e-12
-AT_REST = 1.0e-9  # [m/s]: a pendulum that leaves the sample more slowly hangs at rest on it
+RESTING_ENERGY = 1.0e-12
+RESTING_SPEED = 1.0e-9  # [m/s]: a pendulum that leaves the sample more slowly hangs at rest on it
 MOST_SEGMENTS = 10_000  # a block
 
 
@@ -178,7 +178,7 @@ class ImpactMotion:
             heat = last.heat + last.motion.heat
             if last.motion.next_kind == PARTED:
                 self._part(last, last.motion, heat)
-            elif last.motion.next_kind == LOADED and _excess(last.motion) <= AT_REST:
+            elif last.motion.next_kind == LOADED and _excess(last.motion) <= RESTING_ENERGY:
                 rest = Rest(last.motion.law)
                 lost = _energy(last.motion.law, last.motion.last_depth, last.motion.last_speed)
                 self._append(
@@ -218,7 +218,7 @@ class ImpactMotion:
             caught = self._catch()
             self._append(caught, last.end, heat, last.supplied + caught.potential - 0.5 * mass * speed**2)
             return
-        if phase.law.gravity == 0.0 and speed < AT_REST:
+        if phase.law.gravity == 0.0 and speed < RESTING_SPEED:
             self._append(Rest(phase.law), last.end, heat + 0.5 * mass * speed**2, last.supplied)
             return
         self._append(rebound(self.model.machine, speed), last.end, heat, last.supplied)

@@ -77,7 +77,7 @@ class PressureField:
     def reset(self) -> None:
         """Drop the previous solution."""
         self._field.reset()
-        self._row = None
+        self._row, self.residual = None, 0.0
 
     def roll_to(self, row: int) -> None:
         """Set ``row`` of the road under row 0 of the grid, before each solve.

@@ -177,14 +177,14 @@ class ContactField(ABC):
     def store(self) -> None:  # noqa: B027  # most contacts are elastic
         """Store the last field as that of its instant, where the material is viscoelastic."""
 
-    def pop_cost(self) -> tuple[int, float]:
-        """Iterations since the last call, and the residual of the last field."""
+    def pop_iterations(self) -> int:
+        """Iterations since the last call."""
         if self.grids is None:
-            return 0, 0.0
+            return 0
         iterations = sum(field.iterations for field in self.grids.both())
         for field in self.grids.both():
             field.iterations = 0
-        return iterations, max(field.residual for field in self.grids.both())
+        return iterations
 
     def copy_published(self) -> FieldRecord | None:
         """The last field, copied before the next solve overwrites it."""
@@ -205,7 +205,8 @@ class ContactField(ABC):
         gap = self.gap(field.settings)
         field.roll_to(self.road_row(field.settings))
         field.solve(gap, approach)
-        self.published = FieldRecord(field.pressure, *self.origin(field.settings), approach, self.travel)
+        origin_x, origin_y = self.origin(field.settings)
+        self.published = FieldRecord(field.pressure, origin_x, origin_y, approach, self.travel, field.residual)
         level = self.level_height(field)
         if level is not None:  # the law is exact, the field its map
             force = float(elastic_force(self.contact.elastic, approach + level))

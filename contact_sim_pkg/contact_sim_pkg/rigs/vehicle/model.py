@@ -48,6 +48,7 @@ from contact_sim_pkg.scene.timing import Timing
 
 POSITION_SCALE = 0.01  # [m], size of the approaches, at most; the integrator's tolerance is relative to it
 VELOCITY_SCALE = 0.5  # [m/s], size of the velocities on a rough road, at most
+LINK = 10.0  # loads at rest that a spring or damper of the occupant carries at the size of a motion, at most
 STIFF = 0.1  # of a contact less deep than that: its swings are many and hardly damped, and their errors add up
 
 
@@ -260,6 +261,18 @@ def _contact_scale(contact: Contact | None, load: float, mass: float) -> tuple[f
     return STIFF * size, min(VELOCITY_SCALE, STIFF * math.sqrt(load * size / mass))
 
 
+def _link_scale(seat: Seat, load: float) -> Vector:
+    """Sizes [2, masses] in [m] and [m/s] of the motion of each mass, by the springs and dampers that end
+    there: those of `LINK` times the ``load`` [N] at rest. A stiff damper turns a small error of speed
+    into a large one of force.
+    """
+    ending = numpy.zeros((2, len(seat.masses)))
+    for values, (lower, upper) in zip(seat.springs.T, seat.ends, strict=True):
+        ending[:, lower] += values
+        ending[:, upper] += values
+    return numpy.divide(LINK * load, ending, out=numpy.full_like(ending, numpy.inf), where=ending > 0.0)
+
+
 def _scale(rig: Vehicle, tolerance: float) -> Vector:
     """Error allowed per step and state; the two works at the end are not controlled."""
     position, velocity = POSITION_SCALE * tolerance, VELOCITY_SCALE * tolerance
@@ -282,8 +295,12 @@ def _scale(rig: Vehicle, tolerance: float) -> Vector:
             scale += [road_position, road_velocity]
     if rig.seat is not None:
         count = len(rig.seat.masses)
-        node = seat_velocity if rig.seat.node is None else numpy.inf  # settled at every instant
-        scale += [seat_position] + [position] * (count - 1) + [node] + [velocity] * (count - 1)
+        heights, speeds = tolerance * _link_scale(rig.seat, occupant * rig.gravity)
+        scale += numpy.minimum(heights, [seat_position] + [position] * (count - 1)).tolist()
+        speeds = numpy.minimum(speeds, [seat_velocity] + [velocity] * (count - 1))
+        if rig.seat.node is not None:
+            speeds[0] = numpy.inf  # settled at every instant
+        scale += speeds.tolist()
         rubbing = None if rig.seat_contact is None else rig.seat_contact.friction
         if rubbing is not None or rig.back is not None:
             spring = POSITION_SCALE if rubbing is None else _spring_scale(rubbing, occupant * rig.gravity)

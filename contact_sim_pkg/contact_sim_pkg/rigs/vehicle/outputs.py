@@ -44,6 +44,7 @@ class FieldRecord(NamedTuple):
     origin_y: float  # [m]
     approach: float  # [m]
     travel: float  # [m] of the contact along the road
+    residual: float  # of its solution, relative
     is_level: bool = False  # whether it rests on level road alone
 
 

@@ -131,9 +131,9 @@ class Simulation:
         self._next_block = block + 1
         record.counters[:] = coupling.bodies.work.counters
         for field in coupling.fields:
-            iterations, residual = field.pop_cost()
-            record.field_iterations += iterations
-            record.field_residual = max(record.field_residual, residual)
+            record.field_iterations += field.pop_iterations()
+        published = (found for _sample, found in (*record.tire_fields, *record.seat_fields))
+        record.field_residual = max((found.residual for found in published), default=0.0)
         record.missed = coupling.missed.pop()
         if self.model.edge is not None:
             record.missed[0, KINDS.index("peak")] = numpy.nan

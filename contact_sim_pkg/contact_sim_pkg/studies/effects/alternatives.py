@@ -65,7 +65,7 @@ def with_effect(scene: ResolvedScene, contact: Contact, effect: Effect) -> Alter
     while gone := [other for other in contact.effects if other.name in named and contact.missing(other, named)]:
         for other in gone:
             del named[other.name]
-            drop_inputs(data, other)
+    drop_inputs(data, [other for other in contact.effects if other.name in before and other.name not in named])
     made = ResolvedScene(read_explicit(ResolvedScene(data).to_yaml(), scene.name), scene.files)
     return Alternative(
         made,

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.compare.span import Notify
+from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.scene.errors import SceneError
@@ -99,13 +100,13 @@ def text_of(name: str, values: Sequence[str], found: Reduced, request: float) ->
     scene = load_scene(name, [set_value(value) for value in values])
     data: dict[str, Any] = scene.model_dump(exclude_unset=True, exclude_none=True)
     data.pop("name", None)  # that of the file
+    gone: list[Effect] = []
     for contact in rigs()[scene.rig].contacts:
         given = data["effects"].get(contact.name) or {}
         named = [each.name for each in contact.effects if is_on(found.scene, contact, each)]
-        for effect in contact.effects:
-            if effect.name in given and effect.name not in named:
-                drop_inputs(data, effect)
+        gone += [each for each in contact.effects if each.name in given and each.name not in named]
         data["effects"][contact.name] = {each: given.get(each, {}) for each in named}
+    drop_inputs(data, gone)
     for where, path in found.scene.files.items():
         section, key = where.split(".")
         if Path(data[section][key]).is_absolute() or (Path(scene.file).parent / data[section][key]).is_file():

@@ -23,7 +23,10 @@ from contact_sim_pkg.scene.schema.road import BumpRoad, CleatRoad, StepRoad
 __all__ = ["Landing", "SharpEdge", "edge_cautions", "landing_of", "refuse_high_walls", "sharp_edge"]
 
 CELLS = 3.0
-"""Cells along an edge: the cells do not place a shorter one, and forces err by that."""
+"""Cells along an edge or a whole obstacle: the cells do not place a shorter one, and forces err by that."""
+
+CELLS_OF_PEAK = 8.0
+"""Cells along a whole obstacle: on fewer of them the peak pressure is that of the cells."""
 
 CORNER = 0.015
 """Change of the road's slope at once, from which on the peak pressure is found there and grows with
@@ -36,6 +39,11 @@ distance). Largest peak of a tire of 3335 N over a ramp of 20 mm at 72, 144, 288
 PLACED = 3.5
 """[1/m] error of the largest force over the length of a cell: 7 a metre by which an edge is out of place
 (a kerb of 30 mm at 5 m/s), half a cell at most.
+"""
+
+OF_FORCE, OF_MOTION = 0.1, 0.3
+"""Errors by an obstacle of fewer than `CELLS` cells, which may stand on one cell more or less: bars of
+20 mm height and 4 to 12 mm length on cells of 3.75 mm err by 0.03 to 0.09 and 0.10 to 0.28.
 """
 
 CLIMBED, CLIMBED_HIGH, HIGHEST = 0.998, 0.95, 0.89
@@ -53,28 +61,35 @@ SPACING, MOST_PLACES = 1e-3, 2000
 
 
 class SharpEdge(NamedTuple):
-    """Corners of a road at which no grid determines the peak pressure."""
+    """Corners of a road, or an obstacle of few cells, at which the grid does not determine the peak
+    pressure.
+    """
 
-    length: float  # [m] of the flank between two of them
+    length: float  # [m] of the flank between two corners, or of the obstacle
     turn: float  # [1] change of the slope at each, as the cells see it
-    is_short: bool  # whether the cells place the flank only within half of one
+    is_short: bool  # whether the cells place it only within half of one
+    is_obstacle: bool = False  # whether it is the whole obstacle that has few cells
 
 
 def sharp_edge(scene: ResolvedScene, field: FieldSettings | None) -> SharpEdge | None:
-    """The corners of an obstacle on the cells of a field; None where there are none, or no field."""
+    """The corners of an obstacle on the cells of a field, or the obstacle where it has few of them; None
+    where there are none, or no field.
+    """
     road = scene.road
-    if road is None or field is None:
+    if road is None or field is None or road.kind not in ("bump", "step", "cleat", "pothole"):
         return None
-    if road.kind == "step":
-        length, height = road.length, abs(road.height)
-    elif road.kind == "cleat":
-        length, height = road.edge, abs(road.height)
-    elif road.kind == "pothole":
-        length, height = road.edge, road.depth
-    else:
+    height = road.depth if road.kind == "pothole" else abs(road.height)
+    flank = (
+        road.edge if road.kind in ("cleat", "pothole") else road.length if road.kind == "step" else 0.5 * road.length
+    )
+    turn, whole = height / max(flank, field.cell_x), math.inf if road.kind == "step" else road.length
+    if turn < CORNER:
         return None
-    turn = height / max(length, field.cell_x)
-    return None if turn < CORNER else SharpEdge(length, turn, length < CELLS * field.cell_x)
+    if whole < CELLS * field.cell_x:
+        return SharpEdge(whole, turn, is_short=True, is_obstacle=True)
+    if road.kind != "bump":
+        return SharpEdge(flank, turn, flank < CELLS * field.cell_x)
+    return SharpEdge(whole, turn, False, True) if whole < CELLS_OF_PEAK * field.cell_x else None
 
 
 def edge_cautions(scene: ResolvedScene, field: FieldSettings | None) -> tuple[str, ...]:
@@ -82,7 +97,17 @@ def edge_cautions(scene: ResolvedScene, field: FieldSettings | None) -> tuple[st
     edge = sharp_edge(scene, field)
     if edge is None or field is None:
         return ()
-    if edge.is_short:
+    if edge.is_obstacle:
+        cells = CELLS if edge.is_short else CELLS_OF_PEAK
+        sentence = (
+            "tire: its peak pressure on the obstacle of the road is not determined: the obstacle is "
+            f"{1e3 * edge.length:g} mm long, {cells:g} cells of effects.tire.contact_field are "
+            f"{1e3 * cells * field.cell_x:.3g} mm; "
+        ) + (
+            f"force and motion may err there by {OF_FORCE:g} and {OF_MOTION:g} of the largest; take more rows, or a shorter field"
+            if edge.is_short else "force and motion converge"
+        )  # fmt: skip
+    elif edge.is_short:
         sentence = (
             f"tire: its peak pressure on the edge of the road is not determined: the edge is {1e3 * edge.length:g} mm long, three "
             f"cells of effects.tire.contact_field are {1e3 * CELLS * field.cell_x:.3g} mm, and each finer grid finds a higher "
