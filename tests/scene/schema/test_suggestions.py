@@ -62,7 +62,8 @@ RULES = {
     ),
     "roller.speed": (
         "roller_corrugation",
-        {"roller.radius": HALF_MILLIMETRES, "roller.shaft_radius": HALF_MILLIMETRES, "roller.speed": st.floats(0.5, 500.0), "block_length": st.sampled_from([0.01, 0.05])},
+        {"roller.radius": HALF_MILLIMETRES, "roller.shaft_radius": HALF_MILLIMETRES,
+         "roller.speed": st.floats(0.5, 500.0), "block_length": st.sampled_from([0.01, 0.05])},
         "roller.speed", [("roller.speed", rf"take {NUMBER} 1/s"), ("block_length", rf"a block_length of {NUMBER} s")],
     ),
     "roller.radius": (
