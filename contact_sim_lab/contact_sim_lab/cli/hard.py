@@ -20,17 +20,19 @@ if TYPE_CHECKING:
 @click.option(
     "--effects", is_flag=True, help="Verdicts of `bench effects` instead: forty, beside what was expected of each."
 )
+@click.option("--regimes", is_flag=True, help="What each shipped scene is there to show instead: jams, slaps, grows, …")
 @json_option
 @click.pass_context
-def command(context: click.Context, accuracy: bool, effects: bool, as_json: bool) -> None:
+def command(context: click.Context, accuracy: bool, effects: bool, regimes: bool, as_json: bool) -> None:
     """Value, expectation, margin and verdict of each hard case; exit code 1 if one fails.
 
     With --accuracy fifteen hard scenes at four requests; exit code 1 if one errs by more than it
     requests in force or motion, and nothing names that. With --effects forty effects of scenes that
-    mislead a rule; exit code 1 if more than six verdicts are not the expected ones.
+    mislead a rule; exit code 1 if more than six verdicts are not the expected ones. With --regimes the
+    regime that each shipped scene expects, measured in a whole run; exit code 1 if one is missed.
     """
-    if accuracy and effects:
-        raise click.UsageError("--accuracy and --effects are two tables; give one of them")
+    if accuracy + effects + regimes > 1:
+        raise click.UsageError("--accuracy, --effects and --regimes are three tables; give one of them")
     found: Callable[[list[dict[str, Any]]], list[Section]]
     if accuracy:
         from contact_sim_lab.hard import accuracy_table
@@ -42,6 +44,11 @@ def command(context: click.Context, accuracy: bool, effects: bool, as_json: bool
 
         rows = effect_table.study(_tell)
         found, failed = effect_table.sections, effect_table.failed(rows)
+    elif regimes:
+        from contact_sim_lab.hard import regime_table
+
+        rows = regime_table.study(_tell)
+        found, failed = regime_table.sections, regime_table.failed(rows)
     else:
         from contact_sim_lab.hard import hard_cases
 

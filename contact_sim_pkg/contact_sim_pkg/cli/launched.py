@@ -135,12 +135,12 @@ class LaunchedRun:
         return hint
 
     def refuse_inaccurate(self) -> None:
-        """Raise RuntimeError where an error is estimated above the requested accuracy, as `--strict`
-        does.
+        """Raise RuntimeError where an error is estimated above the requested accuracy, or the scene
+        expects another regime, as `--strict` does.
         """
-        from contact_sim_pkg.compare.estimated import above
+        from contact_sim_pkg.cli.output.outcome import misses
         from contact_sim_pkg.report.summary import summarise
 
-        numbers = {} if self._bag is None else summarise(open_bag(self._bag)).get("accuracy")
-        if numbers and (beyond := above(numbers)):
-            raise RuntimeError(f"estimated above the requested accuracy: {', '.join(beyond)}")
+        found = [] if self._bag is None else misses(summarise(open_bag(self._bag)))
+        if found:
+            raise RuntimeError("; ".join(found))

@@ -29,7 +29,8 @@ from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
 @click.option(
     "--strict",
     is_flag=True,
-    help="End with status 1 where an estimated numerical error is above the requested accuracy.",
+    help="End with status 1 where an estimated numerical error is above the requested accuracy, or the scene expects what"
+    " the run does not show.",
 )
 @click.option("--no-record", is_flag=True, help="Write no bag; the summary is then empty.")
 @click.option("--check", is_flag=True, help="Then check the accuracy that was delivered, as `bench accuracy BAG`.")

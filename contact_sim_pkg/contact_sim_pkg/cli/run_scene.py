@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 from contact_sim_pkg.bag.names import new_directory
 from contact_sim_pkg.cli.main import BEGAN
 from contact_sim_pkg.cli.output.checked import check_of_run, facts_of_check, lines_of_check
-from contact_sim_pkg.cli.output.outcome import describe, print_outcome, state_of
+from contact_sim_pkg.cli.output.outcome import describe, misses, print_outcome, state_of
 from contact_sim_pkg.cli.output.progress import RunDisplay
 from contact_sim_pkg.cli.output.tables import print_json
 from contact_sim_pkg.cli.scene_options import SceneOptions
@@ -153,14 +153,7 @@ def _report_outcome(
         print_outcome(facts, ended, lines_of_check(checked))
     if hint:
         print(f"bench: {hint}", file=sys.stderr)
-    return ended.exit_status or int(strict and _is_inaccurate(facts))
-
-
-def _is_inaccurate(facts: dict[str, Any]) -> bool:
-    from contact_sim_pkg.compare.estimated import above
-
-    numbers = facts["summary"].get("accuracy")
-    return bool(numbers) and bool(above(numbers))
+    return ended.exit_status or int(strict and bool(misses(facts["summary"])))
 
 
 def _leave_metadata(scene: ResolvedScene, ended: RunEnd) -> str:

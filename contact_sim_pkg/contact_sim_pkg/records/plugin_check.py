@@ -27,7 +27,7 @@ __all__ = ["RESERVED", "fault_of_place", "faults_of_effects", "faults_of_rig", "
 RESERVED = frozenset(
     {
         "name", "description", "rig", "duration", "seed", "pace", "block_length", "accuracy", "plugins", "travel", "road",
-        "slip", "vibration", "effects", "outputs", "integrator", "limits", "bench", "platform",
+        "slip", "vibration", "effects", "expect", "outputs", "integrator", "limits", "bench", "platform",
     }
 )  # fmt: skip
 """Names that no contact has: keys of a scene, and what the bench's own topics begin with."""
@@ -46,7 +46,8 @@ def places_of_rig(rig: Rig) -> Iterator[str]:
 
 def _places_of_rig_alone(rig: Rig) -> Iterator[str]:
     single = (rig.simulation, rig.road_strip, rig.work, rig.other_half, rig.forecast, rig.standing, rig.events)
-    return (place for place in (*single, *rig.report, *rig.rules) if place)
+    measures = (each.measure for each in rig.regimes)
+    return (place for place in (*single, *rig.report, *rig.rules, *measures) if place)
 
 
 def places_of_effects(effects: Iterable[Effect]) -> Iterator[str]:

@@ -20,8 +20,8 @@ from contact_sim_pkg.records.rig import PluginError, Rig, load
 from contact_sim_pkg.records.topic import COMMON, Topic, recorded_topic
 
 __all__ = [
-    "contact_reports", "contact_topics", "contacts", "effects", "plugins_of", "refused_sections", "rig_names", "rigs",
-    "shipped_scenes",
+    "contact_reports", "contact_topics", "contacts", "effects", "plugins_of", "refused_sections", "regime_names", "rig_names",
+    "rigs", "shipped_scenes",
 ]  # fmt: skip
 
 _log = logging.getLogger(__name__)
@@ -103,6 +103,11 @@ def plugins_of(rig: str, effects_by_contact: Mapping[str, Iterable[str]]) -> lis
 def rig_names() -> tuple[str, ...]:
     """Names of all rigs."""
     return tuple(rigs())
+
+
+def regime_names() -> tuple[str, ...]:
+    """Names of the regimes of all rigs, each once."""
+    return tuple(dict.fromkeys(regime.name for rig in rigs().values() for regime in rig.regimes))
 
 
 @cache

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from contact_sim_pkg.files import RefusedError, printable
 from contact_sim_pkg.records.contact import Contact
+from contact_sim_pkg.records.regime import Regime
 
 __all__ = ["BRINGERS", "PluginError", "Rig", "Standing", "TouchedBody", "load"]
 
@@ -74,6 +75,7 @@ class Rig:
             scales of its errors; empty: unknown, and nothing rests on a contact.
         events: ``module:function`` of a resolved scene -> names and instants [s] of what the scene
             itself prescribes: largest slip, torque; empty: nothing.
+        regimes: what its scenes may expect of a run; a word that another rig has as well means the same.
         kernels: about how many kernels its richest scene compiles at its first start; 0: unknown.
     """
 
@@ -94,6 +96,7 @@ class Rig:
     rules: tuple[str, ...] = ()
     standing: str = ""
     events: str = ""
+    regimes: tuple[Regime, ...] = ()
     kernels: int = 0
 
 

@@ -15,7 +15,8 @@ from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.compare.estimated import accuracy_numbers
 from contact_sim_pkg.report.energy import relative_residual, throughput
 from contact_sim_pkg.report.metrics.listing import metrics_of
-from contact_sim_pkg.report.metrics.views import rows_of
+from contact_sim_pkg.report.metrics.regimes import expected
+from contact_sim_pkg.report.metrics.views import row_of, rows_of
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.rig_reports import ledger_scope, rig_warnings
 from contact_sim_pkg.report.series import CostSeries, LedgerSeries, Recording
@@ -33,7 +34,7 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     where a number is not defined.
 
     Sections that the run does not have are absent: `energy` without a ledger, `solver` without cost
-    messages, `warnings` where there is nothing to warn of.
+    messages, `warnings` where there is nothing to warn of, `expected` where the scene expects nothing.
     """
     summary: dict[str, Any] = {
         "scene": recording.scene.get("name"),
@@ -44,6 +45,8 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     # Sections by what the recording holds
     if warnings := rig_warnings(recording):
         summary["warnings"] = warnings
+    if regime := expected(recording):
+        summary["expected"] = row_of(regime)
     if recording.ledger is not None:
         summary["energy"] = energy_numbers(recording.ledger) | _scope(recording)
     if recording.cost is not None:

@@ -95,7 +95,7 @@ def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:
         bag.refuse_other_definition(topic)
         first, count = next(bag.messages(topic), None), bag.count(topic)
         if first is None or count < blocks:
-            cure = f"; ask for --duration {count * scene.block_length:g}" if count else ""
+            cure = f"; ask for --duration {count * scene.block_length:.12g}" if count else ""
             raise BagError(f"{path}: {topic} holds {count} blocks, the scene needs {blocks}{cure}")
         _refuse_misfit(path, topic, _decoded(path, topic, first.data), scene)
 

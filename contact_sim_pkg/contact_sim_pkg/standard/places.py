@@ -37,6 +37,7 @@ class Places(NamedTuple):
     radius: float = 0.0  # [m] of the tire, free; 0 without a tire
     width: float = 0.0  # [m] of the tire
     travel: Travel | None = None
+    foam_back: bool = False  # the map of a seat back of foam counts x from its lower edge, others from its middle
 
     def travelled(self, stamp: int) -> float:
         """Way [m] of the rig along the road at a stamp [ns]."""
@@ -63,7 +64,8 @@ class Places(NamedTuple):
         if contact == "seat":
             return floor, (0.0, 0.0, SEAT_HEIGHT), LEVEL
         if contact == "backrest":
-            return floor, (-BACK, 0.0, SEAT_HEIGHT + OCCUPANT_STEP), BACKREST_TURN
+            height = SEAT_HEIGHT + (0.0 if self.foam_back else OCCUPANT_STEP)  # the lower edge is level with the seat
+            return floor, (-BACK, 0.0, height), BACKREST_TURN
         return BASE, bodies.get(contact, (0.0, 0.0, 0.0)), LEVEL
 
 
@@ -82,9 +84,10 @@ def places_of(scene: Mapping[str, Any]) -> Places:
 def _places_of(scene: Mapping[str, Any]) -> Places:
     resolved = ResolvedScene(dict(scene))
     travel = None if resolved.travel is None else make_travel(resolved)
-    effects = (scene.get("effects") or {}).get("tire")
+    of_contacts = scene.get("effects") or {}
+    effects, back = of_contacts.get("tire"), of_contacts.get("backrest") or {}
     if effects is None:
-        return Places(travel=travel)
+        return Places(travel=travel, foam_back=back.get("cushion") is not None)
     inflation = effects.get("inflation")
     if inflation:
         size = read_size(str(inflation["size"]))

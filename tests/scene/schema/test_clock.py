@@ -28,7 +28,7 @@ THOUSAND = {"force_rate": 1000.0, "display_rate": 1000.0, "field_rate": 1000.0}
         ({"duration": 0.300000001}, "duration", "0.3 and 0.31 s"),
         ({"outputs": {"field_rate": 150.0}}, "outputs.field_rate", "100 and 200 Hz"),
         ({"outputs": {"field_rate": 50.0}}, "outputs.field_rate", "100 Hz"),
-        ({"outputs": {"display_rate": 300.0}}, "outputs.display_rate", "200 and 400 Hz"),
+        ({"outputs": {"display_rate": 300.0}}, "outputs.display_rate", "200 and 500 Hz"),
         ({"outputs": {"force_rate": 1001.0}}, "outputs.force_rate", "1000 and 1600 Hz"),
         ({"outputs": {"field_rate": 400.0}}, "outputs.force_rate", "800 and 1600 Hz"),
         ({"outputs": {"display_rate": 400.0}}, "outputs.force_rate", "800 and 1600 Hz"),

@@ -73,6 +73,21 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
     }
 
 
+def misses(summary: dict[str, Any]) -> list[str]:
+    """What `--strict` makes a failure: each error estimated above the request, and a regime that the scene expects
+    and the run does not show.
+    """
+    from contact_sim_pkg.compare.estimated import above
+    from contact_sim_pkg.records.metric import OUTSIDE
+
+    numbers, expected = summary.get("accuracy"), summary.get("expected")
+    beyond = above(numbers) if numbers else []
+    found = [f"estimated above the requested accuracy: {', '.join(beyond)}"] if beyond else []
+    if expected and expected["verdict"] == OUTSIDE:
+        found.append(f"the scene expects {expected['key'].partition('.')[2]}, which the run does not show")
+    return found
+
+
 def state_of(scene: ResolvedScene, outcome: Outcome) -> str:
     """`failed`, `stopped` (by the user, or by the end of the recording) or `finished`, as in the
     bag.
@@ -116,6 +131,11 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome, checked: Iterable[str
     for line in checked:
         click.echo(f"  {line}")
     _echo_metrics(summary.get("metrics", []))
+    if row := summary.get("expected"):
+        from contact_sim_pkg.report.metrics.regimes import line_of
+        from contact_sim_pkg.report.metrics.views import metric_of
+
+        click.echo(f"expected: {line_of(metric_of(row))}")
     if facts["bag"] is not None:
         click.echo(f"bag: {facts['bag']}")
 

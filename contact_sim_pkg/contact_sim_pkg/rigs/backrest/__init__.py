@@ -3,6 +3,7 @@
 from typing import Any
 
 from contact_sim_pkg.records.contact import Contact
+from contact_sim_pkg.records.regime import LIFTS_OFF, STAYS, Regime
 from contact_sim_pkg.records.rig import Rig, Standing, TouchedBody
 from contact_sim_pkg.records.topic import FORCE, PATCH, POINTS, WRENCH
 from contact_sim_pkg.rigs.backrest.effects import BACKREST_EFFECTS
@@ -29,6 +30,18 @@ def standing(scene: dict[str, Any]) -> Standing:
     )
 
 
+_MEASURES = f"{__name__}.report.regimes"
+REGIMES = (
+    Regime(name="slaps", measure=f"{_MEASURES}:slaps", at_least=1.0, help="contacts that began with a touch"),
+    Regime(
+        name="slips", measure=f"{_MEASURES}:slipping", unit="%", at_least=1.0,
+        help="time in which the back slips while it keeps contact",
+    ),
+    Regime(name="is_struck", measure=f"{_MEASURES}:struck", at_least=2.0, help="largest load over that at the start"),
+    STAYS,
+    LIFTS_OFF,
+)  # fmt: skip
+
 RIGS = (
     Rig(
         name="backrest",
@@ -41,6 +54,7 @@ RIGS = (
         standing=f"{__name__}:standing",
         work=f"{__name__}.work:work_of_backrest",
         report=(f"{__name__}.report:BACKREST_REPORT",),
+        regimes=REGIMES,
         unused_axes=lambda _effects: "z",
     ),
 )

@@ -3,6 +3,7 @@
 from typing import Any
 
 from contact_sim_pkg.records.contact import LOOSEST_INTEGRATION, Contact
+from contact_sim_pkg.records.regime import LIFTS_OFF, STAYS, Regime
 from contact_sim_pkg.records.rig import Rig, Standing, TouchedBody
 from contact_sim_pkg.records.topic import FORCE, POINTS, WRENCH
 from contact_sim_pkg.rigs.body.effects import BLOCK_EFFECTS
@@ -37,6 +38,30 @@ def standing(scene: dict[str, Any]) -> Standing:
     )
 
 
+_MEASURES = f"{__name__}.report.regimes"
+REGIMES = (
+    Regime(
+        name="jams", measure=f"{_MEASURES}:jam", at_most=0.01,
+        help="slip behind the first contact over that before, where no sliding motion exists",
+    ),
+    Regime(
+        name="sticks", measure=f"{_MEASURES}:sticking", unit="s", at_least=0.0,
+        help="instant from which friction holds the body at rest",
+    ),
+    Regime(
+        name="rests", measure=f"{_MEASURES}:rest", unit="s", at_least=0.0, help="instant from which the body rests"
+    ),
+    Regime(
+        name="bounces", measure=f"{_MEASURES}:bounces", at_least=2.0, help="contacts, with flights between them"
+    ),
+    Regime(
+        name="tumbles", measure=f"{_MEASURES}:tumbling", unit="rad", at_least=1.5707963267948966,
+        help="angle turned through from the first contact to rest",
+    ),
+    STAYS,
+    LIFTS_OFF,
+)  # fmt: skip
+
 RIGS = (
     Rig(
         name="block",
@@ -56,5 +81,6 @@ RIGS = (
         other_half=f"{__name__}.simulation:warm_up_solvers",
         work=f"{__name__}.work:work_of_block",
         report=(f"{__name__}.report:BLOCK_REPORT",),
+        regimes=REGIMES,
     ),
 )

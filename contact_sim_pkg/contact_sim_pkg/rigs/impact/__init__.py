@@ -3,6 +3,7 @@
 from typing import Any
 
 from contact_sim_pkg.records.contact import Contact
+from contact_sim_pkg.records.regime import LIFTS_OFF, Regime
 from contact_sim_pkg.records.rig import Rig, Standing, TouchedBody
 from contact_sim_pkg.records.topic import FORCE, WRENCH, ContactTopic
 from contact_sim_pkg.rigs.impact.effects import IMPACT_EFFECTS
@@ -39,6 +40,24 @@ def standing(scene: dict[str, Any]) -> Standing:
     return Standing({"impact": load}, {"sphere_z": TouchedBody("impact", sphere["mass"])})
 
 
+_MEASURES = f"{__name__}.report.regimes"
+REGIMES = (
+    Regime(name="strikes", measure=f"{_MEASURES}:blows", at_least=2.0, help="impacts"),
+    Regime(
+        name="comes_to_rest", measure=f"{_MEASURES}:decay", at_most=1e-3,
+        help="largest speed in the last tenth of the run over that of the first impact",
+    ),
+    Regime(
+        name="rebounds", measure=f"{_MEASURES}:brief_contacts", at_most=1e-3,
+        help="longest contact over the flight behind it",
+    ),
+    Regime(
+        name="softens", measure=f"{_MEASURES}:softening", at_least=1.1,
+        help="contact time at the highest over that at the lowest temperature",
+    ),
+    LIFTS_OFF,
+)  # fmt: skip
+
 RIGS = (
     Rig(
         name="impact",
@@ -48,5 +67,6 @@ RIGS = (
         simulation=f"{__name__}.simulation:ImpactSimulation",
         standing=f"{__name__}:standing",
         report=(f"{__name__}.report:IMPACT_REPORT",),
+        regimes=REGIMES,
     ),
 )

@@ -9,7 +9,7 @@ from itertools import pairwise
 from contact_sim_pkg.rigs.impact.schema import ImpactSection
 from contact_sim_pkg.rigs.impact.schema_effects import Shift
 from contact_sim_pkg.scene.errors import Breach
-from contact_sim_pkg.scene.schema.catalog import show
+from contact_sim_pkg.scene.schema.catalog import show, show_below
 from contact_sim_pkg.scene.schema.scene import Scene
 
 
@@ -30,7 +30,7 @@ def impact_breaches(scene: Scene) -> Iterator[Breach]:
             if speed > most:
                 sentence = (
                     f"{show(speed)} m/s is more than a pendulum of {show(impact.arm)} m reaches from the horizontal, "
-                    f"{most:.4g} m/s; take a longer arm"
+                    f"{show_below(most, 4)} m/s; take a longer arm"
                 )
                 yield Breach(f"impact.speeds.{index}", sentence, ("impact.arm",))
     if shift is not None:

@@ -1,5 +1,6 @@
 """Occupant on a cushion and against a seat back under one body. Rig occupant."""
 
+from contact_sim_pkg.records.regime import LIFTS_OFF, STAYS
 from contact_sim_pkg.records.rig import Rig
 from contact_sim_pkg.rigs.backrest import BACKREST
 from contact_sim_pkg.rigs.vehicle import SEAT
@@ -21,6 +22,7 @@ RIGS = (
             "contact_sim_pkg.rigs.backrest.report:BACKREST_REPORT",
         ),
         standing="contact_sim_pkg.rigs.vehicle.lattice:standing",
+        regimes=(STAYS, LIFTS_OFF),
         rules=(f"{__name__}.schema_rules:leaning_breaches",),
     ),
 )

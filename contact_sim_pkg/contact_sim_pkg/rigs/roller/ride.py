@@ -82,8 +82,9 @@ class TrackRide:
         self.acceleration = model.acceleration
         self.tracks = make_tracks(model)
         self.cells = max(len(each.heights) for each in self.tracks)
-        self.interval_time = max(each.turn_time for each in self.tracks)
-        self.intervals_a_block = round(model.timing.block_length / self.interval_time)
+        # A block holds whole turns, to the rounding that the scene's rules allow
+        self.intervals_a_block = round(model.timing.block_length / max(each.turn_time for each in self.tracks))
+        self.interval_time = model.timing.block_length / self.intervals_a_block
         self.intervals = 0
         self.state, self.loads = numpy.zeros(4), numpy.zeros(self.cells)
         self.motion = numpy.zeros((self.cells, 2))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import pairwise
+from itertools import islice, pairwise
 
 from contact_sim_pkg.rigs.roller.schema import (
     RollerElastic,
@@ -15,11 +15,14 @@ from contact_sim_pkg.rigs.roller.schema import (
     TrackWaves,
 )
 from contact_sim_pkg.scene.errors import Breach
-from contact_sim_pkg.scene.schema.catalog import show
-from contact_sim_pkg.scene.schema.clock import exact
+from contact_sim_pkg.scene.schema.catalog import show, show_below
+from contact_sim_pkg.scene.schema.clock import clock_breaches, exact, snapped
 from contact_sim_pkg.scene.schema.scene import Scene
+from contact_sim_pkg.scene.schema.suggested import allows
 
 RADII = ("profile_radius", "rolling_radius", "shaft_radius", "shaft_profile_radius")
+MOST_TURNS = 21
+"""In a block that is suggested, less one."""
 COLUMNS = ("load", "bending_load", *RADII)
 
 
@@ -30,10 +33,10 @@ def roller_breaches(scene: Scene) -> Iterator[Breach]:
     roller, law, waves = scene.section(RollerRig), _law(scene), scene.effect("roller", TrackWaves)
     # The inertia tensor is positive definite.
     if not roller.inertia_product**2 < roller.inertia_tilt * roller.inertia_yaw:
-        most = math.sqrt(roller.inertia_tilt * roller.inertia_yaw)
+        most = show_below(math.sqrt(roller.inertia_tilt * roller.inertia_yaw), 6)
         sentence = (
-            f"{show(roller.inertia_product)} kg m^2 is too large: its square must be below I_y I_z, give one between "
-            f"-{most:.6g} and {most:.6g} kg m^2"
+            f"{show(roller.inertia_product)} kg m^2 is too large: its square must be below I_y I_z, give one from "
+            f"-{most} to {most} kg m^2"
         )
         yield Breach("roller.inertia_product", sentence, ("roller.inertia_tilt", "roller.inertia_yaw"))
     if law.split == "parallel" and scene.effect("roller", ShaftBending) is None:
@@ -96,7 +99,7 @@ def _track(scene: Scene, roller: RollerRig, waves: TrackWaves) -> Iterator[Breac
         )
         sentence += "leave track_waves out"
         yield Breach("effects.roller.normal_elastic.split", sentence, ("effects.roller.track_waves",))
-    yield from _whole_turns(scene, roller, waves.track)
+    yield from list(_radii(scene)) or _whole_turns(scene)
     # The heave over heights has one contact: only loads may change.
     programme = roller.programme
     for name in RADII:
@@ -105,30 +108,46 @@ def _track(scene: Scene, roller: RollerRig, waves: TrackWaves) -> Iterator[Breac
             yield Breach(f"roller.programme.{name}", sentence, ("effects.roller.track_waves",))
 
 
-def _whole_turns(scene: Scene, roller: RollerRig, track: str) -> Iterator[Breach]:
-    """Of the track, or of the larger body where both have one; that one is then a whole multiple of
-    the other.
-    """
-    radii = {"shaft": exact(roller.shaft_radius), "roller": exact(roller.radius)}
-    # A turn of both bodies is one of the larger.
-    if track == "both":
-        ratio = max(radii.values()) / min(radii.values())
-        if ratio.denominator != 1:
-            sentence = (
-                f"the radii of roller and shaft are as {float(ratio):.6g} to 1; with a track on both it must be a whole number, "
-                f"take {show(float(round(ratio) * min(radii.values())))} m for the larger"
-            )
-            yield Breach("roller.radius", sentence, ("roller.shaft_radius", "effects.roller.track_waves.track"))
-            return
-    # In exact fractions, so that a whole number is one.
-    body = max(radii, key=lambda name: radii[name]) if track == "both" else track
-    rate = exact(roller.radius) / radii[body] * exact(scene.block_length)
-    turns = exact(roller.speed) * rate
-    if turns.denominator != 1:
-        speed = max(1, round(turns)) / rate
+def _radii(scene: Scene) -> Iterator[Breach]:
+    """Where both bodies have a track, the radius of the larger is a whole multiple of the other."""
+    roller, waves = scene.section(RollerRig), scene.effect("roller", TrackWaves)
+    if waves is None or waves.track != "both":
+        return
+    radii = {"roller.radius": exact(roller.radius), "roller.shaft_radius": exact(roller.shaft_radius)}
+    key = max(radii, key=lambda name: radii[name])
+    less = min(radii.values())
+    ratio = snapped(radii[key] / less)
+    if ratio.denominator != 1:
+        larger = float(round(ratio) * less)
+        cure = f", take {show(larger)} m for the larger" if allows(scene, key, float(show(larger)), _radii) else ""
         sentence = (
-            f"{show(roller.speed)} 1/s turns the {body} {float(turns):.6g} times in a block of {show(scene.block_length)} s; with "
-            f"track_waves it must be a whole number: take {float(speed):.10g} 1/s, or a block_length that is a multiple of "
-            f"{float(exact(scene.block_length) / turns.numerator * turns.denominator):.10g} s"
+            f"the radii of roller and shaft are as {float(ratio):.6g} to 1; with a track on both it must be a whole "
+            f"number{cure}"
         )
-        yield Breach("roller.speed", sentence, ("block_length", "roller.radius", "roller.shaft_radius"))
+        yield Breach("roller.radius", sentence, ("roller.shaft_radius", "effects.roller.track_waves.track"))
+
+
+def _whole_turns(scene: Scene) -> Iterator[Breach]:
+    """A block holds whole turns of the track, or of the larger body where both have one."""
+    roller, waves = scene.section(RollerRig), scene.effect("roller", TrackWaves)
+    if waves is None or roller.speed == 0.0:
+        return
+    radii = {"shaft": exact(roller.shaft_radius), "roller": exact(roller.radius)}
+    body = max(radii, key=lambda name: radii[name]) if waves.track == "both" else waves.track
+    block = exact(scene.block_length)
+    rate = exact(roller.radius) / radii[body]  # turns of the body for one of the roller
+    turns = snapped(exact(roller.speed) * rate * block)
+    if turns.denominator == 1 and turns > 0:
+        return
+    speeds = (float(show(float(count / rate / block))) for count in (max(1, round(turns)),))
+    cures = [f"take {show(speed)} 1/s" for speed in speeds if allows(scene, "roller.speed", speed, _whole_turns)]
+    # the shortest blocks that hold whole turns and samples
+    turn = float(1 / (exact(roller.speed) * rate))
+    blocks = (float(show(count * turn)) for count in range(1, MOST_TURNS))
+    fit = (each for each in blocks if allows(scene, "block_length", each, _whole_turns, clock_breaches))
+    cures += [f"a block_length of {show(each)} s" for each in islice(fit, 1)]
+    sentence = (
+        f"{show(roller.speed)} 1/s turns the {body} {float(turns):.6g} times in a block of {show(scene.block_length)} s; with "
+        f"track_waves it must be a whole number{': ' if cures else ''}{', or '.join(cures)}"
+    )
+    yield Breach("roller.speed", sentence, ("block_length", "roller.radius", "roller.shaft_radius"))

@@ -1,6 +1,7 @@
 """Quarter car and seat, alone or together: rigs tire, seat and car."""
 
 from contact_sim_pkg.records.contact import Contact
+from contact_sim_pkg.records.regime import LIFTS_OFF, STAYS, Regime
 from contact_sim_pkg.records.rig import Rig
 from contact_sim_pkg.records.topic import FIELD, FORCE, PATCH, WRENCH, ContactTopic
 from contact_sim_pkg.rigs.vehicle.seat.effects import SEAT_EFFECTS
@@ -49,6 +50,35 @@ _ROAD_STRIP = f"{__name__}.lattice:road_strip"
 _STANDING = f"{__name__}.lattice:standing"
 _EVENTS = f"{__name__}.tire.effects:prescribed_events"
 
+_MEASURES = f"{__name__}.tire.report.regimes"
+TIRE_REGIMES = (
+    STAYS,
+    LIFTS_OFF,
+    Regime(
+        name="locks", measure=f"{_MEASURES}:locking", unit="s", at_least=0.05,
+        help="time in which the wheel stands still and the whole footprint slides",
+    ),
+    Regime(
+        name="rings", measure=f"{_MEASURES}:ringing", unit="Hz", at_least=15.0,
+        help="frequency of the force along the road behind an obstacle",
+    ),
+    Regime(
+        name="shakes", measure=f"{_MEASURES}:shaking", at_least=0.05, help="standard deviation of the load over the load at rest"
+    ),
+    Regime(
+        name="is_elliptic", measure=f"{_MEASURES}:ellipse", at_least=1.9, at_most=2.1,
+        help="Lamé exponent of the footprint, 2 for an ellipse",
+    ),
+    Regime(
+        name="bears_on_peaks", measure=f"{_MEASURES}:unevenness", at_least=2.0,
+        help="peak over mean pressure about the load at rest",
+    ),
+    Regime(
+        name="is_pushed", measure=f"{_MEASURES}:pushing", at_least=0.01,
+        help="largest force of the road's asperities over the load at rest",
+    ),
+)  # fmt: skip
+
 RIGS = (
     Rig(
         name="tire",
@@ -71,6 +101,7 @@ RIGS = (
         other_half=_OTHER_HALF,
         work=f"{__name__}.work:work_of_tire",
         report=(_TIRE_REPORT,),
+        regimes=TIRE_REGIMES,
         road_strip=_ROAD_STRIP,
         standing=_STANDING,
         events=_EVENTS,
@@ -86,6 +117,7 @@ RIGS = (
         other_half=_OTHER_HALF,
         work=f"{__name__}.work:work_of_seat",
         report=(_SEAT_REPORT,),
+        regimes=(STAYS, LIFTS_OFF),
         unused_axes=lambda effects: "x" if effects["seat"].get("friction") is None else "",
         standing=_STANDING,
     ),
@@ -101,6 +133,7 @@ RIGS = (
         other_half=_OTHER_HALF,
         work=f"{__name__}.work:work_of_car",
         report=(_TIRE_REPORT, _SEAT_REPORT),
+        regimes=TIRE_REGIMES,
         road_strip=_ROAD_STRIP,
         standing=_STANDING,
         events=_EVENTS,

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import types
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -61,6 +62,12 @@ class Entry:
 def show(value: Any) -> str:
     """A number as a person would write it."""
     return f"{value:.12g}" if isinstance(value, float) else str(value)
+
+
+def show_below(value: float, digits: int) -> str:
+    """A number above 0, rounded towards 0: what is suggested below a bound lies below it."""
+    step = 10.0 ** (math.floor(math.log10(value)) - digits + 1)
+    return f"{math.floor(value / step * (1.0 - 1e-12)) * step:.{digits}g}"
 
 
 @cache

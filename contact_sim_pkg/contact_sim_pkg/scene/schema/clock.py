@@ -8,15 +8,18 @@ blocks that it is meant to be.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
+from itertools import chain, islice
 
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.scene import Scene
+from contact_sim_pkg.scene.schema.suggested import allows
 
+Rule = Callable[[Scene], Iterable[Breach]]
 NANOSECONDS = 10**9
-LONGEST_DURATION = 3600
-ROUNDED = Fraction(1, 10**9)  # of a whole number of blocks: a duration this near to it is rounded
+ROUNDED = Fraction(1, 10**9)  # of a whole number, of blocks or turns: what is this near to it is rounded
+TRIED = 20  # rates next to the given one, from which the nearest that every rule allows is taken
 
 
 def exact(value: float) -> Fraction:
@@ -30,47 +33,46 @@ def whole_duration(scene: Scene) -> float:
     return float(_blocks(scene) * exact(scene.block_length))
 
 
+def snapped(count: Fraction) -> Fraction:
+    """A whole number, unless the count is further than ROUNDED from it."""
+    whole = round(count)
+    return Fraction(whole) if abs(count - whole) <= ROUNDED * whole else count
+
+
 def _blocks(scene: Scene) -> Fraction:
-    """Blocks in the duration: a whole number, unless the duration is further than ROUNDED from
-    it.
-    """
-    blocks = exact(scene.duration) / exact(scene.block_length)
-    whole = round(blocks)
-    return Fraction(whole) if abs(blocks - whole) <= ROUNDED * whole else blocks
+    """Blocks in the duration."""
+    return snapped(exact(scene.duration) / exact(scene.block_length))
 
 
 def clock_breaches(scene: Scene) -> Iterator[Breach]:
     """Block length, duration and rates that do not fit; each with the nearest allowed values."""
+    faults = list(_block(scene))
+    yield from faults or chain(_duration(scene), _rates(scene), _vibration(scene))
+
+
+def _block(scene: Scene) -> Iterator[Breach]:
     nanoseconds = exact(scene.block_length) * NANOSECONDS
     if nanoseconds.denominator != 1:
         below = nanoseconds.numerator // nanoseconds.denominator
-        near = " and ".join(_decimal(Fraction(n, NANOSECONDS)) for n in (below, below + 1))
-        yield Breach(
-            "block_length",
-            f"{scene.block_length!r} s is not a whole number of nanoseconds; nearest allowed are {near} s",
-        )
-        return
-    yield from _duration(scene)
-    block = int(nanoseconds)
-    yield from _rates(scene, block)
-    if scene.vibration is not None:
-        yield from _rate(scene.vibration.sample_rate, "vibration.sample_rate", block)
+        near = [Fraction(n, NANOSECONDS) for n in (below, below + 1)]
+        sentence = f"{scene.block_length!r} s is not a whole number of nanoseconds"
+        yield Breach("block_length", sentence + _nearest(scene, "block_length", near, "s", _block))
 
 
 def _duration(scene: Scene) -> Iterator[Breach]:
     block, blocks = exact(scene.block_length), _blocks(scene)
     if blocks.denominator != 1:
         whole = int(blocks)
-        near = [_decimal(n * block) for n in (whole, whole + 1) if 0 < n * block <= LONGEST_DURATION]
-        sentence = f"{scene.duration!r} s is not a whole number of blocks of {_decimal(block)} s; {_nearest(near, 's')}"
-        yield Breach("duration", sentence, ("block_length",))
+        sentence = f"{scene.duration!r} s is not a whole number of blocks of {_decimal(block)} s"
+        near = _nearest(scene, "duration", [whole * block, (whole + 1) * block], "s", _duration)
+        yield Breach("duration", sentence + near, ("block_length",))
 
 
-def _rates(scene: Scene, block: int) -> Iterator[Breach]:
-    outputs = scene.outputs
+def _rates(scene: Scene) -> Iterator[Breach]:
+    outputs, block = scene.outputs, int(exact(scene.block_length) * NANOSECONDS)
     faulty = False
     for name in ("force_rate", "display_rate", "field_rate"):
-        for breach in _rate(getattr(outputs, name), f"outputs.{name}", block):
+        for breach in _rate(scene, getattr(outputs, name), f"outputs.{name}", _rates):
             faulty = True
             yield breach
     if faulty:
@@ -78,36 +80,39 @@ def _rates(scene: Scene, block: int) -> Iterator[Breach]:
     for name in ("display_rate", "field_rate"):
         slow, fast = exact(getattr(outputs, name)), exact(outputs.force_rate)
         if (fast / slow).denominator != 1:
-            near = _near_multiples(int(slow * block / NANOSECONDS), fast, block)
-            sentence = f"{_decimal(fast)} Hz is not a multiple of {name} ({_decimal(slow)} Hz); {_nearest(near, 'Hz')}"
-            yield Breach("outputs.force_rate", sentence, (f"outputs.{name}", "block_length"))
+            where = "outputs.force_rate"
+            near = _nearest_rates(scene, where, fast * block / NANOSECONDS, _rates)
+            sentence = f"{_decimal(fast)} Hz is not a multiple of {name} ({_decimal(slow)} Hz)"
+            yield Breach(where, sentence + near, (f"outputs.{name}", "block_length"))
 
 
-def _rate(rate: float, where: str, block: int) -> Iterator[Breach]:
+def _vibration(scene: Scene) -> Iterator[Breach]:
+    if scene.vibration is not None:
+        yield from _rate(scene, scene.vibration.sample_rate, "vibration.sample_rate", _vibration)
+
+
+def _rate(scene: Scene, rate: float, where: str, rule: Rule) -> Iterator[Breach]:
+    block = int(exact(scene.block_length) * NANOSECONDS)
     samples = exact(rate) * block / NANOSECONDS
     length = f"a block of {_decimal(Fraction(block, NANOSECONDS))} s"
     if samples.denominator == 1 and block % int(samples) == 0:
         return
-    near = _near(divisors(block), samples, block)
+    near = _nearest_rates(scene, where, samples, rule)
     if samples.denominator != 1:
         what = f"gives {_decimal(samples)} samples in {length}, a whole number is needed"
     else:
         what = f"gives {int(samples)} samples in {length}, which are no whole number of nanoseconds apart"
-    yield Breach(where, f"{rate!r} Hz {what}; {_nearest(near, 'Hz')}", ("block_length",))
+    yield Breach(where, f"{rate!r} Hz {what}{near}", ("block_length",))
 
 
-def _near_multiples(step: int, rate: Fraction, block: int) -> list[str]:
-    samples = rate * block / NANOSECONDS
-    return _near([count for count in divisors(block) if count % step == 0], samples, block)
-
-
-def _near(counts: list[int], samples: Fraction, block: int) -> list[str]:
-    """The rates next below and above that can be written as a decimal number."""
-    rates = [(count, Fraction(count * NANOSECONDS, block)) for count in counts]
-    exact_rates = [(count, rate) for count, rate in rates if Fraction(_decimal(rate)) == rate]
-    below = [rate for count, rate in exact_rates if count < samples][-1:]
-    above = [rate for count, rate in exact_rates if count > samples][:1]
-    return [_decimal(rate) for rate in (*below, *above)]
+def _nearest_rates(scene: Scene, where: str, samples: Fraction, rule: Rule) -> str:
+    """The rates next below and above ``samples`` a block that the rule allows, as `_nearest` words them."""
+    block = int(exact(scene.block_length) * NANOSECONDS)
+    counts = divisors(block)
+    below = [Fraction(count * NANOSECONDS, block) for count in reversed(counts) if count < samples]
+    above = [Fraction(count * NANOSECONDS, block) for count in counts if count > samples]
+    near = [rate for side in (below, above) for rate in islice(_allowed(scene, where, side[:TRIED], rule), 1)]
+    return _nearest(scene, where, near, "Hz", rule)
 
 
 def divisors(number: int) -> list[int]:
@@ -116,9 +121,16 @@ def divisors(number: int) -> list[int]:
     return sorted({*small, *(number // n for n in small)})
 
 
-def _nearest(near: list[str], unit: str) -> str:
+def _allowed(scene: Scene, where: str, values: Iterable[Fraction], rule: Rule) -> Iterator[Fraction]:
+    """Those of ``values`` that the rule allows as they are printed."""
+    return (value for value in values if allows(scene, where, float(_decimal(value)), rule))
+
+
+def _nearest(scene: Scene, where: str, values: Iterable[Fraction], unit: str, rule: Rule) -> str:
+    """`; nearest allowed are A and B UNIT`, of those of a key's ``values`` that are allowed; empty where none is."""
+    near = [_decimal(value) for value in _allowed(scene, where, values, rule)]
     joint = "nearest allowed are" if len(near) > 1 else "nearest allowed is"
-    return f"{joint} {' and '.join(near)} {unit}"
+    return f"; {joint} {' and '.join(near)} {unit}" if near else ""
 
 
 def _decimal(value: Fraction) -> str:

@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from contact_sim_pkg.scene.schema.fields import Section, number
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from contact_sim_pkg.records.registry import regime_names
+from contact_sim_pkg.scene.schema.fields import Section, choice, number
+
+if TYPE_CHECKING:
+    RegimeName: TypeAlias = str
+else:
+    RegimeName = Literal[regime_names()]
 
 
 class Outputs(Section):
@@ -37,6 +45,23 @@ class Integrator(Section):
         " its steps miss, and how long they may be for accuracy",
         default=None,
     )
+
+
+class Expect(Section):
+    """What the scene is there to show; a run says at its end whether it did."""
+
+    regime: RegimeName = choice("what happens in the run: a regime of the rig", example=regime_names()[0])
+    at_least: float | None = number(
+        -1e12,
+        1e12,
+        "unit of the regime",
+        "smallest figure that shows it; the regime's own where neither end is given",
+        default=None,
+    )
+    at_most: float | None = number(
+        -1e12, 1e12, "unit of the regime", "largest figure that shows it; the regime's own where neither end is given",
+        default=None,
+    )  # fmt: skip
 
 
 class Limits(Section):

@@ -45,6 +45,7 @@ def breaches(scene: Scene) -> Iterator[Breach]:
         _road(scene),
         _vibration(scene),
         law_breaches(scene),
+        _expect(scene),
     )
 
 
@@ -55,6 +56,20 @@ def _sections(scene: Scene) -> Iterator[Breach]:
     for name in refused_sections(scene.rig):
         if getattr(scene, name) is not None:
             yield Breach(name, f"the rig {scene.rig} has no {name}; remove it or choose another rig", ("rig",))
+
+
+def _expect(scene: Scene) -> Iterator[Breach]:
+    expect, regimes = scene.expect, [regime.name for regime in rigs()[scene.rig].regimes]
+    if expect is None:
+        return
+    if expect.regime not in regimes:
+        known = f"it has {', '.join(regimes)}" if regimes else "it has none; leave expect out"
+        yield Breach("expect.regime", f"the rig {scene.rig} has no regime {expect.regime}; {known}", ("rig",))
+    if expect.at_least is not None and expect.at_most is not None and expect.at_least > expect.at_most:
+        sentence = (
+            f"{show(expect.at_least)} is above at_most ({show(expect.at_most)}): no figure lies between; swap them"
+        )
+        yield Breach("expect.at_least", sentence, ("expect.at_most",))
 
 
 def _one_of(where: str, first: str, first_given: bool, second: str, second_given: bool) -> Iterator[Breach]:

@@ -15,7 +15,7 @@ from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.registry import contacts, rig_names, rigs
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, text
-from contact_sim_pkg.scene.schema.general import Integrator, Limits, Outputs
+from contact_sim_pkg.scene.schema.general import Expect, Integrator, Limits, Outputs
 from contact_sim_pkg.scene.schema.road import Road, Slip, TravelSection
 from contact_sim_pkg.scene.schema.vibration import Vibration
 
@@ -122,6 +122,7 @@ def _scene_of(known: dict[str, Contact]) -> type[_Scene]:
         __base__=_Scene,
         **sections,
         effects=(effects, choice("contact → effect → its parameters", example={"seat": {"normal_elastic": {}}})),
+        expect=(Expect | None, choice("what the scene is there to show, measured at the end of a run", default=None)),
         outputs=(Outputs, Field(default_factory=Outputs, description="rates of the outputs")),
         integrator=(Integrator, Field(default_factory=Integrator, description="tolerance of the time integration")),
         limits=(Limits, Field(default_factory=Limits, description="limits of memory")),
@@ -136,6 +137,7 @@ if TYPE_CHECKING:
         """Keys that stand behind those of the contacts, as `_scene_of` adds them."""
 
         effects: Section
+        expect: Expect | None
         outputs: Outputs
         integrator: Integrator
         limits: Limits

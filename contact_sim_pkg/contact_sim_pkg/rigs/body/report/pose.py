@@ -55,7 +55,7 @@ def outline(poses: BlockPoses, sample: int) -> FloatArray:
     if len(body.points) == 1:
         circle = np.column_stack([np.cos(CIRCLE), np.sin(CIRCLE)])
         return np.asarray(centre + body.radius * circle)
-    points = _points(poses, sample)
+    points = points_of(poses, sample)
     corners = points[ConvexHull(points).vertices]
     return np.asarray(centre + np.vstack([corners, corners[:1]]))
 
@@ -66,12 +66,12 @@ def mark(poses: BlockPoses, sample: int) -> FloatArray:
     """
     body = poses.model.body
     if len(body.points) > 1:
-        return np.asarray(poses.centre[sample, [0, 2]] + _points(poses, sample)[0])
+        return np.asarray(poses.centre[sample, [0, 2]] + points_of(poses, sample)[0])
     top = rotation_of(poses.turn[sample]) @ np.array([0.0, 0.0, body.radius])
     return np.asarray(poses.centre[sample, [0, 2]] + top[[0, 2]])
 
 
-def _points(poses: BlockPoses, sample: int) -> FloatArray:
+def points_of(poses: BlockPoses, sample: int) -> FloatArray:
     """Points of the body from its centre, in x and z."""
     turn, body = rotation_of(poses.turn[sample]), poses.model.body
     if body.width == 2:

@@ -21,6 +21,7 @@ from contact_sim_pkg.scene.schema.pressure_field import GridSection, PressureFie
 
 OWN = "own"
 PAN_TILT = 0.21  # [rad], 12 degrees
+LONGEST_SEGMENT = 1000.0  # [s]
 NAMES = (*OCCUPANTS, OWN)
 
 if TYPE_CHECKING:
@@ -182,7 +183,7 @@ class SeatSection(Section):
 
     response_segment: float | None = number(
         0.0,
-        1000.0,
+        LONGEST_SEGMENT,
         "s",
         "segment of Welch's method in seat/response, half overlapping; 0: none; by default 4 s, less in a run of less than 18 s",
         default=None,
@@ -198,9 +199,9 @@ class SeatSection(Section):
 
 def segment_range(rate: float) -> tuple[float, float]:
     """Shortest and longest segment [s] of the responses at a ``rate`` [Hz] of samples: frequencies of
-    10 Hz and its multiples, four samples; 2^18 samples, a memory of 40 MB.
+    10 Hz and its multiples, four samples; 2^18 samples, a memory of 40 MB, at most `LONGEST_SEGMENT`.
     """
-    return max(0.1, 4.0 / rate), 2.0**18 / rate
+    return max(0.1, 4.0 / rate), min(2.0**18 / rate, LONGEST_SEGMENT)
 
 
 class PowerElastic(PowerLaw):

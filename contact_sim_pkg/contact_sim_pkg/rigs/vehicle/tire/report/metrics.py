@@ -175,7 +175,7 @@ def _along(ride: _Ride) -> Iterator[Metric]:
         slip = math.hypot(shear.slip[place], math.tan(shear.slip_angle[place]))
         yield ride.make("friction", "largest friction over load", ratio[place], "", quantity="tire_friction", topic=f"{TIRE}/shear",
                         count=shear.time.size, remark=f"at a slip of {slip:.3g}")  # fmt: skip
-    ringing = None if axle is None or ride.rough else _ringing(axle)
+    ringing = None if axle is None or ride.rough else ringing_of(axle)
     if ringing is not None:
         yield ride.make("ringing", "force along rings at", ringing, "Hz", quantity="tire_ringing", topic=topic)
 
@@ -190,7 +190,7 @@ def _stiffness(contact: ContactSeries, standing: float) -> float | None:
     return float(np.polyfit(approach - approach.mean(), contact.normal[about], 1)[0])
 
 
-def _ringing(axle: AxleSeries) -> float | None:
+def ringing_of(axle: AxleSeries) -> float | None:
     """Highest line [Hz] of the force along behind its largest value; None where the record ends before."""
     start = int(np.abs(axle.longitudinal).argmax())
     behind = axle.longitudinal[start : start + round(RINGING_TIME / axle.sample_period)]

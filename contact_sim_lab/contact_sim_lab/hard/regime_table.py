@@ -1,0 +1,80 @@
+"""`bench hard --regimes`: what each shipped scene is there to show, as its run measures it.
+
+Columns: `scene`, `regime`, `figure` (what the value is), `value`, `unit`, `low`, `high` (ends of the band, None where
+open), `remark`, `verdict` (`met`, `MISSED`, or `none` where a scene expects nothing).
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.records.metric import OUTSIDE, Metric
+from contact_sim_pkg.records.registry import shipped_scenes
+from contact_sim_pkg.records.table import Section
+from contact_sim_pkg.report.metrics.regimes import expected
+from contact_sim_pkg.report.metrics.views import row_of, value_text
+from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.scene.resolve import load_resolved
+
+__all__ = ["MET", "MISSED", "failed", "row_of_scene", "sections", "study"]
+
+MET, MISSED, NONE = "met", "MISSED", "none"
+
+
+def study(
+    progress: Callable[[str], None], scenes: Iterable[str] | None = None,
+    values: Mapping[str, tuple[str, ...]] | None = None,
+) -> list[dict[str, Any]]:  # fmt: skip
+    """A row for each scene: all that are shipped, or those of ``scenes``; run whole, or with the ``values`` of
+    `--set` that are given by scene.
+    """
+    names = list(shipped_scenes() if scenes is None else scenes)
+    rows = []
+    for number, name in enumerate(names, 1):
+        progress(f"{number} of {len(names)}: {name}")
+        rows.append(row_of_scene(name, (values or {}).get(name, ())))
+    return rows
+
+
+def row_of_scene(name: str, values: Iterable[str] = ()) -> dict[str, Any]:
+    """The row of a scene by its name or path; a run that ends early has missed, with its sentence as the remark."""
+    scene = load_resolved(name, *values)
+    given = scene.data.get("expect") or {}
+    row = {"scene": name, "regime": given.get("regime"), "figure": "", "value": None, "unit": "", "low": None, "high": None,
+           "remark": "", "verdict": MISSED if given else NONE}  # fmt: skip
+    with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
+        outcome = run_offline(scene, Path(folder) / "bag")
+        if outcome.failure:
+            return row | {"remark": outcome.failure}
+        metric: Metric | None = expected(read_recording(open_bag(Path(folder) / "bag")))
+    if metric is None:
+        return row
+    found = row_of(metric)
+    kept = {key: found[key] for key in ("value", "unit", "low", "high", "remark")}
+    return row | kept | {
+        "figure": metric.name, "verdict": MISSED if metric.verdict == OUTSIDE else MET, "shown": value_text(metric),
+        "band": "" if metric.band is None else metric.band.text,
+    }  # fmt: skip
+
+
+def failed(rows: Iterable[dict[str, Any]]) -> bool:
+    """Whether a scene does not show its regime, or states none."""
+    return any(row["verdict"] != MET for row in rows)
+
+
+def sections(rows: list[dict[str, Any]]) -> list[Section]:
+    """One line a scene, and the count."""
+    lines = [
+        {
+            "scene": row["scene"], "regime": row["regime"] or "-", "value": row.get("shown", "–"), "band": row.get("band", ""),
+            "verdict": row["verdict"], "what it is": "; ".join(filter(None, (row["figure"], row["remark"]))),
+        }
+        for row in rows
+    ]  # fmt: skip
+    met = sum(row["verdict"] == MET for row in rows)
+    return [Section("regimes", lines, f"{met} of {len(rows)} scenes show what they are there for")]
