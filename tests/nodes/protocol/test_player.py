@@ -106,7 +106,7 @@ def test_a_pass_of_a_loop_lasts_from_its_begin_to_the_end_of_the_bag(rate):
     """From 40 ms to 300 ms; behind the message at 240 ms it waits for the rest."""
 
     class Long(Recorded):
-        entries = tuple(Entry("/a", n * 1_000_000) for n in (30, 90, 150, 240))
+        entries = tuple(Entry("/a", n * 1_000_000) for n in (0, 90, 150, 240))
         end = 300_000_000
 
     player = Player(Long(), ("/a",), [], rate=rate, start=0.04, loop=True)
