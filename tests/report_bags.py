@@ -1,7 +1,7 @@
 """Bags of closed forms, written once."""
 
 import pytest
-from tests.report import rolling_bag, synthetic_bag
+from tests.report import rolling_bag, synthetic_bag, uneven_bag
 from tests.rigs.backrest.report import backrest_bag
 
 
@@ -27,6 +27,12 @@ def bare(tmp_path_factory):
 def rolling(tmp_path_factory):
     """One second of the synthetic rolling tire."""
     return rolling_bag.rolling_bag(tmp_path_factory.mktemp("bags") / "rolling")
+
+
+@pytest.fixture(scope="session")
+def uneven(tmp_path_factory):
+    """Seven blocks in which no two quantities are equal."""
+    return uneven_bag.uneven_bag(tmp_path_factory.mktemp("bags") / "uneven")
 
 
 @pytest.fixture(scope="session")

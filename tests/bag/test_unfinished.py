@@ -18,12 +18,12 @@ OUTCOME = {"ended": "failed", "failure": "bag_logger was ended by SIGKILL"}
 
 @pytest.fixture
 def cut(tmp_path):
-    """A bag of 40 blocks in chunks of 10 that was never closed."""
+    """A bag of 40 blocks from 30 ms on, in chunks of 10, that was never closed."""
     now = [0.0]
     writer = BagWriter(tmp_path / "bag", recorded_topics([TOPIC]), clock=lambda: now[0], background=False)
     for block in range(40):
         now[0] += 0.01
-        writer.write(TOPIC, block * LENGTH, vibration(block))
+        writer.write(TOPIC, (3 + block) * LENGTH, vibration(block))
     return shutil.copytree(tmp_path / "bag", tmp_path / "cut" / "bag")  # which nobody records
 
 
@@ -35,7 +35,8 @@ def test_a_bag_without_its_end_gets_the_metadata_of_what_can_be_read(cut):
     bag = open_bag(cut)
     kept = YAML(typ="safe").load((cut / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
     assert kept["message_count"] == bag.count(TOPIC) > 0
-    assert kept["duration"]["nanoseconds"] == bag.end
+    assert kept["starting_time"]["nanoseconds_since_epoch"] == 3 * LENGTH
+    assert kept["duration"]["nanoseconds"] == bag.end - 3 * LENGTH > 0
     assert kept["custom_data"]["failure"] == OUTCOME["failure"]
     assert not bag.complete
     assert recover(cut, cut.with_name("whole")).messages == bag.count(TOPIC)

@@ -1,6 +1,6 @@
-"""`make mutants`: break physics one line at a time on a copy, run the tests that must notice, list what they missed.
+"""`make mutants`: break the code one line at a time on a copy, run the tests that must notice, list what they missed.
 
-    python -m tests.mutants [NAME …]     NAME: part of a function's name; without one, all
+    python -m tests.mutants [NAME …]     NAME: part of a function's name, or `outputs`; without one, all
 
 Exit status 1 where a mutant survives that is not marked equivalent, or a test fails without any mutant.
 """
@@ -14,22 +14,28 @@ import time
 from pathlib import Path
 
 from tests.mutants.listed import MUTANTS, Mutant
-from tests.mutants.source import file_of, modules_noticing, mutated
+from tests.mutants.outputs import OUTPUTS
+from tests.mutants.source import PACKAGES, file_of, mutated, noticing
 
 ROOT = Path(__file__).resolve().parents[2]
 TIME_LIMIT = 600.0  # [s] for the tests of one mutant; a mutant that hangs is noticed
 
 
 def main(names: list[str]) -> int:
-    chosen = [each for each in MUTANTS if not names or any(name in each.function for name in names)]
+    if names == ["outputs"]:
+        chosen = [*OUTPUTS]
+    else:
+        chosen = [each for each in (*MUTANTS, *OUTPUTS) if not names or any(name in each.function for name in names)]
     with tempfile.TemporaryDirectory(prefix="mutants-") as folder:
         copy = Path(folder) / "copy"
         _copy(copy)
-        files = sorted({path for each in chosen for path in modules_noticing(each, copy / "tests")})
-        print(f"{len(chosen)} mutants; first their {len(files)} test modules without any", flush=True)
-        if _failed(copy, files):
-            print("a test fails without any mutant; mend that first")
-            return 1
+        print(f"{len(chosen)} mutants; first their tests without any", flush=True)
+        for interpreted in (False, True):
+            alike = [each for each in chosen if each.interpreted == interpreted]
+            tests = sorted({test for each in alike for test in noticing(each, copy / "tests")})
+            if tests and _failed(copy, tests, interpreted):
+                print("a test fails without any mutant; mend that first")
+                return 1
         missed = [
             each for number, each in enumerate(chosen, 1) if not _is_noticed(each, copy, f"{number}/{len(chosen)}")
         ]
@@ -53,11 +59,11 @@ def _copy(target: Path) -> None:
 
 def _is_noticed(mutant: Mutant, copy: Path, place: str) -> bool:
     started = time.monotonic()
-    path = file_of(mutant, copy / "contact_sim_pkg" / "contact_sim_pkg")
+    path = file_of(mutant, copy)
     source = path.read_text()
     path.write_text(mutated(mutant, source))
     try:
-        noticed = _failed(copy, modules_noticing(mutant, copy / "tests"))
+        noticed = _failed(copy, noticing(mutant, copy / "tests"), mutant.interpreted)
     finally:
         path.write_text(source)
     word = "noticed" if noticed else f"equivalent: {mutant.equivalent}" if mutant.equivalent else "SURVIVED"
@@ -66,15 +72,17 @@ def _is_noticed(mutant: Mutant, copy: Path, place: str) -> bool:
     return noticed
 
 
-def _failed(copy: Path, files: list[Path]) -> bool:
+def _failed(copy: Path, tests: list[str], interpreted: bool) -> bool:
     """Whether a test fails. Tests that cannot be run at all are an error of this tool, not a verdict."""
-    paths = [str(copy), str(copy / "contact_sim_pkg"), os.environ.get("PYTHONPATH", "")]
+    packages = [str((copy / package).parent) for package in PACKAGES]
+    paths = [str(copy), *packages, os.environ.get("PYTHONPATH", "")]
     environment = {
         **os.environ,
         "PYTHONPATH": os.pathsep.join(filter(None, paths)),
         "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
+        **({"NUMBA_DISABLE_JIT": "1"} if interpreted else {}),
     }
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *map(str, files)]
+    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests]
     try:
         done = subprocess.run(
             command, cwd=copy, env=environment, capture_output=True, text=True, timeout=TIME_LIMIT, check=False

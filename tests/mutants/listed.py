@@ -1,7 +1,8 @@
 """Lines of physics that are broken one at a time, to see whether the tests notice (`make mutants`).
 
 A mutant names a function and a piece of its text, not a line, for files move. `tests` are the names of the test modules
-that must notice it. `equivalent` says why no test can: the change alters no answer.
+that must notice it, or of one test as `module::test`. `equivalent` says why no test can: the change alters no answer.
+What turns a run into files and numbers for people is in `outputs`.
 """
 
 from typing import NamedTuple
@@ -13,8 +14,9 @@ class Mutant(NamedTuple):
     function: str  # module.function, module.Class.method or module.CONSTANT, the module by the end of its path
     text: str  # stands exactly once in it
     becomes: str
-    tests: tuple[str, ...]  # names of test modules, found wherever they lie
+    tests: tuple[str, ...]  # names of test modules, found wherever they lie, or `module::test`
     equivalent: str = ""
+    interpreted: bool = False  # its tests run without the compiler, which a broken kernel would keep busy
 
 
 MUTANTS = (

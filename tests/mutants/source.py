@@ -5,11 +5,16 @@ from pathlib import Path
 
 from tests.mutants.listed import Mutant
 
+PACKAGES = ("contact_sim_pkg/contact_sim_pkg", "contact_sim_lab/contact_sim_lab")
 
-def file_of(mutant: Mutant, package: Path) -> Path:
-    """The one file under `package` that holds the mutant's text, exactly once, in the function that it names."""
+
+def file_of(mutant: Mutant, checkout: Path) -> Path:
+    """The one file of a checkout's packages that holds the mutant's text, exactly once, in the function that it
+    names.
+    """
     module = mutant.function.split(".")[0]
-    found = [path for path in package.rglob(f"{module}.py") if _count(mutant, path.read_text()) == 1]
+    paths = [path for package in PACKAGES for path in (checkout / package).rglob(f"{module}.py")]
+    found = [path for path in paths if _count(mutant, path.read_text()) == 1]
     if len(found) != 1:
         raise LookupError(f"{mutant.function}: {mutant.text!r} stands once in {len(found)} files, it must be 1")
     return found[0]
@@ -21,14 +26,15 @@ def mutated(mutant: Mutant, source: str) -> str:
     return source[:start] + source[start:end].replace(mutant.text, mutant.becomes) + source[end:]
 
 
-def modules_noticing(mutant: Mutant, tests: Path) -> list[Path]:
-    """The test modules that must notice the mutant."""
+def noticing(mutant: Mutant, tests: Path) -> list[str]:
+    """What pytest is given: the test modules, or single tests, that must notice the mutant."""
     found = []
     for name in mutant.tests:
-        paths = list(tests.rglob(f"{name}.py"))
+        module, _, test = name.partition("::")
+        paths = [path for path in tests.rglob(f"{module}.py") if f"def {test}(" in path.read_text() or not test]
         if not paths:
-            raise LookupError(f"{mutant.function}: there is no test module {name}.py")
-        found += paths
+            raise LookupError(f"{mutant.function}: there is no test {name}")
+        found += [f"{path}::{test}" if test else str(path) for path in paths]
     return found
 
 

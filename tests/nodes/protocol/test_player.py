@@ -89,6 +89,55 @@ def test_a_pause_stops_the_recorded_time():
     assert [now for now, _ in play(player, 0.1, begin=10.0)] == pytest.approx([10.005 + 0.01 * n for n in range(6)])
 
 
+@pytest.mark.parametrize("rate", [0.2, 4.0])
+def test_the_wait_is_the_recorded_time_to_the_next_message_over_the_rate(rate):
+    """From 33 ms on, 7 ms of recorded time to the message at 40 ms."""
+    player = Player(Recorded(), ("/a",), [], rate=rate)
+    player.resume(5.0)
+    play(player, 0.033 / rate, step=0.003 / rate, begin=5.0)
+    now = 5.0 + 0.033 / rate
+    assert player.wait(now) == pytest.approx(0.007 / rate, rel=1e-6)
+    player.resume(now)  # of what goes on already: nothing
+    assert player.progress(now).simulated == pytest.approx(0.033)
+
+
+@pytest.mark.parametrize("rate", [0.2, 4.0])
+def test_a_pass_of_a_loop_lasts_from_its_begin_to_the_end_of_the_bag(rate):
+    """From 40 ms to 300 ms; behind the message at 240 ms it waits for the rest."""
+
+    class Long(Recorded):
+        entries = tuple(Entry("/a", n * 1_000_000) for n in (0, 90, 150, 240))
+        end = 300_000_000
+
+    player = Player(Long(), ("/a",), [], rate=rate, start=0.04, loop=True)
+    player.resume(0.0)
+    assert [message.log_time for _, message in play(player, 0.21 / rate, step=0.01 / rate)] == [
+        90_000_000,
+        150_000_000,
+        240_000_000,
+    ]
+    assert player.wait(0.21 / rate) == pytest.approx(0.05 / rate, rel=1e-6)
+    assert play(player, 0.04 / rate, step=0.01 / rate, begin=0.21 / rate) == []
+    assert (player.sent, player.messages, player.passes) == (3, 3, 0)
+    ((_, again),) = play(player, 0.052 / rate, step=0.052 / rate, begin=0.26 / rate)
+    assert (again.log_time, player.passes) == (90_000_000, 1)
+
+
+def test_the_progress_ends_with_the_recording():
+    player = Player(Recorded(), ("/a",), [], start=0.05)
+    player.resume(1.0)
+    assert player.progress(1.02).simulated == pytest.approx(0.07)
+    assert player.progress(9.0)[:2] == (pytest.approx(0.1), pytest.approx(0.1))
+
+
+def test_a_begin_holds_the_message_of_that_very_time_and_none_before():
+    player = Player(Recorded(), ("/a", "/b"), [], start=0.02, start_message=2)
+    player.resume(0.0)
+    came = [message for _, message in play(player, 0.09)]
+    assert came == [entry for entry in Recorded.entries if entry.topic != "/text" and entry.log_time >= 20_000_000]
+    assert player.messages == len(came)
+
+
 def test_a_loop_begins_again_with_the_latched_messages():
     player = Player(Recorded(), ALL, ["/text"], loop=True)
     player.resume(0.0)

@@ -2,6 +2,7 @@
 
 import numpy
 import pytest
+from scipy.optimize import curve_fit
 from tests.identify import foreign_bag, motions
 
 from contact_sim_lab.papers.driver_seat.system_distance import rotation_about
@@ -37,6 +38,32 @@ def test_one_impact_gives_all_three_moments():
     found = moments_of([matrix], [right])
     assert found.rank == 3
     assert found.values == pytest.approx(MOMENTS, rel=1e-11)
+
+
+def test_deviations_are_those_that_scipy_fits():
+    """Three impacts with errors of their right sides, each weighted by the size of its moment."""
+    matrices, rights = zip(*(impact(seed) for seed in (4, 5, 6)), strict=True)
+    rights = [right + 1e-3 * numpy.random.default_rng(seed).normal(size=3) for seed, right in enumerate(rights)]
+    found = moments_of([*matrices], rights)
+    rows, right = numpy.concatenate(matrices), numpy.concatenate(rights)
+    sizes = numpy.repeat([numpy.linalg.norm(each) for each in rights], 3)
+    values, covariance = curve_fit(lambda x, *moments: x @ numpy.array(moments), rows, right, p0=MOMENTS, sigma=sizes)
+    assert found.values == pytest.approx(values, rel=1e-6)
+    assert found.deviations == pytest.approx(numpy.sqrt(numpy.diag(covariance)), rel=1e-4)
+
+
+def test_each_axis_has_its_own_moment_and_deviation_in_the_table(tmp_path, monkeypatch):
+    known = Moments(
+        numpy.array([0.004, 0.007, 0.009]), numpy.array([0.0002, numpy.inf, 0.0005]), 2, numpy.zeros((1, 3))
+    )
+    monkeypatch.setattr("contact_sim_lab.papers.identifiability.system_axes.moments_of", lambda *_: known)
+    foreign_bag.write_odometry(tmp_path / "bag", motions.states_of(motions.spatial()))
+    result = axes(tmp_path / "bag", {"box": tuple(motions.LENGTHS), "axes": (0.0, 0.0, 0.0), "gravity": 9.81})
+    assert result.rows == [
+        {"axis": "x", "I_over_m_m2": 0.004, "deviation_m2": 0.0002, "m_over_I_1_m2": 250.0},
+        {"axis": "y", "I_over_m_m2": None, "deviation_m2": None, "m_over_I_1_m2": None},
+        {"axis": "z", "I_over_m_m2": 0.009, "deviation_m2": 0.0005, "m_over_I_1_m2": pytest.approx(1.0 / 0.009)},
+    ]
 
 
 def test_a_moment_without_a_part_about_an_axis_hides_that_axis():

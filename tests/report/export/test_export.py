@@ -5,15 +5,19 @@ import importlib.util
 
 import numpy as np
 import pytest
+from rosbags.rosbag2 import Reader, StoragePlugin, Writer
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from tests.report import uneven_bag as known
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import encode
-from contact_sim_pkg.bag.metadata import recorded_topics
+from contact_sim_pkg.bag.metadata import RecordedTopic, recorded_topics
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.typestore import definition, type_hash
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.files import FileRefusedError
-from contact_sim_pkg.records.messages import ContactEpisodes
+from contact_sim_pkg.records.messages import AxleForce, ContactEpisodes, Series, SolverCost
 from contact_sim_pkg.report.export.table import table_of
 from contact_sim_pkg.report.export.write import export
 
@@ -112,3 +116,164 @@ def test_parquet_holds_the_same_with_units(car, tmp_path):
     table = parquet.read_table(path)
     assert table.schema.field("normal [N]").metadata == {b"unit": b"N"}
     assert table["normal [N]"].to_numpy().tolist() == np.concatenate([*car.columns("tire/force")["normal"]]).tolist()
+
+
+@pytest.fixture(scope="module")
+def by_rosbags(uneven):
+    """Messages of each topic as rosbags reads them by the definitions in the bag, and their log times [ns]."""
+    found = {}
+    with Reader(uneven.path.parent) as reader:
+        for connection, time, data in reader.messages():
+            store = get_typestore(Stores.EMPTY)
+            store.register(get_types_from_msg(connection.msgdef.data, connection.msgtype))
+            found.setdefault(connection.topic, []).append((time, store.deserialize_cdr(data, connection.msgtype)))
+    return found
+
+
+@pytest.fixture(scope="module")
+def uneven_folder(uneven, tmp_path_factory):
+    out = tmp_path_factory.mktemp("export") / "uneven"
+    return out, [path.name for path in export(uneven, "csv", (), out)]
+
+
+def numbers(texts):
+    return np.array([float(text or "nan") for text in texts])
+
+
+def stamps(messages):
+    return np.array([each.header.stamp.sec + 1e-9 * each.header.stamp.nanosec for _, each in messages])
+
+
+def test_rows_of_samples_equal_those_that_rosbags_reads(uneven_folder, by_rosbags):
+    for topic, file in (
+        ("/tire/force", "tire_force.csv"),
+        ("/seat/force", "seat_force.csv"),
+        ("/tire/axle", "tire_axle.csv"),
+    ):
+        table, messages = read(uneven_folder[0] / file), by_rosbags[topic]
+        times = [begin + known.PERIOD * np.arange(known.SAMPLES) for begin in stamps(messages)]
+        np.testing.assert_allclose(numbers(table["time [s]"]), np.concatenate(times), rtol=1e-14)
+        assert numbers(table["block"]).tolist() == np.repeat(11 + np.arange(known.BLOCKS), known.SAMPLES).tolist()
+        columns = [name for name in table if name not in ("time [s]", "block")]
+        assert len(columns) >= 5
+        for column in columns:
+            expected = np.concatenate([getattr(each, column.split(" [")[0]) for _, each in messages])
+            assert numbers(table[column]).tolist() == expected.tolist()
+
+
+def test_columns_of_bodies_have_the_unit_of_their_quantity_and_the_rows_of_their_body(uneven_folder, by_rosbags):
+    table, messages = read(uneven_folder[0] / "bench_motion.csv"), by_rosbags["/bench/motion"]
+    units = {"position": "m", "velocity": "m/s", "acceleration": "m/s^2"}
+    assert [name for name in table if "." in name] == [
+        f"{name}.{body} [{unit}]" for name, unit in units.items() for body in known.BODIES
+    ]
+    for name, unit in units.items():
+        rows = np.concatenate([getattr(each, name).reshape(len(known.BODIES), -1) for _, each in messages], axis=1)
+        for body, row in zip(known.BODIES, rows, strict=True):
+            assert numbers(table[f"{name}.{body} [{unit}]"]).tolist() == row.tolist()
+
+
+def test_scalars_of_a_message_are_a_row_with_its_stamp(uneven_folder, by_rosbags):
+    units = {"load": "N", "peak": "Pa", "area": "m^2", "centre_y": "m", "lame_n": "", "cell_y": "m"}
+    for topic, file in (("/tire/patch", "tire_patch.csv"), ("/seat/patch", "seat_patch.csv")):
+        table, messages = read(uneven_folder[0] / file), by_rosbags[topic]
+        np.testing.assert_allclose(numbers(table["time [s]"]), stamps(messages), rtol=1e-14)
+        for name, unit in units.items():
+            column = table[f"{name} [{unit}]" if unit else name]
+            assert numbers(column).tolist() == [getattr(each, name) for _, each in messages]
+
+
+def test_events_have_the_stamp_of_their_message_and_a_number_in_it(uneven_folder, by_rosbags):
+    table, messages = read(uneven_folder[0] / "bench_episodes.csv"), by_rosbags["/bench/episodes"]
+    np.testing.assert_allclose(numbers(table["time [s]"]), np.repeat(stamps(messages), (2, 3)), rtol=1e-14)
+    assert table["index"] == ["0", "1", "0", "1", "2"]
+    for name, unit in (("start", "s"), ("compression_work", "J"), ("peak_force", "N"), ("largest_approach", "m")):
+        expected = np.concatenate([getattr(each, name) for _, each in messages])
+        assert numbers(table[f"{name} [{unit}]"]).tolist() == expected.tolist()
+
+
+def test_a_map_lies_as_its_message_has_it(uneven_folder, by_rosbags):
+    messages = by_rosbags["/seat/patch"]
+    lines = (uneven_folder[0] / "seat_patch_pressure.csv").read_text().splitlines()
+    assert lines[0] == "pressure [Pa],rows,6,cols,4"
+    assert lines[1] == "cell_x [m],0.011,cell_y [m],0.007,origin_x [m],-0.021,origin_y [m],0.005"
+    frames = [lines[start : start + 7] for start in range(2, len(lines), 7)]
+    assert len(frames) == known.BLOCKS
+    for number, (frame, (_, message)) in enumerate(zip(frames, messages, strict=True)):
+        assert frame[0] == f"frame,{number},time [s],{3.73 + 0.01 * number:.2f},rows,6,cols,4"
+        values = np.array([line.split(",") for line in frame[1:]], dtype=np.float32)
+        np.testing.assert_array_equal(values, message.pressure.reshape(6, 4))
+
+
+def test_short_arrays_are_empty_behind_their_end_and_named_columns_have_units_of_their_own(tmp_path):
+    """Three estimates in one block, one in the next; columns of a plug-in, each with a unit."""
+    blocks = ((0.03, ("a", "b", "c"), (1.5, 2.5, 3.5)), (0.07, ("a",), (4.5,)))
+    values = np.random.default_rng(8).uniform(size=(3, 5))
+    with BagWriter(tmp_path / "bag", recorded_topics(("bench/cost",)), reserve_bytes=0, background=False) as writer:
+        for time, names, errors in blocks:
+            cost = SolverCost(
+                block=1,
+                wall_time=time,
+                real_time_factor=2.0,
+                estimated=names,
+                estimated_error=errors,
+                estimated_of=errors,
+            )
+            writer.write("bench/cost", round(time * 1e9), encode(cost, round(time * 1e9)))
+    table = {column.name: list(column.values) for column in table_of(open_bag(tmp_path / "bag"), "bench/cost").columns}
+    assert table["estimated"] == ["a", "b", "c", "a"]
+    assert table["estimated_error"] == [1.5, 2.5, 3.5, 4.5]
+    assert table["wall_time"] == table["time"] == [0.03, 0.03, 0.03, 0.07]
+    assert table["index"] == [0, 1, 2, 0]
+    kind = "contact_msgs_defs/msg/Series"
+    row = RecordedTopic("plugin/series", "/plugin/series", kind, definition(kind), type_hash(kind), "")
+    with BagWriter(tmp_path / "own", (row,), reserve_bytes=0, background=False) as writer:
+        series = Series(
+            block=4, sample_period=0.002, names=("torque", "slide", "share"), units=("N m", "m/s", "1"), values=values
+        )
+        writer.write("plugin/series", 250_000_000, encode(series, 250_000_000))
+    own = table_of(open_bag(tmp_path / "own"), "plugin/series")
+    assert [column.header for column in own.columns] == [
+        "time [s]", "block", "values.torque [N m]", "values.slide [m/s]", "values.share [1]",
+    ]  # fmt: skip
+    np.testing.assert_allclose(own.columns[0].values, 0.25 + 0.002 * np.arange(5))
+    for column, expected in zip(own.columns[2:], values, strict=True):
+        assert column.values.tolist() == expected.tolist()
+
+
+def test_a_column_that_a_block_lacks_is_empty_there_and_full_beside_it(tmp_path):
+    along, aside = np.random.default_rng(9).uniform(-9.0, 9.0, (2, 5)), np.array([1.5, -2.5, 3.5])
+    with BagWriter(tmp_path / "bag", recorded_topics(("tire/axle",)), reserve_bytes=0, background=False) as writer:
+        for stamp, own in ((0, {}), (10_000_000, {"lateral": aside})):
+            force = along[int(stamp > 0)][: len(aside) if own else 5]
+            axle = AxleForce(block=1, sample_period=0.002, longitudinal=force, vertical=2.0 * force, **own)
+            writer.write("tire/axle", stamp, encode(axle, stamp))
+    (path,) = export(open_bag(tmp_path / "bag"), "csv", (), tmp_path / "out")
+    table = read(path)
+    assert numbers(table["longitudinal [N]"]).tolist() == [*along[0], *along[1][:3]]
+    assert table["lateral [N]"] == ["", "", "", "", "", "1.5", "-2.5", "3.5"]
+    np.testing.assert_allclose(
+        numbers(table["time [s]"]), [0.0, 0.002, 0.004, 0.006, 0.008, 0.01, 0.012, 0.014], atol=1e-15
+    )
+
+
+def test_a_foreign_topic_has_its_units_and_each_element_its_own_column(tmp_path):
+    store = get_typestore(Stores.ROS2_JAZZY)
+    types = store.types
+    name, random = "geometry_msgs/msg/WrenchStamped", np.random.default_rng(6).uniform(-9.0, 9.0, (5, 6))
+    with Writer(tmp_path / "bag", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connection = writer.add_connection("/sensor/wrench", name, typestore=store)
+        for number, row in enumerate(random):
+            stamp = types["builtin_interfaces/msg/Time"](12 + number, 250_000_000 + number)
+            vectors = [types["geometry_msgs/msg/Vector3"](*map(float, part)) for part in (row[:3], row[3:])]
+            message = types[name](
+                types["std_msgs/msg/Header"](stamp, "sensor"), types["geometry_msgs/msg/Wrench"](*vectors)
+            )
+            writer.write(connection, 99 * 10**9 + number, store.serialize_cdr(message, name))
+    (path,) = export(open_bag(tmp_path / "bag"), "csv", (), tmp_path / "out")
+    table = read(path)
+    np.testing.assert_allclose(numbers(table["time [s]"]), 12.25 + np.arange(5) * (1.0 + 1e-9), rtol=1e-14)
+    headers = [f"wrench.{part}.{axis} [{unit}]" for part, unit in (("force", "N"), ("torque", "N m")) for axis in "xyz"]
+    assert [header for header in table if "wrench" in header] == headers
+    for header, column in zip(headers, random.T, strict=True):
+        assert numbers(table[header]).tolist() == column.tolist()

@@ -1,9 +1,11 @@
 """Mat metrics of maps that are summed up by hand."""
 
+import math
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy import ndimage
 
 from contact_sim_pkg.report.metrics.mat import centre, gradient, mat_metrics, path, spd, zones
 from contact_sim_pkg.report.series import PressureMap
@@ -52,3 +54,37 @@ def test_the_back_has_four_zones_and_the_path_counts_while_it_carries():
     assert [key for key in found if "zone" in key] == [
         f"backrest.zone_{part}_{side}" for part in ("lower", "upper") for side in ("left", "right")
     ]
+
+
+UNEVEN = np.pad(np.random.default_rng(12).uniform(2e3, 50e3, (6, 5)), ((1, 3), (2, 1)))
+"""Loaded on six rows from row 1, on five columns from column 2, no two cells alike."""
+
+
+def test_each_zone_of_an_uneven_map_has_its_own_load_left_and_right():
+    """Rows in thirds from the rear; of five columns the middle one lies to the right of its edge."""
+    loaded, found = UNEVEN[1:7, 2:7], zones(grid(UNEVEN), PAN, 3)
+    for number, name in enumerate(PAN):
+        third = loaded[2 * number : 2 * number + 2]
+        assert found[f"{name} left"] == pytest.approx(100.0 * third[:, 3:].sum() / loaded.sum())
+        assert found[f"{name} right"] == pytest.approx(100.0 * third[:, :3].sum() / loaded.sum())
+    assert len({round(share, 3) for share in found.values()}) == 6
+
+
+def test_each_number_of_an_uneven_map_is_its_own_with_its_unit():
+    field = SimpleNamespace(
+        average=grid(UNEVEN), time=np.arange(5) * 0.1, load=np.array([1.0, 2.0, 3.0, 4.0, 5.0]),
+        centre_x=np.array([0.0, 0.003, 0.001, 0.004, 0.0045]), centre_y=np.array([0.0, 0.004, 0.002, 0.002, 0.0026]),
+    )  # fmt: skip
+    found = {each.key.partition(".")[2]: each for each in mat_metrics("seat", field, 0.7)}
+    loaded = UNEVEN[1:7, 2:7]
+    middle = ndimage.center_of_mass(UNEVEN)
+    steep = max(abs(np.diff(UNEVEN, axis=0)).max() / 0.01, abs(np.diff(UNEVEN, axis=1)).max() / 0.02)
+    expected = {
+        "map_mean": (1e-3 * loaded.mean(), "kPa"), "map_peak": (1e-3 * loaded.max(), "kPa"),
+        "map_gradient": (1e-3 * steep / 100.0, "kPa/cm"), "map_spd": (25.0 * (loaded.std() / loaded.mean()) ** 2, "%"),
+        "centre_x": (1e3 * (-0.05 + 0.01 * middle[0]), "mm"), "centre_y": (1e3 * (-0.03 + 0.02 * middle[1]), "mm"),
+        "centre_path": (1e3 * (0.005 + math.sqrt(8e-6) + 0.003 + math.sqrt(0.61e-6)), "mm"),
+    }  # fmt: skip
+    for key, (value, unit) in expected.items():
+        assert (found[key].value, found[key].unit) == (pytest.approx(value, rel=1e-9), unit), key
+    assert found["map_mean"].window == (0.0, 0.7)

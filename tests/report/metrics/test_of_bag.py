@@ -100,6 +100,55 @@ def test_the_daily_dose_of_a_horizontal_axis_is_taken_1_4_times(tmp_path, shaken
     assert by_key([bag])["sensor_accel.x.dose"].value == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.fixture(scope="module")
+def sines(tmp_path_factory):
+    """20 s of a sine an axis at 250 Hz; rms [m/s^2] and gain by the tables of ISO 8041-1: Wd 0.2550 and 0.5143, Wk 0.9884."""
+    time = np.arange(20 * 250) / 250.0
+    waves = [
+        np.sqrt(2.0) * rms * np.sin(2.0 * np.pi * f * time) for rms, f in ((4.0, 7.943), (0.5, 3.981), (1.2, 10.0))
+    ]
+    return foreign_bag(tmp_path_factory.mktemp("sines") / "bag", "imu", np.stack(waves, axis=1), rate=250.0)
+
+
+A_W = {"x": 4.0 * 0.2550, "y": 0.5 * 0.5143, "z": 1.2 * 0.9884}
+
+
+def test_the_highest_axis_decides_on_the_day_with_1_4_of_x_and_y(sines):
+    """1.4 x is above z, x alone is below; comfort adds all three as they are."""
+    found = by_key([sines])
+    for axis, a_w in A_W.items():
+        assert found[f"sensor_imu.{axis}.a_w"].value == pytest.approx(a_w, rel=5e-3)
+    assert found["sensor_imu.a_8"].value == pytest.approx(1.4 * A_W["x"], rel=5e-3)
+    assert found["sensor_imu.a_8"].remark.split("; ")[-2] == "x decides"
+    assert found["sensor_imu.a_v"].value == pytest.approx(np.linalg.norm([*A_W.values()]), rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("chosen", "factor", "a_w"), [("x", 1.4, A_W["x"]), ("x:Wk", 1.0, 4.0 * 1.037), ("z:Wd", 1.0, 1.2 * 0.2017)]
+)
+def test_1_4_belongs_to_a_horizontal_axis_under_the_horizontal_weighting(sines, chosen, factor, a_w):
+    found = by_key([sines], chosen=(chosen, None))
+    assert found["sensor_imu.a_w"].value == pytest.approx(a_w, rel=5e-3)
+    dose = 1.10668 * a_w * (8.0 * 3600.0) ** 0.25
+    assert found["sensor_imu.dose"].value == pytest.approx(factor * dose, rel=5e-3)
+
+
+def test_the_rate_is_that_of_the_steps_between_samples(tmp_path, shaken):
+    few = shaken[:20]
+    notes = metrics_of_bags([foreign_bag(tmp_path / "bag", "imu", few, rate=250.0)]).notes
+    assert any("20 samples at 250 Hz; mean of each axis removed" in note for note in notes)
+
+
+def test_forces_of_a_pull_have_their_mean_range_and_variation(tmp_path):
+    force = np.random.default_rng(7).uniform([500.0, 200.0, -90.0], [570.0, 270.0, -20.0], (40, 3))
+    found = by_key([foreign_bag(tmp_path / "bag", "wrench", force, times=7.0 + np.arange(40) / RATE)])
+    along = force[:, 2]
+    assert found["sensor_wrench.force"].value == pytest.approx(along.mean(), rel=1e-12)
+    assert found["sensor_wrench.force"].remark == f"{along.min():.5g} to {along.max():.5g} N"
+    assert found["sensor_wrench.force"].window == pytest.approx((7.0, 7.0 + 40 / RATE))
+    assert found["sensor_wrench.variation"].value == pytest.approx(along.std() / -along.mean(), rel=1e-12)
+
+
 def test_forces_of_a_wrench(tmp_path, shaken):
     found = by_key([foreign_bag(tmp_path / "bag", "wrench", shaken)])
     assert found["sensor_wrench.force"].value == pytest.approx(shaken[:, 2].mean())

@@ -35,6 +35,22 @@ def test_a_row_holds_everything_and_is_json():
     assert (rows[1]["low"], rows[1]["high"], rows[1]["verdict"]) == (None, 100.0, "outside")
 
 
+def test_each_column_of_a_row_holds_its_own_value():
+    band = Band(12.5, 98.5, "usual", "ISO 1", "class C")
+    one = Metric(
+        "seat.a", "name", 57.25, "mm", "good", band, "said", ("short", "tilted"), 2.125, 7, "tire/force", (0.25, 5.75)
+    )
+    expected = {
+        "key": "seat.a", "name": "name", "value": 57.25, "unit": "mm", "verdict": "good", "low": 12.5, "high": 98.5,
+        "kind": "usual", "source": "ISO 1", "conditions": "class C", "remark": "said", "broken": ["short", "tilted"],
+        "spread": 2.125, "count": 7, "topic": "tire/force", "window_start": 0.25, "window_end": 5.75,
+    }  # fmt: skip
+    assert row_of(one) == expected
+    assert metric_of(row_of(one)) == one
+    (row,) = csv.DictReader(io.StringIO(csv_of([one])))
+    assert row == {name: str(value) for name, value in expected.items()} | {"broken": "short; tilted"}
+
+
 def test_csv_has_a_row_a_metric_in_full_precision():
     rows = list(csv.DictReader(io.StringIO(csv_of(METRICS))))
     assert [row["key"] for row in rows] == [each.key for each in METRICS]

@@ -55,6 +55,14 @@ def test_half_sine_shocks_give_the_exact_values(width, peak, weighted, crest, do
     assert metrics.largest_running_rms == pytest.approx(running, rel=5e-3)
 
 
+def test_a_shock_downward_has_the_crest_factor_of_one_upward():
+    time = np.arange(0.0, 8.0, 1e-3)
+    shock = np.where((time >= 1.0) & (time <= 1.05), 10.0 * np.sin(np.pi * (time - 1.0) / 0.05), 0.0)
+    assert ride_metrics(-shock, 1000.0).crest_factor == pytest.approx(
+        ride_metrics(shock, 1000.0).crest_factor, rel=1e-9
+    )
+
+
 def test_gravity_in_the_signal_changes_nothing():
     signal = np.random.default_rng(1).normal(size=5000)
 

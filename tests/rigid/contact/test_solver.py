@@ -6,6 +6,7 @@ import math
 
 import numpy
 import pytest
+from scipy.linalg import lstsq
 from scipy.optimize import minimize
 from tests.rigid.contact.contact_case import PLANE, SPACE, contact_rows, random_case, solve
 
@@ -141,6 +142,18 @@ def test_the_split_on_the_true_cone_is_not_longer_than_that_of_a_general_optimiz
         ],
     )  # fmt: skip
     assert c @ c <= found.fun * (1.0 + 1e-9)
+
+
+def test_sticking_corners_pulled_along_both_tangents_share_the_load_with_the_least_norm():
+    """Within the cones the impulses of least norm are those of least squares, which scipy finds."""
+    J = contact_rows([[-0.2, -0.3, -0.1], [0.3, -0.25, -0.1], [0.35, 0.2, -0.1], [-0.15, 0.4, -0.1]], SPACE)
+    W, v = numpy.diag([1.0, 1.0, 1.0, 20.0, 25.0, 22.0]), numpy.array([0.13, -0.19, -1.0, 0.2, -0.3, 0.5])
+    expected = lstsq(J.T, -numpy.linalg.solve(W, v))[0].reshape(4, 3)
+    pulled = numpy.hypot(expected[:, 1], expected[:, 2])
+    assert (pulled < 0.8 * expected[:, 0]).all(), "all of them stick"
+    assert abs(expected).min() > 5e-3
+    c, _solution = solve(J, W, J @ v, 0.9, SPACE)
+    assert c.reshape(4, 3) == pytest.approx(expected, abs=1e-9)
 
 
 @pytest.mark.parametrize("facets", [4, 6, 8, 16])

@@ -96,15 +96,11 @@ def table_of(bag: Bag, topic: str) -> TopicTable:
 
 def _sorted(fields: list[Field]) -> _Fields:
     texts = {field.name for field in fields if field.is_array and field.type == "string"}
-    sizes = {side for field in fields for side in field.shape}
     plain = [field for field in fields if field.type != HEADER]
     two = [field for field in plain if len(field.shape) == 2]
     named = [field for field in two if field.shape[0] in texts]
-    arrays = [
-        field
-        for field in plain
-        if field.is_array and field not in two and not (field.name in texts and field.name in {*sizes, UNITS_OF_NAMES})
-    ]
+    headers = {*(field.shape[0] for field in named), UNITS_OF_NAMES}  # of columns; other texts are a column
+    arrays = [field for field in plain if field.is_array and field not in two and field.name not in texts & headers]
     scalars = [field for field in plain if not field.is_array and field.name not in (*PERIODS, "samples")]
     return _Fields(scalars, arrays, named, [field for field in two if field not in named])
 

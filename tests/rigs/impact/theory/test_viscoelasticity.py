@@ -2,12 +2,14 @@
 
 import cmath
 import math
+from types import SimpleNamespace
 
 import numpy
 import pytest
 from scipy.integrate import quad
 
 from contact_sim_lab.rigs.impact.twins import hereditary as slow
+from contact_sim_pkg.rigs.impact import effect_outputs
 from contact_sim_pkg.rigs.impact.theory import moduli
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
 from contact_sim_pkg.rigs.impact.theory.closed_form import harmonic, operator_form
@@ -208,3 +210,34 @@ def test_viscosities_are_the_other_modulus_over_the_frequency():
     assert moduli.dynamic_viscosities(8e6 + 1.6e6j, 400.0) == pytest.approx((4e3, 2e4))
     with pytest.raises(ImpactError, match="frequency"):
         moduli.dynamic_viscosities(1e6 + 0j, 0.0)
+
+
+def test_the_standard_solid_of_a_run_has_the_ratio_of_its_scene(monkeypatch):
+    """Depth under half a sine by scipy's quadrature of J(t - s) F'(s); J from G* and G0 alone."""
+    duration, peak, poisson, radius, ratio = 1.3e-3, 17.0, 0.4, 0.012, 3.7
+    storage, tangent, frequency, shape = 6.0e6, 0.35, 1900.0, 0.9
+    times = numpy.linspace(0.0, duration, 401)
+    pressed = peak * numpy.sin(math.pi * times / duration)
+    monkeypatch.setattr(effect_outputs, "course_of", lambda *_: (times, None, None, 0.7 * pressed, 0.3 * pressed))
+    free = SimpleNamespace(material=Material(storage, tangent), frequency=frequency, shape=shape)
+    impact = SimpleNamespace(number=3, start=0.2, touch=SimpleNamespace(impact=free))
+    model = SimpleNamespace(poisson_ratio=poisson, sphere=SimpleNamespace(radius=radius))
+    effect = SimpleNamespace(model="standard_solid", instant_ratio=ratio)
+    found = effect_outputs.history_of(model, effect, 5, impact)
+
+    shear = 0.5 * shape * storage * (1.0 - poisson)  # elastic limit of the impact's own law
+    glassy = 1.0 / (ratio * shear * (1.0 + tangent**2))
+    delayed = 1.0 / (1.0 / (shear * (1.0 + 1.0j * tangent)) - glassy)  # G1 (1 + i omega tau)
+    modulus, lag = delayed.real, delayed.imag / delayed.real / frequency
+    rate = math.pi / duration
+    for place in (40, 150, 210):
+        after = times[place]
+
+        def fed(s, after=after):
+            return (glassy + (1.0 - math.exp((s - after) / lag)) / modulus) * peak * rate * math.cos(rate * s)
+
+        integral, _ = quad(fed, 0.0, after)
+        depth = (0.375 * (1.0 - poisson) / math.sqrt(radius) * integral) ** (2.0 / 3.0)
+        assert found.depth[place] == pytest.approx(depth, rel=1e-4)
+        assert found.valid[place] == 1
+    assert (found.number, found.start, found.block, found.model) == (3, 0.2, 5, "standard_solid")

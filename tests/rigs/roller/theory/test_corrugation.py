@@ -1,13 +1,16 @@
 """Waves that grow on the track, or die out."""
 
 import math
+from types import SimpleNamespace
 
 import numpy
 import pytest
 from tests.rigs.roller.theory.test_heave import CELLS, HEAVE, TURN
 
 from contact_sim_pkg.rigs.roller.theory.corrugation import growth_of_wave, make_track, moving_mean, run_intervals, wear
+from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact
 from contact_sim_pkg.rigs.roller.theory.heave import natural_frequency
+from contact_sim_pkg.rigs.roller.wear import BodyTrack, hardness_round, track_under
 
 APPROACH, WIDTH = 4.011056e-6, 2 * 1.168e-4
 LOADS = numpy.linspace(0.0, 400.0, 4001)
@@ -153,3 +156,28 @@ def test_a_harder_cell_wears_as_a_body_with_higher_limits():
         assert lowered - heights[-1] == pytest.approx(volume(load, 2.0))
     with pytest.raises(ValueError, match=r"hardness: shape \(3,\), \[256\] is needed"):
         make_track(0.005, TURN, CELLS, WIDTH, 1.0, 1.0, (loads, shares), numpy.ones(3))
+
+
+def test_a_track_lies_under_the_whole_length_of_the_contact_with_its_own_hardness():
+    """Semi-axes and hardness that differ: the length is twice the semi-axis along the track."""
+    hardness = numpy.linspace(0.8, 1.3, 24)
+    table = (numpy.array([0.0, 50.0, 90.0]), numpy.array([0.0, 0.1, 0.4]))
+    body = BodyTrack(
+        "shaft", 0.007, 0.031, 3, numpy.zeros(24), hardness, table, track(0.0), numpy.zeros(24), numpy.zeros(0)
+    )
+    found = track_under(body, RollingContact(3.1e-4, 1.7e-4, 0.1, 1e9, 5e-6, 70.0), 0.37)
+    assert found.contact_cells == pytest.approx(3.4e-4 * 24 / (2.0 * math.pi * 0.007), rel=1e-12)
+    assert (found.turn_time, found.gain, found.approach) == (0.031, 0.37, 5e-6)
+    assert found.hardness.tolist() == hardness.tolist()
+    assert (found.table_loads.tolist(), found.table_shares.tolist()) == ([0.0, 50.0, 90.0], [0.0, 0.1, 0.4])
+
+
+@pytest.mark.parametrize("body", ["shaft", "roller"])
+def test_the_hardness_goes_on_from_the_last_place_to_the_first(body):
+    given = {"shaft": [1.0, 1.4, 0.8], "roller": [1.1, 0.7]}
+    damage = SimpleNamespace(hardness=given["shaft"], roller_hardness=given["roller"])
+    places = len(given[body])
+    expected = numpy.interp(numpy.arange(30) / 30 * places, range(places), given[body], period=places)
+    assert hardness_round(damage, body, 30) == pytest.approx(expected, rel=1e-12)
+    assert expected[-1] != pytest.approx(given[body][-1], rel=0.02)
+    assert hardness_round(None, body, 4).tolist() == [1.0] * 4
