@@ -30,14 +30,19 @@ PREFIXES
   case "$options" in *u*) set -u ;; esac
   case "$options" in *e*) set -e ;; esac
 
-  # Python takes an empty entry for the current folder, and would import what a stranger's bag was unpacked with.
-  case ":${PYTHONPATH:-}:" in
-    *::*) PYTHONPATH="$(printf '%s' "${PYTHONPATH:-}" | sed -E 's/:+/:/g; s/^:|:$//g')" ;;
-  esac
+  # An empty entry stands for the current folder: what a stranger's bag was unpacked with would be imported and loaded.
+  for entry in PYTHONPATH LD_LIBRARY_PATH AMENT_PREFIX_PATH; do
+    eval "options=\"\${$entry:-}\""
+    case "${options:+:$options:}" in
+      *::*) export "$entry=$(printf '%s' "$options" | sed -E 's/:+/:/g; s/^:|:$//g')" ;;
+    esac
+  done
 
   export COLCON_DEFAULTS_FILE="$workspace/colcon_defaults.yaml"
   export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"
   export FASTRTPS_DEFAULT_PROFILES_FILE="${FASTRTPS_DEFAULT_PROFILES_FILE:-$workspace/fastdds_profile.xml}"
+  # Else Fast DDS also obeys a DEFAULT_FASTRTPS_PROFILES.xml of the current folder, in each process that opens ROS.
+  export SKIP_DEFAULT_XML_FILE="${SKIP_DEFAULT_XML_FILE:-1}"
   # Five processes share the cores: one thread each unless the caller asks for more.
   export NUMBA_NUM_THREADS="${NUMBA_NUM_THREADS:-1}" OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"
 }

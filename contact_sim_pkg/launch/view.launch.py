@@ -10,9 +10,9 @@ import os
 from pathlib import Path
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
-from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch.actions import DeclareLaunchArgument, OpaqueFunction, SetEnvironmentVariable
 from launch.events.process import ProcessExited
-from launch.substitutions import LaunchConfiguration
+from launch.substitutions import EnvironmentVariable, LaunchConfiguration
 from launch_ros.actions import Node
 
 from contact_sim_pkg.requirements import packages_named
@@ -21,6 +21,7 @@ from launch import LaunchContext, LaunchDescription
 with packages_named():
     from contact_sim_pkg.cli.launched import SWITCH, refuse_misspelt
     from contact_sim_pkg.nodes.processes.children import how_ended
+    from contact_sim_pkg.python_process import SETTINGS
 
 ARGUMENTS = {
     "rate": ("20.0", "messages of a topic a second, at most", None),
@@ -84,4 +85,7 @@ def generate_launch_description() -> LaunchDescription:
         DeclareLaunchArgument(name, default_value=value, description=text, choices=choices and list(choices))
         for name, (value, text, choices) in ARGUMENTS.items()
     ]
-    return LaunchDescription([*declared, OpaqueFunction(function=start_nodes)])
+    kept = [
+        SetEnvironmentVariable(name, EnvironmentVariable(name, default_value=value)) for name, value in SETTINGS.items()
+    ]
+    return LaunchDescription([*declared, *kept, OpaqueFunction(function=start_nodes)])

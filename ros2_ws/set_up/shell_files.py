@@ -11,8 +11,12 @@ _PREPEND = r"""_contact_bench_prepend() {  # NAME VALUE: in front, once
 }
 """
 
+# An empty entry, left since `setup.bash` was sourced, would have Python import from the current folder before a line of ours runs.
 _LAUNCHER = """#!/bin/sh
 ''':'
+case ":${{PYTHONPATH:-/}}:" in
+  *::*) PYTHONPATH=$(printf %s "$PYTHONPATH" | sed -E "s/:+/:/g; s/^:|:$//g") ;;
+esac
 exec "{python}" "$0" "$@"
 '''
 import sys

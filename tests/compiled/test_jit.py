@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -77,6 +78,7 @@ class Start:
             "sources.py",
         ):
             shutil.copy(PACKAGE / "compiled" / name, self.package / "compiled" / name)
+        shutil.copy(PACKAGE / "python_process.py", self.package)
         (self.laws / "helper.py").write_text(HELPER)
         (self.laws / "caller.py").write_text(CALLER)
         self.cache = folder / "cache"
@@ -186,13 +188,39 @@ def test_h4_the_number_of_files_stays_and_every_later_start_hits(warm: Start) ->
     assert sorted(warm.directory().iterdir()) == files
 
 
+def make_used(root: Path, hours: dict[str, float]) -> None:
+    """Directories of other fingerprints that were last used these hours ago."""
+    root.mkdir(mode=0o700, exist_ok=True)
+    for name, ago in hours.items():
+        (root / name).mkdir(mode=0o700, exist_ok=True)
+        os.utime(root / name, (time.time() - 3600.0 * ago,) * 2)
+
+
 def test_h4_older_fingerprints_are_pruned_to_two(root: Path) -> None:
-    root.mkdir(mode=0o700)
-    for age, name in enumerate(("older", "old", "recent", "newest")):
-        (root / name).mkdir(mode=0o700)
-        os.utime(root / name, (1000.0 + age, 1000.0 + age))
+    make_used(root, {"older": 40.0, "old": 39.0, "recent": 38.0, "newest": 37.0})
     kernel_cache.open_cache_directory("current")
     assert {path.name for path in root.iterdir()} == {"recent", "newest", "current"}
+
+
+def test_h7_what_was_used_within_a_day_or_is_in_use_stays(root: Path) -> None:
+    """Three other fingerprints start beside a run that has lasted two days."""
+    make_used(root, {"old": 25.0, "day": 23.0, "hour": 1.0, "now": 0.0})
+    kernel_cache.open_cache_directory("running")
+    make_used(root, {"running": 48.0})
+    for name in ("second", "third", "fourth"):
+        kernel_cache.open_cache_directory(name)
+    assert {path.name for path in root.iterdir()} == {"day", "hour", "now", "running", "second", "third", "fourth"}
+
+
+@pytest.mark.parametrize("what", ["cache_directory()", "cache_directory().parent"])
+def test_h7_a_folder_that_vanishes_is_no_error(start: Start, what: str) -> None:
+    gone = (
+        "import shutil\nfrom contact_sim_pkg.compiled import kernel_cache\nfrom contact_sim_pkg.laws.caller import total\n"
+        f"shutil.rmtree(kernel_cache.{what})\n"
+    )
+    assert start(before=gone)["value"] == 6.0
+    assert start.log == ""
+    assert start()["hits"] == 1  # what it compiled was kept all the same
 
 
 def test_h5_processes_that_compile_at_once_all_succeed(start: Start) -> None:

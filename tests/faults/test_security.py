@@ -1,19 +1,14 @@
 """Strangers: on the network, in files, in packages (FAULTS part G)."""
 
 import ast
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 from packaging.requirements import Requirement
 from packaging.version import Version
-from tests.bench_process import ENVIRONMENT, Nodes, needs_ros, resolved, wait_until
-
-from contact_sim_pkg.python_process import drop_empty_entries, python_command
+from tests.bench_process import Nodes, needs_ros, resolved, wait_until
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "contact_sim_pkg" / "contact_sim_pkg"
@@ -108,65 +103,6 @@ def test_the_policy_allows_what_the_nodes_of_a_run_do_and_nothing_beyond_the_tab
     finally:
         nodes.end()
     assert "/tire/force" not in allowed("vibration")["publish"]
-
-
-MARKER = "open({marker!r}, 'w').close()\n"
-SHADOWS = ("numpy", "numba", "rclpy", "click", "runpy", "sitecustomize", "contact_sim_pkg")
-
-
-@pytest.fixture
-def hostile_folder(tmp_path):
-    """A folder, as one may unpack it, whose modules would leave a file behind if anything imported them."""
-    folder = tmp_path / "unpacked"
-    folder.mkdir()
-    for name in SHADOWS:
-        (folder / f"{name}.py").write_text(MARKER.format(marker=str(tmp_path / f"ran_{name}")))
-    return folder
-
-
-def ran(folder: Path) -> list[str]:
-    """Which modules of the folder were imported."""
-    return sorted(path.name for path in folder.parent.glob("ran_*"))
-
-
-@pytest.mark.fault("G8")
-@pytest.mark.parametrize("version", [(3, 10), sys.version_info[:2]])
-def test_a_module_that_is_started_imports_nothing_from_the_current_folder(hostile_folder, monkeypatch, version):
-    command = python_command("contact_sim_pkg.cli.main", "run", "seat_ride", "--bad", version=version)
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(["", str(PACKAGE.parent), ""]))
-    drop_empty_entries()
-    done = subprocess.run(command, cwd=hostile_folder, capture_output=True, text=True)
-    assert (done.returncode, "No such option" in done.stderr) == (2, True), done.stderr
-    assert ran(hostile_folder) == []
-
-
-@pytest.mark.fault("G8")
-def test_the_folder_of_that_test_would_be_imported_from(hostile_folder):
-    subprocess.run([sys.executable, "-m", "contact_sim_pkg.cli.main"], cwd=hostile_folder, capture_output=True)
-    assert ran(hostile_folder) == ["ran_contact_sim_pkg"]
-
-
-@needs_ros
-@pytest.mark.fault("G8")
-def test_a_run_on_nodes_imports_nothing_from_the_current_folder(hostile_folder, tmp_path):
-    """Nodes, and the processes that compile: the cache of kernels is empty, and the first block needs some."""
-    environment = {**ENVIRONMENT, "CONTACT_BENCH_CACHE": str(tmp_path / "cache")}
-    arguments = ("run", "seat_ride", "--pace", "max", "--duration", "0.1", "--out", str(tmp_path / "bag"))
-    command = python_command("contact_sim_pkg.cli.main", *arguments)
-    done = subprocess.run(command, cwd=hostile_folder, env=environment, capture_output=True, text=True, timeout=400)
-    assert done.returncode == 0, done.stderr
-    assert ran(hostile_folder) == []
-
-
-@pytest.mark.fault("G8")
-def test_modules_are_started_in_one_place_alone():
-    """Whatever starts Python by `-m` goes through `python_command`; `-c` of the compiler sets its path first."""
-    started = re.compile(r'sys\.executable, "-m"')
-    found = [path.name for path in PACKAGE.rglob("*.py") if started.search(path.read_text())]
-    assert found == []
-    programs = [path for path in PACKAGE.rglob("*.py") if 'sys.executable, "-c"' in path.read_text()]
-    assert {path.name for path in programs} == {"assembler.py", "companion.py"}
-    assert all(re.search(r'_PROGRAM = """\nimport sys\n[^\n]*sys\.path\[:\] = ', path.read_text()) for path in programs)
 
 
 @pytest.mark.fault("G7")

@@ -9,6 +9,8 @@ from types import SimpleNamespace
 import pytest
 from tests.bench_process import PACKAGE
 
+from contact_sim_pkg.python_process import SETTINGS
+
 MODULES = (
     "launch", "launch.actions", "launch.events", "launch.events.process", "launch.substitutions", "launch_ros",
     "launch_ros.actions", "ament_index_python", "ament_index_python.packages",
@@ -56,7 +58,7 @@ def context(launch_file, **given):
 
 def test_it_starts_the_view_and_rviz_on_request_with_the_shipped_layout(launch_file):
     declared = launch_file.generate_launch_description().arguments[0]
-    assert {each.arguments[0] for each in declared if each.arguments} == set(launch_file.ARGUMENTS)
+    assert {each.arguments[0] for each in declared if each.arguments} == {*launch_file.ARGUMENTS, *SETTINGS}
     (view,) = launch_file.start_nodes(context(launch_file, namespace="rig1"))
     assert view.named["executable"] == "bench_view"
     assert view.named["namespace"] == "rig1"

@@ -1,5 +1,7 @@
 """What is wrong in one plug-in is a line that names it, and takes nothing else down."""
 
+import json
+
 import pytest
 from tests.bench_process import needs_ros
 from tests.plugins.bench_beside import Bench
@@ -120,6 +122,58 @@ def test_one_of_whom_nothing_is_wrong_brings_its_rig(bench):
     text = bench("show", "press.yaml")
     assert "press_kit 1.2" in text
     assert "left out" not in text
+
+
+EACH = """
+import contextlib, io, json, sys
+from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.records import plugins
+plugins.LONGEST_IMPORT = 0.3
+found = []
+for arguments in json.loads({arguments!r}):
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        found.append([main(arguments), out, err])
+json.dump([[status, out.getvalue(), err.getvalue()] for status, out, err in found], sys.stdout)
+"""
+
+
+@pytest.mark.fault("G14")
+def test_packages_that_are_broken_or_hostile_are_named_and_every_command_goes_on(bench):
+    """Beside each other: two damaged descriptions, which numba and pydantic read too, and three that misbehave on import."""
+    for name, content in (
+        ("nottext", b"[contact_sim_pkg.rigs]\n\xff\xfe = a\n"),
+        ("nosign", b"[contact_sim_pkg.rigs]\nx\n"),
+    ):
+        bench.add(name, "RIGS = ()\n", rigs="")
+        (bench.beside / f"{name}-1.2.dist-info/entry_points.txt").write_bytes(content)
+    bench.add("ender", "raise KeyboardInterrupt\n", rigs="a = ender")
+    bench.add("talker", "print('{\"mine\": 1}')\nRIGS = ()\n", rigs="a = talker")
+    bench.add("sleeper", "import time\ntime.sleep(1000)\n", rigs="a = sleeper")
+    bench.add("ending_command", "raise KeyboardInterrupt\n", commands="ending = ending_command")
+    calls = [
+        ["list", "--json"], ["--help"], ["show", "tire_bump"], ["metrics", "--help"],
+        ["run", "tire_bump", *OFFLINE, "--json", "--set", "duration=0.01", "--set", "effects.tire.contact_field=null"],
+    ]  # fmt: skip
+    printed, said = bench.python(EACH.format(arguments=json.dumps(calls)))
+    answers = json.loads(printed)
+    assert [status for status, _, _ in answers] == [0] * len(calls), answers
+    assert len(json.loads(answers[0][1])) > 20
+    assert json.loads(answers[-1][1])["rig"] == "tire"
+    causes = {
+        "nottext": "its description is damaged (UnicodeDecodeError", "nosign": "its description is damaged (TypeError",
+        "ender": "it does not load (KeyboardInterrupt)", "talker": "it prints where answers of commands are printed",
+        "sleeper": "it did not end within 0.3 s",
+    }  # fmt: skip
+    lines = [line for line in (said + "".join(err for _, _, err in answers)).splitlines() if "is left out" in line]
+    assert len(lines) == len(causes), lines
+    for name, cause in causes.items():
+        (line,) = [line for line in lines if name in line]
+        assert cause in line
+    assert "Traceback" not in said
+    assert "ending " in answers[1][1], (
+        "the commands of a plug-in stand in the help; one that does not load says so there"
+    )
 
 
 @pytest.mark.parametrize("name", ["road", "rig", "duration", "effects", "plugins", "platform", "bench"])

@@ -48,3 +48,12 @@ def test_what_is_computed_beside_compiling_is_reported_while_it_lasts(monkeypatc
         compilation.note_computation("")
     assert lines
     assert {line.rpartition(", ")[0] for line in lines} == {"computing a table, once: 40 %"}
+
+
+@pytest.mark.fault("H7")
+def test_a_cache_that_is_emptied_meanwhile_holds_no_kernels(monkeypatch, tmp_path):
+    monkeypatch.setattr(compilation, "cache_directory", lambda: tmp_path / "gone")
+    assert compilation._kernels() == 0
+    (tmp_path / "gone").mkdir()
+    (tmp_path / "gone" / "one").touch()
+    assert compilation._kernels() == 1

@@ -37,7 +37,12 @@ def read_table(path: Path, *choices: Sequence[str], fewest: int = 1) -> dict[str
     """
     lines = [(number, text) for number, text in enumerate(_text(path).splitlines(), start=1)
              if text.strip() and not text.lstrip().startswith("#")]  # fmt: skip
-    rows = [(number, next(csv.reader([text], skipinitialspace=True))) for number, text in lines]
+    rows: list[tuple[int, list[str]]] = []
+    for number, text in lines:
+        try:
+            rows.append((number, next(csv.reader([text], skipinitialspace=True))))
+        except csv.Error as error:
+            raise PaperError(f"{path}, line {number}: this is no row of a table: {error}") from None
     if not rows:
         raise PaperError(f"{path}: holds no line; a line of names and one of numbers a row are needed")
     names = [name.strip() for name in rows[0][1]]

@@ -14,6 +14,8 @@ from importlib import import_module
 
 import click
 
+from contact_sim_pkg.python_process import disregard_current_folder
+
 BEGAN = time.monotonic()  # start of the process, near enough: what a run calls its start-up counts from here
 
 COMMANDS = {  # command -> its module, and its name there where that is not `command`
@@ -119,10 +121,11 @@ def _foreign() -> dict[str, str]:
 
 def _foreign_command(name: str, place: str) -> click.Command:
     """A command of a plug-in; one that does not load refuses with the cause, as its help does."""
+    from contact_sim_pkg.records.guests import LONGEST_IMPORT
     from contact_sim_pkg.records.rig import PluginError, load
 
     try:
-        command = load(place)
+        command = load(place, LONGEST_IMPORT)
         if not isinstance(command, click.Command):
             raise PluginError(f"the command {name} of a plug-in, {place}, is no click command")
     except PluginError as error:
@@ -138,6 +141,7 @@ def bench() -> None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Run `bench`; returns 0 done, 1 fault, 2 refused, 3 done with loss."""
+    disregard_current_folder()
     for name in ONE_THREAD:
         os.environ.setdefault(name, "1")
     atexit.register(gc.freeze)  # the interpreter ends without looking through every object: 0.5 s after a report

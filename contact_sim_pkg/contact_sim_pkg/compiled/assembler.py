@@ -31,6 +31,8 @@ DYNAMIC = "numba.dynamic.globals"
 _PROGRAM = """
 import sys
 sys.path[:] = sys.argv[1:]
+from contact_sim_pkg.python_process import disregard_current_folder
+disregard_current_folder()
 from contact_sim_pkg.compiled import assembler
 assembler.serve(sys.stdin.buffer, sys.stdout.buffer)
 """

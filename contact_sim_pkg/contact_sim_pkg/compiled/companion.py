@@ -21,6 +21,8 @@ __all__ = ["accompanied", "begin"]
 _PROGRAM = """
 import sys
 function, sys.path[:] = sys.argv[1], sys.argv[2:]
+from contact_sim_pkg.python_process import disregard_current_folder
+disregard_current_folder()
 from contact_sim_pkg.compiled import companion
 companion.serve(function, sys.stdin.buffer)
 """

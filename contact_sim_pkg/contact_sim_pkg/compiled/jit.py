@@ -12,10 +12,11 @@ guards against NaN) and are kept on disk (`compiled/kernel_cache.py`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
 
 import numba
+from numba.core import entrypoints
 from numba.extending import overload
 
 from contact_sim_pkg.compiled import linking
@@ -39,6 +40,11 @@ __all__ = [
 COMPILE_OPTIONS: dict[str, Any] = {
     "nopython": True, "nogil": True, "error_model": "numpy", "fastmath": False, "no_cfunc_wrapper": True,
 }  # fmt: skip
+
+# numba's extensions, which it would look for at the first compilation, and fail for good at a package whose description is
+# damaged. It does not look twice.
+with suppress(Exception):
+    entrypoints.init_all()  # type: ignore[no-untyped-call]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

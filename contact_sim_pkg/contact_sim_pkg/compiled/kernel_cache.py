@@ -8,7 +8,11 @@ processor: an edited helper in another file, which numba itself does not notice,
 directory. What depends on packages of others too (`outside.py`) lies in a directory of that set:
 `<root>/<fingerprint>.<set>.<checksum of their sources>`. Cache files are pickles, and loading a
 pickle can run code, so a directory or a file that anyone else owns or can write to is not used.
-Each file starts with the hash of its content, which is checked before it is unpickled.
+Each file starts with the hash of its content, which is checked before it is unpickled. The tables
+of `pressure/kept_arrays.py` lie there too and are trusted by the same rules (`read_kept`).
+
+A process holds a shared lock on each directory that it uses; one that holds it, or a day's use,
+keeps a directory from being removed.
 """
 
 # numba.core.caching has no types.
@@ -16,6 +20,7 @@ Each file starts with the hash of its content, which is checked before it is unp
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import logging
 import os
@@ -23,6 +28,8 @@ import pickle
 import platform
 import shutil
 import stat
+import time
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -38,12 +45,17 @@ from contact_sim_pkg.compiled import linking
 from contact_sim_pkg.compiled.outside import digest_of_packages, package_of, packages_in
 from contact_sim_pkg.compiled.sources import digest_of_sources
 
-__all__ = ["attach_cache", "cache_directory", "fingerprint"]
+__all__ = [
+    "DamagedError", "UntrustedError", "attach_cache", "cache_directory", "fingerprint", "read_kept", "require_private",
+    "write_kept",
+]  # fmt: skip
 
 _log = logging.getLogger(__name__)
 
 KEPT_FINGERPRINTS = 2
 """Directories of older fingerprints that stay beside the current one, of each set of packages."""
+KEPT_SECONDS = 86_400.0
+"""[s] since its last use for which a directory stays in any case: other checkouts come back to theirs."""
 
 _PACKAGE = Path(__file__).parents[1]
 _DIGITS = 12  # of the name of a set, and of the checksum of its sources
@@ -88,16 +100,39 @@ def open_cache_directory(name: str) -> Path:
     root = cache_root()
     directory = root / name
     root.mkdir(mode=0o700, parents=True, exist_ok=True)
-    directory.mkdir(mode=0o700, exist_ok=True)
     sticky = root.parent.lstat().st_mode & stat.S_ISVTX  # nobody else can replace the root there
     _require_trusted(root.parent, owners=(os.getuid(), 0), forbidden=0 if sticky else stat.S_IWGRP | stat.S_IWOTH)
     _require_trusted(root, owners=(os.getuid(),), forbidden=stat.S_IWGRP | stat.S_IWOTH)
-    _require_trusted(directory, owners=(os.getuid(),), forbidden=stat.S_IRWXG | stat.S_IRWXO)
+    while not _holds(directory):
+        pass
     if not os.access(directory, os.W_OK | os.X_OK):
         raise PermissionError(f"{directory} cannot be written; run 'chmod u+rwx {directory}'")
     os.utime(directory)  # the date of last use, by which _prune chooses
     _prune(root, keep=directory)
     return directory
+
+
+_held: list[int] = []
+"""Descriptors of the directories that this process uses, locked; the system closes them at its end."""
+
+
+def _holds(directory: Path) -> bool:
+    """Make a directory and mark it as used by this process; False where another process has just removed it."""
+    directory.mkdir(mode=0o700, exist_ok=True)
+    try:
+        require_private(directory)
+        descriptor = os.open(directory, os.O_RDONLY | os.O_DIRECTORY)
+    except FileNotFoundError:
+        return False
+    with suppress(OSError):  # a file system without locks: its date alone protects it
+        fcntl.flock(descriptor, fcntl.LOCK_SH)  # waits while another process is removing it
+    _held.append(descriptor)
+    return os.fstat(descriptor).st_nlink > 0
+
+
+def require_private(directory: Path) -> None:
+    """Raise `PermissionError` with one sentence unless a directory is the user's own and closed to others."""
+    _require_trusted(directory, owners=(os.getuid(),), forbidden=stat.S_IRWXG | stat.S_IRWXO)
 
 
 def _require_trusted(path: Path, owners: tuple[int, ...], forbidden: int) -> None:
@@ -129,15 +164,29 @@ def _name_of_set(packages: frozenset[str]) -> str:
 
 
 def _prune(root: Path, keep: Path) -> None:
-    """Remove all but the most recently used directories of the same set of packages."""
-    others = [
-        path
-        for path in root.iterdir()
-        if path != keep and path.is_dir() and not path.is_symlink() and _set_of(path.name) == _set_of(keep.name)
-    ]
-    others.sort(key=lambda path: path.stat().st_mtime, reverse=True)
-    for path in others[KEPT_FINGERPRINTS:]:
-        shutil.rmtree(path, ignore_errors=True)
+    """Remove all but the most recently used directories of the same set of packages, those in use
+    and those of the last day. What vanishes meanwhile, another process has removed.
+    """
+    last_use: dict[Path, float] = {}
+    for path in root.iterdir():
+        if path != keep and _set_of(path.name) == _set_of(keep.name):
+            with suppress(OSError):
+                status = path.lstat()
+                last_use.update({path: status.st_mtime} if stat.S_ISDIR(status.st_mode) else {})
+    for path in sorted(last_use, key=last_use.__getitem__, reverse=True)[KEPT_FINGERPRINTS:]:
+        if time.time() - last_use[path] > KEPT_SECONDS:
+            _remove_unused(path)
+
+
+def _remove_unused(directory: Path) -> None:
+    """Remove a directory unless a process holds it."""
+    with suppress(OSError):
+        descriptor = os.open(directory, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            shutil.rmtree(directory, ignore_errors=True)
+        finally:
+            os.close(descriptor)
 
 
 class _Session:
@@ -197,7 +246,8 @@ class _Session:
         )
         for directory in (self.directory, *self._sets.values()):
             shutil.rmtree(directory, ignore_errors=True)
-            directory.mkdir(mode=0o700, exist_ok=True)
+            with suppress(OSError):  # else the next write says that kernels are not kept
+                directory.mkdir(mode=0o700, parents=True, exist_ok=True)
 
 
 _session = _Session()
@@ -244,8 +294,8 @@ class _Locator(_CacheLocator):
         return cls(py_func, py_file)
 
     def ensure_cache_path(self) -> None:
-        # A newer version may have pruned it meanwhile
-        Path(self._path).mkdir(mode=0o700, exist_ok=True)
+        # Somebody may have emptied the cache meanwhile
+        Path(self._path).mkdir(mode=0o700, parents=True, exist_ok=True)
 
     def get_cache_path(self) -> str:
         return self._path
@@ -267,13 +317,48 @@ class _CheckedCacheImpl(CompileResultCacheImpl):
         return linking.rebuild(target_context, payload)
 
 
-def _why_untrusted(status: os.stat_result) -> str:
-    """Why an open file of the cache is not to be unpickled; empty where nothing speaks against it."""
-    if status.st_uid != os.getuid():
-        return f"belongs to user {status.st_uid}, not to user {os.getuid()}"
-    if status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
-        return f"can be written by other users (mode {stat.S_IMODE(status.st_mode):04o})"
-    return ""
+class UntrustedError(Exception):
+    """A file of the cache that others own or can write to: a phrase that begins with its path."""
+
+
+class DamagedError(Exception):
+    """A file of the cache whose content does not match the hash in front of it: its path and a phrase."""
+
+
+def read_kept(path: Path) -> bytes:
+    """What `write_kept` has written.
+
+    Raises:
+        UntrustedError: others own the file or can write to it; it has not been read.
+        DamagedError: the content does not match its hash.
+        OSError: it is not there, or cannot be read.
+    """
+    with path.open("rb") as file:
+        status = os.fstat(file.fileno())
+        if status.st_uid != os.getuid():
+            raise UntrustedError(f"{path} belongs to user {status.st_uid}, not to user {os.getuid()}")
+        if status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+            raise UntrustedError(f"{path} can be written by other users (mode {stat.S_IMODE(status.st_mode):04o})")
+        content = file.read()
+    digest, payload = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
+    if hashlib.sha256(payload).digest() != digest:
+        raise DamagedError(f"{path}: the content does not match its hash")
+    return payload
+
+
+def write_kept(path: Path, payload: bytes) -> None:
+    """Write a file of the user's own, led by the hash of its content: it appears whole, in one step
+    for other processes, or not at all. Raises `OSError`.
+    """
+    written = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        written.write_bytes(hashlib.sha256(payload).digest() + payload)
+        written.chmod(0o600)
+        written.replace(path)
+    except BaseException:
+        with suppress(OSError):
+            written.unlink()
+        raise
 
 
 class _CheckedFiles:
@@ -290,32 +375,20 @@ class _CheckedFiles:
     def load(self, key: Any) -> Any:
         """What was saved under ``key``; None where nothing was."""
         try:
-            with self._path(key).open("rb") as file:
-                reason = _why_untrusted(os.fstat(file.fileno()))
-                if reason:
-                    _session.pass_over(f"{self._path(key)} {reason}")
-                    return None
-                content = file.read()
+            payload = read_kept(self._path(key))
         except FileNotFoundError:
             return None
-        digest, payload = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
-        if hashlib.sha256(payload).digest() != digest:
-            raise pickle.UnpicklingError(f"{self._path(key).name}: the content does not match its hash")
+        except UntrustedError as error:
+            _session.pass_over(str(error))
+            return None
         saved, data = pickle.loads(payload)  # noqa: S301 - own directory, hash checked
         return data if saved == key else None
 
     def save(self, key: Any, data: Any) -> None:
         """Replace what was saved under ``key``, in one step for other processes."""
-        payload = dumps((key, data))
         path = self._path(key)
-        written = path.with_name(f"{path.name}.{os.getpid()}")
-        try:
-            written.write_bytes(hashlib.sha256(payload).digest() + payload)
-            written.chmod(0o600)
-            written.replace(path)
-        except BaseException:
-            written.unlink(missing_ok=True)
-            raise
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)  # somebody may have emptied the cache meanwhile
+        write_kept(path, dumps((key, data)))
 
     def _path(self, key: Any) -> Path:
         directory = _session.directory_of(self._own | packages_in(key[0]))
@@ -339,6 +412,9 @@ class _CheckedCache(FunctionCache):
             return None
         try:
             return super().load_overload(sig, target_context)
+        except OSError as error:
+            _session.close(error)
+            return None
         except Exception as error:  # noqa: BLE001 - whatever unpickling damaged code raises; answered by compiling
             _session.rebuild(error)
             return None

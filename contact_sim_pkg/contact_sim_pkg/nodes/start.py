@@ -8,6 +8,7 @@ import sys
 from functools import partial
 from importlib import import_module
 
+from contact_sim_pkg.python_process import disregard_current_folder
 from contact_sim_pkg.requirements import package_sentence
 
 __all__ = ["bag_logger", "bag_replay", "bench_view", "contact_simulator", "road_profile", "vibration"]
@@ -15,6 +16,7 @@ __all__ = ["bag_logger", "bag_replay", "bench_view", "contact_simulator", "road_
 
 def _start(node: str) -> int:
     """Run the node of this name; returns the exit status, 2 where a package is missing."""
+    disregard_current_folder()
     try:
         status: int = import_module(f"contact_sim_pkg.nodes.{node}").main()
     except Exception as error:

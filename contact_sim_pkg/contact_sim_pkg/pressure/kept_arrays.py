@@ -2,8 +2,9 @@
 (``compiled/kernel_cache.py``).
 
 A file is named by the hash of everything that its arrays follow from: a description and the sources
-that compute them. It begins with the hash of its content; a file that does not match is computed
-again and written anew. The last `MOST_KEPT` used of a kind stay.
+that compute them. It begins with the hash of its content; a file that does not match, or that
+others own or can write to, is not taken: its arrays are computed again and written anew. The last
+`MOST_KEPT` used of a kind stay.
 """
 
 from __future__ import annotations
@@ -20,14 +21,20 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.compiled.kernel_cache import cache_directory
+from contact_sim_pkg.compiled.kernel_cache import (
+    DamagedError,
+    UntrustedError,
+    cache_directory,
+    read_kept,
+    require_private,
+    write_kept,
+)
 
 __all__ = ["Arrays", "kept_arrays"]
 
 _log = logging.getLogger(__name__)
 Arrays = dict[str, NDArray[Any]]
 MOST_KEPT = 32
-_DIGEST_BYTES = hashlib.sha256().digest_size
 
 
 def kept_arrays(
@@ -53,12 +60,16 @@ def kept_arrays(
 
 
 def _directory(kind: str) -> Path | None:
-    """Beside the kernels; None where they are not kept, or it cannot be made."""
+    """Beside the kernels; None where they are not kept, or it cannot be made or trusted."""
     place = cache_directory()
     if place is None:
         return None
-    with suppress(OSError):
-        (place / kind).mkdir(mode=0o700, exist_ok=True)
+    try:
+        (place / kind).mkdir(mode=0o700, parents=True, exist_ok=True)
+        require_private(place / kind)
+    except OSError as error:
+        _log.warning("tables are not kept on disk (each start takes a second longer): %s", error)
+        return None
     return place / kind
 
 
@@ -70,14 +81,13 @@ def _name(description: str, sources: Iterable[str | Path]) -> str:
 
 
 def _read(path: Path) -> Arrays | None:
-    """The arrays in a file; None where there is none, or a damaged one."""
+    """The arrays in a file; None where there is none, or one that is damaged or not to be trusted."""
     try:
-        content = path.read_bytes()
-    except OSError:
+        payload = read_kept(path)
+    except (UntrustedError, DamagedError) as error:
+        _log.warning("the kept table %s; it is computed again", error)
         return None
-    digest, payload = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
-    if hashlib.sha256(payload).digest() != digest:
-        _log.warning("the kept table %s is damaged; it is computed again", path)
+    except OSError:
         return None
     with suppress(OSError):
         os.utime(path)  # the date of last use, by which the oldest are removed
@@ -89,15 +99,10 @@ def _write(path: Path, arrays: Arrays) -> None:
     """Write a file that appears whole or not at all, and remove the oldest beyond `MOST_KEPT`."""
     buffer = io.BytesIO()
     numpy.savez(buffer, **arrays)  # type: ignore[arg-type]
-    payload = buffer.getvalue()
-    draft = path.with_name(f".{path.name}.{os.getpid()}.new")
     try:
-        draft.write_bytes(hashlib.sha256(payload).digest() + payload)
-        draft.replace(path)
+        write_kept(path, buffer.getvalue())
         kept = sorted(path.parent.glob("*.npz"), key=lambda each: each.stat().st_mtime, reverse=True)
         for each in kept[MOST_KEPT:]:
             each.unlink(missing_ok=True)
     except OSError as error:
         _log.warning("a table is not kept on disk (each start takes a second longer): %s", error)
-        with suppress(OSError):
-            draft.unlink(missing_ok=True)

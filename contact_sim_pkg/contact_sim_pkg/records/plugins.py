@@ -21,6 +21,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from contact_sim_pkg.files import printable
 from contact_sim_pkg.records.effect import Effect
+from contact_sim_pkg.records.guests import LONGEST_IMPORT, GuestError, guest
 from contact_sim_pkg.records.plugin_check import (
     fault_of_place,
     faults_of_effects,
@@ -75,8 +76,13 @@ def plugins() -> tuple[Plugin, ...]:
     names = None if not wanted else {canonical(name.strip()): name.strip() for name in wanted.split(",")}
     found: dict[str, Plugin | None] = {}
     for distribution in distributions():
-        entries = [each for each in distribution.entry_points if each.group.startswith(GROUP)]
-        name = str(distribution.metadata["Name"]) if entries else ""
+        try:
+            entries = [each for each in distribution.entry_points if each.group.startswith(GROUP)]
+            name = str(distribution.metadata["Name"]) if entries else ""
+        except Exception as error:  # noqa: BLE001 - whatever importlib makes of a description that is none
+            place = getattr(distribution, "_path", distribution)  # it has no name that can be read
+            _leave_out(f"the package described in {place}", f"its description is damaged ({_of(error)}); reinstall it")
+            continue
         key = canonical(name)
         if entries and key not in found and (names is None or key in names):
             found[key] = _loaded(distribution, name, entries)
@@ -94,17 +100,30 @@ def _loaded(distribution: Distribution, name: str, entries: Iterable[EntryPoint]
     plugin = Plugin(name, distribution.version, {}, {}, {}, [])
     _loading.append(plugin)
     try:
-        fault = next(_faults(plugin, entries), "")
-    except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a stranger's record does
-        fault = f"its record cannot be read ({type(error).__name__}: {error})"
+        with guest(LONGEST_IMPORT) as printed:
+            fault = next(_faults(plugin, entries), "")
+        if said := printed.getvalue():
+            fault = fault or f"it prints where answers of commands are printed, while it is imported: {said!r}"
+    except GuestError as error:
+        fault = f"it does not load ({error})"
+    except Exception as error:  # noqa: BLE001 - whatever a stranger's record does
+        fault = f"its record cannot be read ({_of(error)})"
     finally:
         _loading.pop()
     if fault:
-        _log.warning("%s", printable(f"plug-in {plugin} is left out: {fault}", 1000))
+        _leave_out(f"plug-in {plugin}", fault)
         return None
     for package in _packages(plugin, entries):
         BRINGERS.setdefault(package, str(plugin))
     return plugin
+
+
+def _leave_out(what: str, fault: str) -> None:
+    _log.warning("%s", printable(f"{what} is left out: {fault}", 1000))
+
+
+def _of(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}"
 
 
 def _packages(plugin: Plugin, entries: Iterable[EntryPoint]) -> set[str]:
@@ -121,7 +140,7 @@ def _faults(plugin: Plugin, entries: Iterable[EntryPoint]) -> Iterator[str]:
         try:
             _add(plugin, entry)
         except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a stranger's module raises
-            yield f"{entry.value} does not load ({type(error).__name__}: {error})"
+            yield f"{entry.value} does not load ({_of(error)})"
     for package, brought in plugin.rigs.items():
         for rig in brought:
             yield from faults_of_rig(package, rig)

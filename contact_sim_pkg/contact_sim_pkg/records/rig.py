@@ -6,6 +6,7 @@ that only records or only shakes starts without a compiler.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
@@ -13,6 +14,7 @@ from typing import Any, NamedTuple
 
 from contact_sim_pkg.files import RefusedError, printable
 from contact_sim_pkg.records.contact import Contact
+from contact_sim_pkg.records.guests import GuestError, guest
 from contact_sim_pkg.records.regime import Regime
 
 __all__ = ["BRINGERS", "PluginError", "Rig", "Standing", "TouchedBody", "load"]
@@ -100,17 +102,26 @@ class Rig:
     kernels: int = 0
 
 
-def load(named: str) -> Any:
+def load(named: str, longest: float = 0.0) -> Any:
     """The object behind ``module:name``, or the module behind ``module``. Raises what its import
-    raises; of a plug-in that is loaded PluginError, which names it.
+    raises; of a plug-in that is loaded PluginError, which names it, and what it prints goes to
+    standard error.
+
+    longest: [s] after which the import of a plug-in's module is broken off; 0: never.
     """
     module, _, name = named.partition(":")
-    try:
+    plugin = BRINGERS.get(module.partition(".")[0])
+    if plugin is None:
         found = import_module(module)
         return getattr(found, name) if name else found
-    except (Exception, SystemExit) as error:
-        plugin = BRINGERS.get(module.partition(".")[0])
-        if plugin is None or isinstance(error, PluginError):
-            raise
-        cause = printable(f"{type(error).__name__}: {error}", 500)
+    try:
+        with guest(longest) as printed:
+            found = import_module(module)
+            found = getattr(found, name) if name else found
+        sys.stderr.write(printed.getvalue())
+        return found
+    except PluginError:
+        raise
+    except Exception as error:
+        cause = printable(str(error) if isinstance(error, GuestError) else f"{type(error).__name__}: {error}", 500)
         raise PluginError(f"plug-in {plugin}: {named} does not load ({cause})") from error

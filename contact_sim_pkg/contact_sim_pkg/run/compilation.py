@@ -62,7 +62,12 @@ def reported_compilation(scene: ResolvedScene, report: Callable[[str], None]) ->
 
 def _kernels() -> int:
     directory = cache_directory()
-    return compiled_kernels() if directory is None else sum(1 for _ in directory.iterdir())
+    if directory is None:
+        return compiled_kernels()
+    try:
+        return sum(1 for _ in directory.iterdir())
+    except OSError:  # somebody has emptied the cache; what comes next makes the directory anew
+        return 0
 
 
 def compile_other_half(text: str) -> None:

@@ -49,12 +49,11 @@ def find_scene(name_or_path: str | Path) -> Path:
     Raises:
         SceneError: neither a file nor a shipped scene; names the nearest one.
     """
-    given = Path(name_or_path)
+    given, names = Path(name_or_path), shipped_names()
+    if str(name_or_path) in names:  # whatever the current folder holds
+        return shipped_scenes()[str(name_or_path)]
     if given.suffix in (".yaml", ".yml") or given.exists() or len(given.parts) > 1:
         return given
-    names = shipped_names()
-    if str(name_or_path) in names:
-        return shipped_scenes()[str(name_or_path)]
     near = difflib.get_close_matches(str(name_or_path).lower(), names, n=1, cutoff=0.5)
     hint = f"; did you mean {near[0]}?" if near else ""
     sentence = f"there is no such scene (shipped are {', '.join(names)}; a file ends in .yaml){hint}"

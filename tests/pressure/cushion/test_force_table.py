@@ -1,5 +1,7 @@
 """Table of a cushion: force law between the nodes, maps that add up to the force, and tables kept on disk."""
 
+import hashlib
+import io
 import os
 
 import numpy
@@ -99,6 +101,32 @@ def test_a_damaged_file_is_computed_again(tmp_path, damage):
     path.write_bytes({"cut": content[:-7], "bit": content, "empty": b"", "foreign": b"PK\x03\x04"}[damage])
     assert kept_table("a", small_table, tmp_path).force[2] == 3.0
     assert kept_table("a", refuse, tmp_path).force[2] == 3.0
+
+
+OPENED = {"mode": lambda path: path.chmod(0o666), "owner": lambda path: os.chown(path, 65534, 65534)}
+
+
+@pytest.mark.fault("G12")
+@pytest.mark.parametrize("way", OPENED)
+def test_a_table_that_others_own_or_may_write_is_computed_again(tmp_path, caplog, way):
+    """Its force times 1.5, with the right hash in front, as one who may write to it can make it."""
+    if way == "owner" and os.getuid() != 0:
+        pytest.skip("only root can give a file to another user")
+    kept_table("a", small_table, tmp_path)
+    (path,) = tmp_path.iterdir()
+    with numpy.load(io.BytesIO(path.read_bytes()[32:])) as arrays:
+        changed = {**arrays, "force": 1.5 * arrays["force"]}
+    buffer = io.BytesIO()
+    numpy.savez(buffer, **changed)
+    path.write_bytes(hashlib.sha256(buffer.getvalue()).digest() + buffer.getvalue())
+    assert kept_table("a", refuse, tmp_path).force[2] == 4.5, "so it would be taken"
+    OPENED[way](path)
+    assert kept_table("a", small_table, tmp_path).force[2] == 3.0
+    (line,) = caplog.messages
+    assert str(path) in line
+    assert "it is computed again" in line
+    assert kept_table("a", refuse, tmp_path).force[2] == 3.0
+    assert (path.stat().st_uid, path.stat().st_mode & 0o777) == (os.getuid(), 0o600)
 
 
 def test_without_a_directory_the_table_is_computed_at_each_start(tmp_path):

@@ -114,6 +114,8 @@ def test_an_alias_gives_an_equal_value_of_its_own():
         ("# only a comment\n", "is empty"),
         ("a: 1\n---\nb: 2", "second document"),
         ("%YAML 1.1\n---\na: 1", "YAML 1.2"),
+        ("%YAML 1.3\n---\na: 1", "is not YAML 1.2: version"),
+        ("%YAML 1.0\n---\na: 1", "is not YAML 1.2: version"),
         ("a: *b", "alias"),
         ("a: &x [*x]", "alias"),
         ("? [1]\n: 2", "a key must be a word"),

@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
-from contact_sim_pkg.python_process import drop_empty_entries
+from contact_sim_pkg.python_process import SETTINGS, disregard_current_folder
 from contact_sim_pkg.records.plugins import OFF, VARIABLE
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
+    **SETTINGS,
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
     "NUMBA_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
@@ -22,9 +23,9 @@ LAUNCHED_ENVIRONMENT = {  # the same without the format of the log, which `ros2 
 
 def set_default_environment() -> None:
     """Set the environment of every process of the bench, where the caller has not; see also
-    `drop_empty_entries`.
+    `disregard_current_folder`.
     """
-    drop_empty_entries()
+    disregard_current_folder()
     for name, value in DEFAULT_ENVIRONMENT.items():
         os.environ.setdefault(name, value)
 

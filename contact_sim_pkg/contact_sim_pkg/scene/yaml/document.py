@@ -153,6 +153,8 @@ def _compose(text: str, start: Mark, composer: Composer) -> Node:
         raise SceneError([_syntax_fault(error, start)]) from error
     except YAMLError as error:
         raise SceneError([start.fault("", f"is not YAML: {error}")]) from error
+    except AssertionError as error:  # of the parser, at a directive of a version that it does not know
+        raise SceneError([start.fault("", f"is not YAML 1.2: {error}")]) from error
     if composer.root is None:
         raise SceneError([start.fault("", composer.empty)])
     return composer.root

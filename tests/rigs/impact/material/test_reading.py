@@ -58,6 +58,7 @@ def test_a_column_that_is_not_used_is_noted_and_a_missing_temperature_is_none(tm
         ("m,mass,R,V0,tau,k\n1,1,1,1,1,0.7\n", "column 'm' is named twice"),
         ("m;R;V0;tau;k;T\n0,02;0,01;2;0,001;0,7;293\n", "decimal point"),
         (b"\xff\xfe\x00m,R", "byte 0: this is no text"),
+        (f"m,R,V0,tau,k,T\n1,1,1,{'1' * 131_073},0.5,293\n", "line 2: this is no row of a table: field larger than"),
     ],
 )
 def test_every_fault_is_one_sentence_with_its_place(tmp_path, text, sentence):

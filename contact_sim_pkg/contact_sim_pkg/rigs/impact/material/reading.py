@@ -77,7 +77,7 @@ def read_impacts(path: Path) -> Impacts:
     """
     lines = _lines(path)
     separator = next((mark for mark in SEPARATORS if mark in lines[0][1]), ",")
-    rows = [(number, next(csv.reader([text], delimiter=separator))) for number, text in lines]
+    rows = [(number, _fields(path, number, text, separator)) for number, text in lines]
     # Columns by their names, each number in SI units.
     header, unused = _header(path, *rows[0])
     values: dict[str, list[float]] = {name: [] for name in header}
@@ -101,6 +101,13 @@ def read_impacts(path: Path) -> Impacts:
         notes=notes,
         gravity=arrays.get("g"),
     )
+
+
+def _fields(path: Path, number: int, text: str, separator: str) -> list[str]:
+    try:
+        return next(csv.reader([text], delimiter=separator))
+    except csv.Error as error:
+        raise MaterialError(f"{path}, line {number}: this is no row of a table: {error}") from None
 
 
 def _lines(path: Path) -> list[tuple[int, str]]:
