@@ -166,11 +166,10 @@ def _sentences(text: str) -> str:
     """One sentence, with the indented lines below it, or one a line, as they are printed: what was
     read from a file cannot move the cursor.
     """
-    from contact_sim_pkg.files import printable
+    from contact_sim_pkg.files import printable_lines
 
-    lines = [printable(line, longest=len(line)) for line in text.split("\n")]
-    is_one = all(line.startswith("  ") for line in lines[1:])
-    return "bench: " * is_one + "\n".join(lines)
+    is_one = all(line.startswith("  ") for line in text.split("\n")[1:])
+    return "bench: " * is_one + printable_lines(text)
 
 
 def refusal(error: Exception) -> tuple[str, int] | None:

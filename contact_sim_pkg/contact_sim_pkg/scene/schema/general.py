@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contact_sim_pkg.memory import LIMIT
 from contact_sim_pkg.scene.schema.fields import Section, number
 
 
@@ -43,5 +44,5 @@ class Limits(Section):
     """Caps that a scene may raise for itself."""
 
     memory: float = number(
-        0.001, 1024.0, "GiB", "most memory that grids, roads and signals may need together", default=1.0
+        0.001, 1024.0, "GiB", "most memory that grids, roads and signals may need together", default=LIMIT
     )
