@@ -5,6 +5,7 @@ exit status.
 from __future__ import annotations
 
 import atexit
+import errno
 import gc
 import os
 import sys
@@ -197,7 +198,8 @@ def refusal(error: Exception) -> tuple[str, int] | None:
             if error.filename
             else str(error.strerror or error)
         )
-        return sentence, 2 if isinstance(error, FileRefusedError) else 1
+        # no file has such a name, whoever asked for it
+        return sentence, 2 if isinstance(error, FileRefusedError) or error.errno == errno.ENAMETOOLONG else 1
     return None
 
 

@@ -122,6 +122,42 @@ def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
         raise
 
 
+class RigOf(NamedTuple):
+    """What runs must have in common to be compared."""
+
+    name: str
+    """of the run"""
+    rig: str
+    contacts: tuple[str, ...]
+
+
+def rig_of_bag(bag: Bag) -> RigOf:
+    """By its scene and topics, before a message is read."""
+    names = _contact_names(bag)
+    forces = [names[name] for name, row in bag.topics.items() if row.type == FORCE and bag.count(name)]
+    scene = scene_of_text(bag.scene, f"scene of {bag.path}")
+    return RigOf(bag.path.parent.name, str(scene.get("rig") or "unknown"), tuple(forces))
+
+
+def rig_of_recording(recording: Recording) -> RigOf:
+    """The same of a bag that has been read."""
+    return RigOf(recording.name, str(recording.scene.get("rig") or "unknown"), tuple(recording.contacts))
+
+
+def refuse_other_rigs(runs: Sequence[RigOf]) -> None:
+    """Raises BagError where the runs are not of one rig, or fewer than two."""
+    if len(runs) < 2:
+        raise BagError(f"a comparison needs at least two bags, {len(runs)} given")
+    first, *others = runs
+    for each in others:
+        if each.rig != first.rig or {*each.contacts} != {*first.contacts}:
+            one, two = (f"{run.rig} (contacts: {', '.join(run.contacts) or 'none'})" for run in (first, each))
+            raise BagError(
+                f"bags of one rig can be compared: {first.name} is of rig {one}, {each.name} of rig {two}; "
+                "report them one by one"
+            )
+
+
 class Decoded(NamedTuple):
     """Series by topic; fields, points and what only one rig records are read one by one, for they are
     large.
