@@ -13,9 +13,11 @@ from contact_sim_pkg.cli.main import main
 INTERRUPTED = """
     import os, signal, sys
 
+    wanted = sys.argv[1]
+
     class Finder:
         def find_spec(self, name, path=None, target=None):
-            if name == sys.argv[1]:
+            if name == wanted:
                 os.kill(os.getpid(), signal.SIGINT)
 
     signal.signal(signal.SIGINT, signal.default_int_handler)  # also where the tests run in the background
