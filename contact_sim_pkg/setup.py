@@ -8,7 +8,6 @@ from setuptools import find_packages, setup
 
 PACKAGE = "contact_sim_pkg"
 HERE = Path(__file__).resolve().parent
-SITE = "https://contact-bench.example"
 NODES = ("road_profile", "vibration", "contact_simulator", "bag_logger", "bag_replay", "bench_view")
 
 
@@ -24,13 +23,6 @@ setup(
     description="Contact forces and pressure fields of simulated rigs, as ROS 2 topics and bags",
     long_description=(HERE / "README.md").read_text(encoding="utf-8"),
     long_description_content_type="text/markdown",
-    url=SITE,
-    project_urls={
-        "Documentation": f"{SITE}/docs",
-        "Source": f"{SITE}/repository",
-        "Issues": f"{SITE}/issues",
-        "Changelog": f"{SITE}/changelog",
-    },
     keywords=["contact mechanics", "tire", "seat", "pressure field", "vibro-impact", "friction", "ROS 2"],
     classifiers=[
         "Development Status :: 4 - Beta",
@@ -44,7 +36,6 @@ setup(
     ],
     author="Contact Bench maintainers",
     maintainer="Contact Bench maintainers",
-    maintainer_email="maintainers@contact-bench.example",
     license="Apache-2.0",
     license_files=["LICENSE"],
     python_requires=">=3.10,<3.14",
@@ -87,7 +78,7 @@ setup(
     },
     entry_points={
         "console_scripts": [
-            f"bench = {PACKAGE}.cli.main:main",
+            f"bench = {PACKAGE}.cli.start:main",
             *(f"{node} = {PACKAGE}.nodes.start:{node}" for node in NODES),
         ],
     },

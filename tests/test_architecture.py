@@ -7,7 +7,7 @@ from tests.house.source import LABORATORY, PACKAGE, circles, imports, modules
 
 ORDER = (
     ("requirements",),
-    ("files", "public", "python_process"),
+    ("files", "public", "python_process"), ("memory",),
     ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid"), ("excitation",),
     ("scene",), ("bag",), ("run",), ("compare",), ("report",), ("library",), ("rigs", "identify"),
     ("studies", "standard"), ("nodes",), ("cli",),

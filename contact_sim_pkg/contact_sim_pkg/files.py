@@ -12,13 +12,15 @@ import stat
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO, BinaryIO
+from typing import IO, Any, BinaryIO
 
 __all__ = [
-    "FileRefusedError", "RefusedError", "check_output", "new_file", "open_regular_file", "printable", "read_regular_file",
-    "wrong_name",
+    "FileRefusedError", "RefusedError", "as_cell", "check_output", "new_file", "open_regular_file", "printable",
+    "printable_lines", "read_regular_file", "wrong_name",
 ]  # fmt: skip
 
+FORMULA = ("=", "+", "-", "@", "\t", "\r")
+"""A text that begins so is a formula to a spreadsheet."""
 LONGEST_COMPONENT = 255  # bytes between two slashes, on every usual file system
 LONGEST_PATH = 4095  # bytes
 EXISTS = "exists already and is not written over; give another name or --overwrite"
@@ -48,7 +50,17 @@ class FileRefusedError(OSError):
 def printable(text: str, longest: int = 200) -> str:
     """A text from outside as it may stand in a sentence: on one line, without escape sequences, cut to `longest` characters."""
     shown = text if len(text) <= longest else text[: longest - 1] + "…"
-    return "".join(each if each.isprintable() else repr(each)[1:-1] for each in shown)
+    return shown if shown.isprintable() else "".join(each if each.isprintable() else repr(each)[1:-1] for each in shown)
+
+
+def printable_lines(text: str) -> str:
+    """A text of several lines from outside as it may be printed: whole, but without escape sequences that move a cursor."""
+    return "\n".join(printable(line, longest=len(line)) for line in text.split("\n"))
+
+
+def as_cell(value: Any) -> Any:
+    """A value as a cell of a CSV: a text that a spreadsheet would compute stays one, by the apostrophe that spreadsheets know."""
+    return f"'{value}" if isinstance(value, str) and value.startswith(FORMULA) else value
 
 
 def wrong_name(path: Path) -> str:

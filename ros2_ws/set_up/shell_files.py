@@ -21,7 +21,7 @@ exec "{python}" "$0" "$@"
 '''
 import sys
 
-from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.cli.start import main
 
 sys.exit(main())
 """

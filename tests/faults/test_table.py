@@ -7,8 +7,7 @@ from pathlib import Path
 
 TESTS = Path(__file__).resolve().parents[1]
 DOCUMENT = TESTS.parent / "docs" / "faults.md"
-COUNTS = {"A": 15, "B": 12, "C": 6, "D": 11, "E": 12, "F": 8, "G": 14, "H": 7}
-ABSENT = {"G13"}
+COUNTS = {"A": 15, "B": 12, "C": 6, "D": 11, "E": 13, "F": 8, "G": 15, "H": 7}
 
 
 def rows() -> dict[str, str]:
@@ -30,8 +29,7 @@ def proven() -> set[str]:
 
 
 def test_the_table_has_every_row():
-    wanted = [f"{part}{number}" for part, count in COUNTS.items() for number in range(1, count + 1)]
-    assert list(rows()) == [row for row in wanted if row not in ABSENT]
+    assert list(rows()) == [f"{part}{number}" for part, count in COUNTS.items() for number in range(1, count + 1)]
 
 
 def test_each_row_has_a_test_or_a_sentence_why_not():

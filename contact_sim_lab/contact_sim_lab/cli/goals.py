@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json_rows, show_sections
 
 
@@ -24,7 +25,7 @@ def command(start: bool, latency: float | None, as_json: bool) -> None:
     from contact_sim_lab.goals import goals, starts
 
     def notify(line: str) -> None:
-        click.echo(line, err=True)
+        say(line, err=True)
 
     rows = starts.study(notify) if start else goals.study(notify, latency)
     if as_json:
@@ -51,7 +52,7 @@ def growth_command(page: Path | None, plot: Path | None, overwrite: bool, as_jso
         check_output(page, [], overwrite=overwrite)
     if plot is not None:
         check_picture(plot, [], overwrite=overwrite)
-    rows = growth.study(lambda line: click.echo(line, err=True))
+    rows = growth.study(lambda line: say(line, err=True))
     if as_json:
         print_json_rows(rows)
     else:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show_sections
 
 if TYPE_CHECKING:
@@ -62,4 +63,4 @@ def command(context: click.Context, accuracy: bool, effects: bool, regimes: bool
 
 
 def _tell(line: str) -> None:
-    click.echo(line, err=True)
+    say(line, err=True)

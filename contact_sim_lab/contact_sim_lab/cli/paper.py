@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
 
 if TYPE_CHECKING:
@@ -121,7 +122,7 @@ def _contents(paper: Paper, as_json: bool) -> None:
             "systems": systems, "figures": figures, "equations": equations, "errata": [each._asdict() for each in paper.errata],
         })  # fmt: skip
         return
-    click.echo(f"{paper.title}\n{paper.authors} ({paper.year})\n\n{paper.models}\n")
+    say(f"{paper.title}\n{paper.authors} ({paper.year})\n\n{paper.models}\n")
     show_sections(
         [
             Section("Systems", systems),
@@ -232,7 +233,7 @@ def _all(paper: Paper | None, output: Path | None, overwrite: bool, as_json: boo
 
     chosen = papers() if paper is None else [paper]
     rows = write_pages(
-        chosen, output or Path("docs/papers"), overwrite=overwrite, progress=lambda line: click.echo(line, err=True)
+        chosen, output or Path("docs/papers"), overwrite=overwrite, progress=lambda line: say(line, err=True)
     )
     counted = {
         verdict: sum(row["verdict"] == verdict for row in rows)

@@ -14,7 +14,7 @@ from mcap.records import Channel, Message, Schema
 from rosbags.serde import SerdeError
 from rosbags.typesys.store import Typestore
 
-from contact_sim_pkg.bag.columns import stacked
+from contact_sim_pkg.bag.columns import Stack
 from contact_sim_pkg.bag.encoding import deserialize
 from contact_sim_pkg.bag.errors import BagError, CorruptChunkError
 from contact_sim_pkg.bag.mcap.append_file import is_being_written
@@ -197,11 +197,9 @@ class Bag:
                 if place.channels is not None and place.channels.isdisjoint(numbers):
                     continue
                 try:
-                    records = chunk_records(file, place, self.path.name)
+                    yield from self._messages_of(chunk_records(file, place, self.path.name, numbers))
                 except CorruptChunkError as error:
                     self._skip_or_raise(error)
-                    continue
-                yield from self._messages_of(records, numbers)
 
     def decoded(self, topic: str) -> Iterator[tuple[int, Any]]:
         """Log time in [ns] and message object of each message of a topic, by the bag's own
@@ -234,19 +232,22 @@ class Bag:
         Returns:
             `log_time` and, with a header, `stamp` as int64 [ns] and `time`, the stamp in [s]; then
             one entry a field, nested ones with dots (`wrench.force.z`): scalars as [messages],
-            arrays of one length as [messages, length], arrays that differ in length as a list.
+            arrays of one length as [messages, length], arrays that differ in length as a list. A
+            field `time` of the message itself is `time_in_message`.
 
         Raises:
             BagError: no such topic or field, or a message does not fit its definition.
+            MemoryLimitError: the columns are too large.
         """
-        return self.stacked(topic, ((each.log_time, each.data) for each in self.messages(topic)), fields)
+        stack = self.stack(topic, fields)
+        for message in self.messages(topic):
+            stack.add(message.log_time, message.data)
+        return stack.columns()
 
-    def stacked(
-        self, topic: str, messages: Iterable[tuple[int, bytes]], fields: tuple[str, ...] | None = None
-    ) -> dict[str, Any]:
-        """Columns, as of `columns`, of some messages of a topic: log time in [ns], and bytes."""
+    def stack(self, topic: str, fields: tuple[str, ...] | None = None) -> Stack:
+        """What takes messages of a topic one by one, and makes columns of them."""
         row = self.topic(topic)
-        return stacked(messages, self._types(row), row.type, fields, partial(self._decode, row))
+        return Stack(self._types(row), row.type, fields, partial(self._decode, row), f"{self.path}, {row.name}")
 
     def _types(self, row: RecordedTopic) -> Typestore:
         if row.encoding != CDR:
@@ -257,10 +258,10 @@ class Bag:
             self._stores[row.type] = store_of_definition(row.type, row.definition)
         return self._stores[row.type]
 
-    def _messages_of(self, records: list[Any], numbers: set[int]) -> Iterator[BagMessage]:
+    def _messages_of(self, records: Iterable[Any]) -> Iterator[BagMessage]:
         channels = self._layout.channels
         for record in records:
-            if isinstance(record, Message) and record.channel_id in numbers:
+            if isinstance(record, Message):
                 row = self.topics[channels[record.channel_id].topic]
                 yield BagMessage(
                     row.name, row.type, record.log_time - self._epoch, record.data, record.publish_time - self._epoch,

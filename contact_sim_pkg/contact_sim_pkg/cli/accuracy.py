@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from contact_sim_pkg.cli.laboratory import laboratory
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import (
     json_option,
     overwrite_option,
@@ -86,7 +87,7 @@ def _check(path: Path, *, whole: bool, as_json: bool) -> None:
         print_json(facts_of_check(check)["check"])
     else:
         for line in lines_of_check(check):
-            click.echo(line)
+            say(line)
 
 
 def _study(names: tuple[str, ...], plot: Path | None, kind: str, *, deep: bool, overwrite: bool, as_json: bool) -> None:
@@ -111,4 +112,4 @@ def _study(names: tuple[str, ...], plot: Path | None, kind: str, *, deep: bool, 
 
 
 def _tell(line: str) -> None:
-    click.echo(line, err=True)
+    say(line, err=True)

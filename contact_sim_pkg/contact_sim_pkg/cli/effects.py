@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
 
 if TYPE_CHECKING:
@@ -53,14 +54,14 @@ def command(
     studied = reduced.all_together(resolved) if everything else resolved
     found = effects_study.study_of(studied, _report, off=not everything)
     if not as_json:
-        click.echo(effects_table.answer(found))
-        click.echo()
+        say(effects_table.answer(found))
+        say()
         show_sections([*effects_table.table(found), *(effects_table.parts(found) if parts else ())])
     written = {} if write is None else _write(found, scene, write, observers=not without_observers, overwrite=overwrite)
     if as_json:
         print_json(effects_table.facts_of(found) | written)
     elif written:
-        click.echo(f"{write}: {written['written']['sentence']}")
+        say(f"{write}: {written['written']['sentence']}")
 
 
 def _write(study: Study, scene: str, path: Path, *, observers: bool, overwrite: bool) -> dict[str, dict[str, object]]:
@@ -74,4 +75,4 @@ def _write(study: Study, scene: str, path: Path, *, observers: bool, overwrite: 
 
 
 def _report(line: str) -> None:
-    click.echo(line, err=True)
+    say(line, err=True)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
 
 if TYPE_CHECKING:
@@ -132,12 +133,12 @@ def command(
     spreads = None if noise is None else SampleNoise(*noise)
     setup = Setup(shape, plane(normal, ground), wrench, gravity, spreads, friction=friction)
     for note in recorded.notes:
-        click.echo(f"bench: {note}", err=True)
+        say(f"bench: {note}", err=True)
     try:
         found = identify(recorded.states, setup)
     except IdentificationError:
         for line in recorded.reading:
-            click.echo(f"bench: {line}", err=True)
+            say(f"bench: {line}", err=True)
         raise
     if as_json:
         heads = {"bag": str(bag), "first_stamp_ns": recorded.origin, "reading": list(recorded.reading)}

@@ -5,6 +5,7 @@ exit status.
 from __future__ import annotations
 
 import atexit
+import errno
 import gc
 import os
 import sys
@@ -170,11 +171,10 @@ def _sentences(text: str) -> str:
     """One sentence, with the indented lines below it, or one a line, as they are printed: what was
     read from a file cannot move the cursor.
     """
-    from contact_sim_pkg.files import printable
+    from contact_sim_pkg.files import printable_lines
 
-    lines = [printable(line, longest=len(line)) for line in text.split("\n")]
-    is_one = all(line.startswith("  ") for line in lines[1:])
-    return "bench: " * is_one + "\n".join(lines)
+    is_one = all(line.startswith("  ") for line in text.split("\n")[1:])
+    return "bench: " * is_one + printable_lines(text)
 
 
 def refusal(error: Exception) -> tuple[str, int] | None:
@@ -202,7 +202,8 @@ def refusal(error: Exception) -> tuple[str, int] | None:
             if error.filename
             else str(error.strerror or error)
         )
-        return sentence, 2 if isinstance(error, FileRefusedError) else 1
+        # no file has such a name, whoever asked for it
+        return sentence, 2 if isinstance(error, FileRefusedError) or error.errno == errno.ENAMETOOLONG else 1
     return None
 
 

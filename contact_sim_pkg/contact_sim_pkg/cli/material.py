@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_rows
 
 if TYPE_CHECKING:
@@ -77,7 +78,7 @@ def command(
     parameter = glass_temperature if shift == "wlf" else activation_energy
     report = material_report(impacts, options, shift, parameter, reference, gravity)
     for note in report.impacts.notes:
-        click.echo(note, err=True)
+        say(note, err=True)
     if table is not None:
         write_csv(report, table, overwrite=overwrite)
     _show(report, as_json=as_json)
@@ -96,8 +97,8 @@ def _show(report: MaterialReport, *, as_json: bool) -> None:
         return
     show_rows(group_rows(report), as_json=False)
     if report.pooled:
-        click.echo("\nall speeds of a temperature together")
+        say("\nall speeds of a temperature together")
         show_rows(pooled_rows(report), as_json=False)
     if report.master is not None:
-        click.echo()
+        say()
         show_rows([master_row(report) or {}], as_json=False)

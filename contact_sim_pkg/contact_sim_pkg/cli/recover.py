@@ -6,6 +6,8 @@ from pathlib import Path
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
+
 
 @click.command("recover")
 @click.argument("bag", type=click.Path(path_type=Path))
@@ -16,5 +18,5 @@ def command(context: click.Context, bag: Path, target: Path) -> None:
     from contact_sim_pkg.bag.recover import recover
 
     recovery = recover(bag, target)
-    click.echo(f"{recovery.path}: {recovery.messages} messages{f'; {recovery.sentence}' if recovery.sentence else ''}")
+    say(f"{recovery.path}: {recovery.messages} messages{f'; {recovery.sentence}' if recovery.sentence else ''}")
     context.exit(0 if recovery.lossless else 3)

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from contact_sim_pkg.cli.output.progress import RunDisplay
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import overwrite_option
 
 
@@ -28,19 +29,25 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_ver
     """
     from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.bag.versions import differences_from, differences_of_bags, installed_versions
+    from contact_sim_pkg.report.place import free_place
     from contact_sim_pkg.run.bag_content import kernel_fingerprint
 
     recorded = [open_bag(bag, skip_bad=skip_bad) for bag in bags]
+    free_place(recorded, out, overwrite=overwrite)
+    if len(recorded) > 1:
+        from contact_sim_pkg.report.reading import refuse_other_rigs, rig_of_bag
+
+        refuse_other_rigs([rig_of_bag(bag) for bag in recorded])
     for each in recorded:
         for note in each.notes:
-            click.echo(note if len(bags) == 1 else f"{each.path.parent.name}: {note}", err=True)
+            say(note if len(bags) == 1 else f"{each.path.parent.name}: {note}", err=True)
     # a page of several bags compares their versions, a page of one those of this installation
     here = installed_versions(kernel_fingerprint())
     others = differences_of_bags(recorded, across=across_versions) or [
         differences_from(each, here) for each in recorded
     ]
     for line in filter(None, others):
-        click.echo(line, err=True)
+        say(line, err=True)
     begin = "report: reading the bag" if len(bags) == 1 else "report: comparing the bags"
     with RunDisplay(1.0, begin, "section") as display:
 
@@ -62,4 +69,4 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_ver
                 from contact_sim_pkg.report.comparison.runs import write_comparison
 
                 page = write_comparison(recorded, out, overwrite=overwrite)
-    click.echo(f"report: {page}")
+    say(f"report: {page}")

@@ -19,6 +19,7 @@ from contact_sim_pkg.cli.main import BEGAN
 from contact_sim_pkg.cli.output.checked import check_of_run, facts_of_check, lines_of_check
 from contact_sim_pkg.cli.output.outcome import describe, misses, print_outcome, state_of
 from contact_sim_pkg.cli.output.progress import RunDisplay
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import print_json
 from contact_sim_pkg.cli.scene_options import SceneOptions
 from contact_sim_pkg.files import RefusedError
@@ -95,7 +96,7 @@ def prepare(
 
         refuse_other_scene(from_bag, scene)
         for line in cautions(from_bag):
-            print(line, file=sys.stderr)
+            say(line, err=True)
     directory = new_directory(out, scene.name) if record else None
     _report_work(scene, allow_long)
     _report_absent(scene)
@@ -139,7 +140,7 @@ def _report_outcome(
 ) -> int:
     """Report the outcome of a run; returns the exit status."""
     if ended.failure:
-        print(f"bench: {ended.failure}", file=sys.stderr)
+        say(f"bench: {ended.failure}", err=True)
     if ended.exit_status == 2:
         return 2
     hint = _leave_metadata(scene, ended)
@@ -152,7 +153,7 @@ def _report_outcome(
     else:
         print_outcome(facts, ended, lines_of_check(checked))
     if hint:
-        print(f"bench: {hint}", file=sys.stderr)
+        say(f"bench: {hint}", err=True)
     return ended.exit_status or int(strict and bool(misses(facts["summary"])))
 
 
@@ -170,7 +171,7 @@ def _report_work(scene: ResolvedScene, allow_long: bool) -> None:
 
     report = refuse_long(scene, allowed=allow_long)
     if report:
-        print(f"{scene.name}: {report}", file=sys.stderr)
+        say(f"{scene.name}: {report}", err=True)
 
 
 def _report_absent(scene: ResolvedScene) -> None:
@@ -179,7 +180,7 @@ def _report_absent(scene: ResolvedScene) -> None:
 
     sentence = sentence_of_absent(scene)
     if sentence:
-        print(f"{scene.name}: {sentence}", file=sys.stderr)
+        say(f"{scene.name}: {sentence}", err=True)
 
 
 def _forecast(scene: ResolvedScene) -> dict[str, Any]:
@@ -189,7 +190,7 @@ def _forecast(scene: ResolvedScene) -> dict[str, Any]:
     found = forecast_of(scene)
     if found is None:
         return {}
-    print(f"{scene.name}: {found.sentence}", file=sys.stderr)
+    say(f"{scene.name}: {found.sentence}", err=True)
     return {"stability": found.facts}
 
 

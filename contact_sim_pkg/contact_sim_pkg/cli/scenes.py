@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, show_rows
 from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
 
@@ -22,4 +23,4 @@ def list_command(as_json: bool) -> None:
 @scene_options
 def show_command(options: SceneOptions) -> None:
     """The resolved SCENE: every default, grid and tolerance, as stored in a bag."""
-    click.echo(options.resolve().to_yaml(), nl=False)
+    say(options.resolve().to_yaml(), nl=False)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, print_json, show_sections
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ def command(file: Path, as_json: bool) -> None:
         more = ", ..." if len(tire.unread) > NAMED else ""
         notes.append(f"{len(tire.unread)} keys not read: {', '.join(tire.unread[:NAMED])}{more}")
     for note in notes:
-        click.echo(note, err=True)
+        say(note, err=True)
 
 
 def _rows(tire: PropertyFile) -> list[dict[str, Any]]:
@@ -68,8 +69,8 @@ def _show(tire: PropertyFile, found: SceneTire, comparisons: list[dict[str, Any]
     if beside:
         sections.append(Section("the fitted tire under FNOMIN, beside the file", beside))
     show_sections(sections)
-    click.echo(f"\n# from {Path(tire.file).name}\neffects:\n  tire:")
+    say(f"\n# from {Path(tire.file).name}\neffects:\n  tire:")
     for effect, values in found.effects.items():
-        click.echo(f"    {effect}:" if values else f"    {effect}: {{}}")
+        say(f"    {effect}:" if values else f"    {effect}: {{}}")
         for key, value in values.items():
-            click.echo(f"      {key}: {value}")
+            say(f"      {key}: {value}")

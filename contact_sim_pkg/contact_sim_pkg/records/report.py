@@ -26,11 +26,13 @@ class SeriesReader:
         types: message types that it reads, `package/msg/Type`.
         reader: class without arguments. ``add(time, type, message)`` reads the messages in the
             order of the bag, `time` in [s]; ``finish()`` returns the series, or None.
+        reduces: keeps numbers and a few of the messages, not all of them.
     """
 
     name: str
     types: tuple[str, ...]
     reader: str
+    reduces: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

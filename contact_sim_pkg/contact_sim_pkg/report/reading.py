@@ -11,9 +11,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from contact_sim_pkg.bag.columns import Stack
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.texts import scene_of_text
+from contact_sim_pkg.memory import refuse_above_limit
 from contact_sim_pkg.records.definitions import HEADER, definition_of
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.field_series import FieldReader
@@ -40,12 +42,19 @@ ENERGY = "contact_msgs_defs/msg/EnergyLedger"
 COST = "contact_msgs_defs/msg/SolverCost"
 EPISODES = "contact_msgs_defs/msg/ContactEpisodes"
 POINTS = "contact_msgs_defs/msg/ContactPoints"
-SERIES_TYPES = (FORCE, MOTION, ENERGY, COST, EPISODES)
 CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
 IMPULSES = "impulses"  # absent from older bags
 MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration", "velocity")
 SCENE_KEY = "scene"
+WANTED: dict[str, tuple[str, ...] | None] = {
+    FORCE: None, MOTION: MOTION_COLUMNS, ENERGY: LedgerSeries._fields, COST: None, EPISODES: EpisodeSeries._fields,
+}  # fmt: skip
+"""Columns of each series that are read; None: all"""
+SCALARS_BYTES = 512
+"""kept of a field or of contact points, beside a few whole ones"""
 
+
+SERIES_TYPES = tuple(WANTED)
 
 OnRead = Callable[[float], object]
 """Called while a bag is read, with the share of its messages read: 0 to 1."""
@@ -58,20 +67,17 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
     Raises:
         BagError: a message does not fit its definition, or a chunk is damaged and bad chunks are
             not skipped.
+        MemoryLimitError: the series are too large.
     """
-    raw, fields, points, of_rigs = _decode(bag, on_read)
-
-    def columns(topic: str, names: tuple[str, ...] | None = None) -> dict[str, Any]:
-        return bag.stacked(topic, raw.pop(topic), names)
-
-    topics = {kind: [name for name in raw if bag.topics[name].type == kind] for kind in SERIES_TYPES}
+    stacks, fields, points, of_rigs = _decode(bag, on_read)
+    topics = {kind: [name for name in stacks if bag.topics[name].type == kind] for kind in SERIES_TYPES}
     contact_of = _contact_names(bag)
-    contacts = {contact_of[name]: _contact(columns(name)) for name in topics[FORCE]}
-    motion = next((_motion(columns(name, MOTION_COLUMNS)) for name in topics[MOTION]), None)
-    ledger = next((LedgerSeries(**columns(name, LedgerSeries._fields)) for name in topics[ENERGY]), None)
-    costs = next((columns(name) for name in topics[COST]), None)
+    contacts = {contact_of[name]: _contact(stacks.pop(name).columns()) for name in topics[FORCE]}
+    motion = next((_motion(stacks[name].columns()) for name in topics[MOTION]), None)
+    ledger = next((LedgerSeries(**stacks[name].columns()) for name in topics[ENERGY]), None)
+    costs = next((stacks[name].columns() for name in topics[COST]), None)
     listed = [name for name, row in bag.topics.items() if row.type == EPISODES]
-    episodes = next((_episodes(columns, name, name in raw) for name in listed), None)
+    episodes = next((_episodes(stacks.get(name)) for name in listed), None)
     scene = scene_of_text(bag.scene, f"scene of {bag.path}")
     return Recording(
         name=bag.path.parent.name,
@@ -116,12 +122,48 @@ def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
         raise
 
 
+class RigOf(NamedTuple):
+    """What runs must have in common to be compared."""
+
+    name: str
+    """of the run"""
+    rig: str
+    contacts: tuple[str, ...]
+
+
+def rig_of_bag(bag: Bag) -> RigOf:
+    """By its scene and topics, before a message is read."""
+    names = _contact_names(bag)
+    forces = [names[name] for name, row in bag.topics.items() if row.type == FORCE and bag.count(name)]
+    scene = scene_of_text(bag.scene, f"scene of {bag.path}")
+    return RigOf(bag.path.parent.name, str(scene.get("rig") or "unknown"), tuple(forces))
+
+
+def rig_of_recording(recording: Recording) -> RigOf:
+    """The same of a bag that has been read."""
+    return RigOf(recording.name, str(recording.scene.get("rig") or "unknown"), tuple(recording.contacts))
+
+
+def refuse_other_rigs(runs: Sequence[RigOf]) -> None:
+    """Raises BagError where the runs are not of one rig, or fewer than two."""
+    if len(runs) < 2:
+        raise BagError(f"a comparison needs at least two bags, {len(runs)} given")
+    first, *others = runs
+    for each in others:
+        if each.rig != first.rig or {*each.contacts} != {*first.contacts}:
+            one, two = (f"{run.rig} (contacts: {', '.join(run.contacts) or 'none'})" for run in (first, each))
+            raise BagError(
+                f"bags of one rig can be compared: {first.name} is of rig {one}, {each.name} of rig {two}; "
+                "report them one by one"
+            )
+
+
 class Decoded(NamedTuple):
-    """Raw messages of the series by topic; fields, points and what only one rig records are read one by
-    one, for they are large.
+    """Series by topic; fields, points and what only one rig records are read one by one, for they are
+    large.
     """
 
-    series: dict[str, list[tuple[int, bytes]]]
+    series: dict[str, Stack]
     fields: dict[str, FieldReader]
     points: dict[str, PointReader]
     of_rigs: dict[tuple[str, str], Any]
@@ -144,7 +186,7 @@ def _rig_series(readers: dict[tuple[str, str], Any]) -> dict[str, Any]:
 
 def _decode(bag: Bag, on_read: OnRead) -> Decoded:
     decoded, readers = Decoded({}, {}, {}, {}), series_readers()
-    total = bag.count()
+    total, kept = bag.count(), 0
     for number, message in enumerate(bag.messages(), start=1):
         if number % MESSAGES_BETWEEN_CALLS == 0:
             on_read(min(1.0, number / max(total, 1)))
@@ -152,16 +194,23 @@ def _decode(bag: Bag, on_read: OnRead) -> Decoded:
         # Fields and points are reduced as they are read; they would not fit into memory
         if message.type == PATCH:
             decoded.fields.setdefault(message.topic, FieldReader()).add(seconds, bag.decode(message))
+            kept += SCALARS_BYTES
         elif message.type == POINTS:
             decoded.points.setdefault(message.topic, PointReader()).add(seconds, bag.decode(message))
+            kept += SCALARS_BYTES
         elif message.type in readers:
             reader = readers[message.type]
             place = reader.name, message.topic.rpartition("/")[0]
             if place not in decoded.of_rigs:
                 decoded.of_rigs[place] = load(reader.reader)()
             decoded.of_rigs[place].add(seconds, message.type, bag.decode(message))
-        elif message.type in SERIES_TYPES:
-            decoded.series.setdefault(message.topic, []).append((message.log_time, message.data))
+            kept += SCALARS_BYTES if reader.reduces else 2 * len(message.data)
+        elif message.type in WANTED:
+            if message.topic not in decoded.series:
+                decoded.series[message.topic] = bag.stack(message.topic, WANTED[message.type])
+            decoded.series[message.topic].add(message.log_time, message.data)
+            continue
+        refuse_above_limit(kept, f"{bag.path}: the report of its first {number} messages")
     return decoded
 
 
@@ -232,10 +281,9 @@ def _motion(columns: dict[str, Any]) -> MotionSeries:
     )
 
 
-def _episodes(columns: Callable[[str, tuple[str, ...]], dict[str, Any]], topic: str, recorded: bool) -> EpisodeSeries:
+def _episodes(stack: Stack | None) -> EpisodeSeries:
     """Episodes of a topic; it carries nothing where none ended."""
-    names = EpisodeSeries._fields
-    return episode_series(columns(topic, names) if recorded else {name: [] for name in names})
+    return episode_series({name: [] for name in EpisodeSeries._fields} if stack is None else stack.columns())
 
 
 def _cost(columns: dict[str, Any]) -> CostSeries:

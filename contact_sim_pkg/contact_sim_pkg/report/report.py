@@ -9,7 +9,6 @@ from functools import partial
 from pathlib import Path
 
 from contact_sim_pkg.bag.reader import Bag
-from contact_sim_pkg.files import check_output, new_file
 from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report import facts, rig_reports
@@ -18,13 +17,13 @@ from contact_sim_pkg.report.figures.bench import energy_balance, real_time_facto
 from contact_sim_pkg.report.figures.contact import contact_section
 from contact_sim_pkg.report.metrics.listing import metrics_of
 from contact_sim_pkg.report.metrics.tiles import doubts_of, sources_of, tiles_of
-from contact_sim_pkg.report.page import Section, environment, is_page
+from contact_sim_pkg.report.page import Section, environment
+from contact_sim_pkg.report.place import free_place, new_page
 from contact_sim_pkg.report.reading import OnRead, read_recording
 from contact_sim_pkg.report.rows import scene_rows
 from contact_sim_pkg.report.series import Recording
 
 TEMPLATE = "report.html.j2"
-FILE_NAME = "report.html"
 
 OnSection = Callable[[int, int, str], object]
 """Called before a section is drawn: its number from 0, the number of sections, its name."""
@@ -54,12 +53,10 @@ def write_report(
         BagError: the bag cannot be read.
         FileRefusedError: `out` is another file, or part of a bag that is read.
     """
-    path = bag.path.parent / FILE_NAME if out is None else out
-    read = (bag.path, bag.path.parent)
-    check_output(path, read, overwrite=overwrite, ours=is_page)
+    path = free_place([bag], out, overwrite=overwrite)
     # Everything is read before the file is touched
     page = render(read_recording(bag, on_read), on_section)
-    with new_file(path, read, overwrite=overwrite, ours=is_page) as file:
+    with new_page(path, [bag], overwrite=overwrite) as file:
         file.write(page.encode())
     return path
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from contact_sim_pkg.files import FileRefusedError, open_regular_file
+from contact_sim_pkg.memory import GIBIBYTE
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.files import InputFile, candidates, find_file, input_files
@@ -16,7 +17,6 @@ from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 from contact_sim_pkg.scene.schema.road import Iso8608RoadSection
 from contact_sim_pkg.scene.schema.scene import Scene
 
-GIBIBYTE = 1 << 30
 BYTES_PER_CELL = 256
 """Influence tables, transforms and work arrays of a pressure field, a cell of its grid."""
 MOST_CELLS_A_SIDE = 4096

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from tests.bag.hand_made import Content, write
 from tests.report import uneven_bag as known
 
 from contact_sim_pkg.bag.errors import BagError
@@ -17,7 +18,16 @@ from contact_sim_pkg.bag.typestore import definition, type_hash
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.files import FileRefusedError
-from contact_sim_pkg.records.messages import AxleForce, ContactEpisodes, Series, SolverCost
+from contact_sim_pkg.memory import MemoryLimitError
+from contact_sim_pkg.records.messages import (
+    AxleForce,
+    ContactEpisodes,
+    ContactForce,
+    RollerVolumes,
+    Series,
+    SolverCost,
+    String,
+)
 from contact_sim_pkg.report.export.table import table_of
 from contact_sim_pkg.report.export.write import export
 
@@ -277,3 +287,90 @@ def test_a_foreign_topic_has_its_units_and_each_element_its_own_column(tmp_path)
     assert [header for header in table if "wrench" in header] == headers
     for header, column in zip(headers, random.T, strict=True):
         assert numbers(table[header]).tolist() == column.tolist()
+
+
+def force(first):
+    values = {name: np.arange(3.0) + first for name in ("normal", "tangential", "approach", "effective_height")}
+    return ContactForce(block=1, sample_period=1e-3, impulses=np.zeros(0), **values)
+
+
+def foreign(folder, messages, names):
+    """A bag of messages on topics of our table that have other names."""
+    written = [(topic, number, encode(message, number)) for number, (topic, message) in enumerate(messages)]
+    return write(folder, Content({}, written, names=names))
+
+
+@pytest.mark.fault("E13", "G15")
+def test_each_topic_has_a_file_of_its_own(tmp_path, capsys):
+    """`/a/b` and `/a_b` have one name as files, a map and a topic another; one topic has a name too long for a file."""
+    long = "/" + 253 * "x"
+    names = {"tire/force": "/a/b", "seat/force": "/a_b", "bench/scene": long}
+    messages = [("tire/force", force(1)), ("seat/force", force(5)), ("bench/scene", String(data="a text"))]
+    bag = foreign(tmp_path / "bag", messages, names)
+    assert main(["export", str(bag), "--csv", "--out", str(tmp_path / "out")]) == 0
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["a_b.csv", "a_b_2.csv", 200 * "x" + ".csv"]
+    assert read(tmp_path / "out" / "a_b.csv")["normal [N]"] == ["1.0", "2.0", "3.0"]
+    assert read(tmp_path / "out" / "a_b_2.csv")["normal [N]"] == ["5.0", "6.0", "7.0"]
+    said = capsys.readouterr().err.splitlines()
+    assert sorted(said) == ["/a_b is in a_b_2.csv", f"{long} is in {200 * 'x'}.csv"]
+
+
+@pytest.mark.fault("E13")
+@pytest.mark.parametrize("in_the_way", ["tire_patch_pressure.csv", "bench_cost.csv"])
+def test_what_is_in_the_way_is_found_before_the_first_file(car, tmp_path, in_the_way):
+    """The file of a map, and that of the last topic."""
+    (tmp_path / in_the_way).write_text("mine")
+    with pytest.raises(FileRefusedError, match="exists already"):
+        list(export(car, "csv", (), tmp_path))
+    assert [path.name for path in tmp_path.iterdir()] == [in_the_way]
+    (tmp_path / in_the_way).unlink()
+    (tmp_path / in_the_way).mkdir()
+    with pytest.raises(FileRefusedError, match="is a directory"):
+        list(export(car, "csv", (), tmp_path, overwrite=True))
+    assert [path.name for path in tmp_path.iterdir()] == [in_the_way]
+
+
+@pytest.mark.fault("G15")
+def test_texts_stay_texts_and_numbers_numbers(tmp_path):
+    texts = ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "plain", "1=1", ""]
+    bag = foreign(tmp_path / "bag", [("bench/scene", String(data=text)) for text in texts], {"bench/scene": "/note"})
+    (path,) = export(open_bag(bag), "csv", (), tmp_path / "out")
+    table = read(path)
+    assert table["data"] == ["'=1+1", "'+1", "'-1", "'@SUM(A1)", "'\t=1", "plain", "1=1", ""]
+    # without a header the time is that of the log
+    assert [float(text) for text in table["time [s]"]] == pytest.approx(np.arange(8) * 1e-9, abs=1e-15)
+    bag = foreign(tmp_path / "numbers", [("tire/force", force(-4))], {})
+    (path,) = export(open_bag(bag), "csv", ("tire/force",), tmp_path / "numbers" / "out")
+    assert read(path)["normal [N]"] == ["-4.0", "-3.0", "-2.0"]
+
+
+@pytest.mark.fault("G13")
+def test_a_table_beyond_the_limit_of_memory_is_refused(tmp_path, monkeypatch):
+    """24 texts of 1 MB in a bag of a few kB; with a limit of 10 MB."""
+    monkeypatch.setenv("CONTACT_BENCH_MEMORY", "0.01")
+    texts = [("bench/scene", String(data="x" * 1_000_000)) for _ in range(24)]
+    bag = foreign(tmp_path / "bag", texts, {"bench/scene": "/note"})
+    assert bag.stat().st_size < 100_000
+    with pytest.raises(MemoryLimitError, match=r"/note: the table of its first 3 messages needs .* limit 0.01 GiB"):
+        list(export(open_bag(bag), "csv", (), tmp_path / "out"))
+    monkeypatch.setenv("CONTACT_BENCH_MEMORY", "1")
+    (path,) = export(open_bag(bag), "csv", (), tmp_path / "out")
+    assert len(path.read_bytes()) > 24_000_000
+
+
+def test_the_own_time_of_a_message_has_one_name(tmp_path):
+    kind = "contact_msgs_defs/msg/RollerVolumes"
+    bag = open_bag(roller_bag(tmp_path))
+    columns = bag.columns("roller/volumes")
+    table = {column.name: column.values for column in table_of(bag, "roller/volumes").columns}
+    assert bag.topic("roller/volumes").type == kind
+    assert columns["time"].tolist() == table["time"].tolist() == [2.0]
+    assert columns["time_in_message"].tolist() == table["time_in_message"].tolist() == [2.5]
+    assert bag.columns("roller/volumes", ("time_in_message",)).keys() == {"time_in_message"}
+
+
+def roller_bag(folder):
+    """One message, stamped 2 s, on an instant at 2.5 s."""
+    values = dict.fromkeys(RollerVolumes._fields, 4.0) | {"volume": np.full(7, 3.0), "with_bending": np.zeros(0)}
+    message = RollerVolumes(**values | {"block": 1, "time": 2.5})
+    return write(folder / "bag", Content({}, [("roller/volumes", 2 * 10**9, encode(message, 2 * 10**9))]))

@@ -20,7 +20,7 @@ T = STORE.types
 RATE = 500.0
 
 
-def foreign_bag(folder, kind, values, rate=RATE, times=None, turning=None):
+def foreign_bag(folder, kind, values, rate=RATE, times=None, turning=None, frame="sensor"):
     """A bag by rosbags with one topic of `kind`; values [samples, 3]."""
     name = {
         "imu": "sensor_msgs/msg/Imu",
@@ -36,7 +36,7 @@ def foreign_bag(folder, kind, values, rate=RATE, times=None, turning=None):
             times, values, np.zeros((len(values), 3)) if turning is None else turning, strict=True
         ):
             stamp = round(time * 1e9)
-            top = header(T["builtin_interfaces/msg/Time"](stamp // 10**9, stamp % 10**9), "sensor")
+            top = header(T["builtin_interfaces/msg/Time"](stamp // 10**9, stamp % 10**9), frame)
             linear = vector(*map(float, row))
             if kind == "imu":
                 attitude, none = T["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0), np.zeros(9)
@@ -200,3 +200,30 @@ def test_runs_that_differ_more_or_are_too_few_are_not_valid():
     assert mean.broken == ("not valid by ISO 10326-1: A is 10 % from the mean, above 5 %",)
     (mean,) = repeated(list("AB"), [{"seed": each} for each in range(2)], runs(60.0, 60.1))
     assert mean.broken == ("not valid by ISO 10326-1: 2 runs, 3 needed",)
+
+
+@pytest.mark.fault("G13")
+def test_stamps_that_ask_for_gigabytes_of_zeros_are_refused_before(tmp_path, capsys):
+    """24 samples 1 ns apart: 10 s of padding are 1e10 samples. 16 bytes a sample are 149 GiB at the very least."""
+    bag = foreign_bag(tmp_path / "fast", "imu", np.ones((24, 3)), times=np.arange(24) * 1e-9)
+    assert main(["metrics", str(bag)]) == 2
+    said = capsys.readouterr().err
+    assert "24 samples at 1e+09 Hz with 10 s of zeros (are the stamps right?) needs" in said
+    assert float(said.partition("needs ")[2].split()[0]) > 149.0
+    assert "limit 1 GiB (limits.memory)" in said
+
+
+@pytest.mark.fault("G13")
+def test_a_frame_of_megabytes_is_no_name(tmp_path, capsys):
+    bag = foreign_bag(tmp_path / "long", "imu", np.ones((16, 3)), frame="x" * (17 << 20))
+    assert main(["metrics", str(bag)]) == 2
+    assert "holds a text of 17825793 bytes; at most 16777216 are read" in capsys.readouterr().err
+
+
+def test_a_bag_without_accelerations_is_named_without_gaps(tmp_path, car, capsys):
+    assert main(["metrics", str(car.path), "--axis", "z"]) == 2
+    assert capsys.readouterr().err == (
+        f"bench: {car.path} holds no Imu, AccelStamped or WrenchStamped: there is nothing to weight\n"
+    )
+    assert main(["metrics", str(car.path), "--topic", "tire/force"]) == 2
+    assert "the topic tire/force of" in capsys.readouterr().err

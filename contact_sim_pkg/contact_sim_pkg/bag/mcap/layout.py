@@ -8,7 +8,7 @@ below a limit, a chunk is unpacked when its checksum is right. The file is never
 import struct
 import zlib
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -84,9 +84,12 @@ def counts_on_disk(path: Path) -> tuple[dict[str, int], bool]:
     return dict(counts), layout.finished and in_place
 
 
-def chunk_records(file: IO[bytes], place: ChunkPlace, name: str) -> list[McapRecord]:
-    """Schemas, channels and messages of one chunk in file order; CorruptChunkError where it is
-    damaged.
+def chunk_records(
+    file: IO[bytes], place: ChunkPlace, name: str, channels: Container[int] | None = None
+) -> Iterator[McapRecord]:
+    """Schemas, channels and messages of one chunk in file order; CorruptChunkError where it is damaged.
+
+    With `channels` only the messages of these.
     """
     try:
         opcode, length = _head(file, place.offset)
@@ -95,27 +98,35 @@ def chunk_records(file: IO[bytes], place: ChunkPlace, name: str) -> list[McapRec
         chunk = decompressed(Chunk.read(_stream(file, length)))
         if chunk.uncompressed_crc not in (0, zlib.crc32(chunk.data)):  # 0: none stated
             raise ValueError("its checksum is not that of its content")
-        return list(_records(chunk.data))
+        yield from _records(chunk.data, channels)
     except _FAULTS as error:
         raise damaged(name, place.offset, place.start, place.end, error) from None
 
 
-def _records(content: bytes) -> Iterator[McapRecord]:
-    """Schemas, channels and messages of an unpacked chunk; those of other kinds are passed over."""
-    end = 0
-    while end < len(content):
-        opcode, length = _RECORD.unpack_from(content, end)
-        start, end = end + _HEAD, end + _HEAD + length
-        if end > len(content):
-            raise ValueError(f"a record of {length} bytes reaches beyond its end")
+def _records(content: bytes, channels: Container[int] | None) -> Iterator[McapRecord]:
+    """Records of an unpacked chunk; those of other kinds are passed over."""
+    # All lengths are checked before the first record is handed out
+    for opcode, start, end in [*_places(content)]:
         # Messages are many: no stream is made for each
         if opcode == Opcode.MESSAGE:
             channel, sequence, log_time, publish_time = _MESSAGE.unpack_from(content, start)
-            yield Message(channel, log_time, content[start + _MESSAGE.size : end], publish_time, sequence)
+            if channels is None or channel in channels:
+                yield Message(channel, log_time, content[start + _MESSAGE.size : end], publish_time, sequence)
         elif opcode == Opcode.SCHEMA:
             yield Schema.read(ReadDataStream(BytesIO(content[start:end])))
         elif opcode == Opcode.CHANNEL:
             yield Channel.read(ReadDataStream(BytesIO(content[start:end])))
+
+
+def _places(content: bytes) -> Iterator[tuple[int, int, int]]:
+    """Kind, start and end of each record."""
+    end = 0
+    while end < len(content):
+        opcode, length = _RECORD.unpack_from(content, end)
+        start, end = end + _HEAD, end + _HEAD + length
+        if end > len(content) or (opcode == Opcode.MESSAGE and length < _MESSAGE.size):
+            raise ValueError(f"a record of {length} bytes reaches beyond its end")
+        yield opcode, start, end
 
 
 def _stream(file: IO[bytes], length: int) -> ReadDataStream:
@@ -261,7 +272,7 @@ def _time(eight: bytes) -> int:
     return int.from_bytes(eight, "little")
 
 
-def _count(records: list[McapRecord], found: Layout) -> None:
+def _count(records: Iterable[McapRecord], found: Layout) -> None:
     for record in records:
         if isinstance(record, Schema):
             found.schemas[record.id] = record

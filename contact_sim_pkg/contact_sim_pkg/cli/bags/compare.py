@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import print_json, show_rows
 
 
@@ -29,14 +30,16 @@ def command(bags: tuple[Path, ...], tolerances: Path | None, form: str | None, s
     from contact_sim_pkg.compare.side_by_side import misses, read_tolerances, side_by_side
     from contact_sim_pkg.report.comparison.curves import compared
     from contact_sim_pkg.report.comparison.rows import csv_text, junit_text_of, rows_of, table_rows
-    from contact_sim_pkg.report.comparison.runs import distinct_names, refuse_other_rigs
+    from contact_sim_pkg.report.comparison.runs import distinct_names
     from contact_sim_pkg.report.metrics.of_bag import recording_of
+    from contact_sim_pkg.report.reading import refuse_other_rigs, rig_of_bag
 
     if form == "junit" and tolerances is None:
         raise click.UsageError("--junit needs --tolerances FILE: a test case is a tolerance.")
     wanted = [] if tolerances is None else read_tolerances(tolerances)
-    recordings = [recording_of(open_bag(each, skip_bad=skip_bad)) for each in bags]
-    refuse_other_rigs(recordings)
+    opened = [open_bag(each, skip_bad=skip_bad) for each in bags]
+    refuse_other_rigs([rig_of_bag(bag) for bag in opened])
+    recordings = [recording_of(bag) for bag in opened]
     runs = [compared(name, each) for name, each in zip(distinct_names(recordings), recordings, strict=True)]
     names, sides, missed = [each.name for each in runs], side_by_side(runs), misses(runs, wanted)
     if not sides:
@@ -46,13 +49,13 @@ def command(bags: tuple[Path, ...], tolerances: Path | None, form: str | None, s
         print_json({"bags": [str(each) for each in bags], "metrics": rows_of(names, sides),
                     "misses": [miss._asdict() for miss in failed]})  # fmt: skip
     elif form == "csv":
-        click.echo(csv_text(names, sides), nl=False)
+        say(csv_text(names, sides), nl=False)
     elif form == "junit":
-        click.echo(junit_text_of(names, missed), nl=False)
+        say(junit_text_of(names, missed), nl=False)
     else:
         show_rows(table_rows(names, sides), as_json=False)
         for miss in failed:
-            click.echo(f"MISSED {miss.run}: {miss.sentence}")
+            say(f"MISSED {miss.run}: {miss.sentence}")
         if wanted and not failed:
-            click.echo(f"all {len(wanted)} tolerances hold")
+            say(f"all {len(wanted)} tolerances hold")
     return 1 if failed else 0

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import overwrite_option
 
 if TYPE_CHECKING:
@@ -50,15 +51,15 @@ def command(
     source, status = open_bag(bag, skip_bad=skip_bad), 0
     if form in (None, STANDARD):
         summary = _new_bag(source, form, out, wall_time, begin, rate)
-        click.echo(f"{summary.path}: {summary.messages} messages{f'; {summary.sentence}' if summary.sentence else ''}")
+        say(f"{summary.path}: {summary.messages} messages{f'; {summary.sentence}' if summary.sentence else ''}")
         status = 0 if summary.complete else 3
     else:
         from contact_sim_pkg.report.export.write import export
 
         for file in export(source, form, topics, out or source.path.parent / "export", overwrite=overwrite):
-            click.echo(str(file))
+            say(str(file))
     for note in source.notes:
-        click.echo(note, err=True)
+        say(note, err=True)
     context.exit(status)
 
 

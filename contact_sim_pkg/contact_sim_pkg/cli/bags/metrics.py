@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import print_json
 
 
@@ -43,14 +44,14 @@ def command(
     if form == "json":
         print_json({"bags": [str(each) for each in bags], "metrics": rows})
     elif form == "csv":
-        click.echo(csv_of(found.metrics), nl=False)
+        say(csv_of(found.metrics), nl=False)
     elif form == "junit":
-        click.echo(junit_of(suite_name(bags), found.metrics), nl=False)
+        say(junit_of(suite_name(bags), found.metrics), nl=False)
     else:
         for line in (*lines_of(rows), verdict_line(rows)):
-            click.echo(line)
+            say(line)
 
 
 def _notes(notes: Sequence[str]) -> None:
     for note in notes:
-        click.echo(note, err=True)
+        say(note, err=True)

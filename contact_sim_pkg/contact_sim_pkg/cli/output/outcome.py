@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
-import click
+from contact_sim_pkg.cli.output.say import say
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -117,27 +117,27 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome, checked: Iterable[str
     """
     for topic, description in facts["excitation"].items():
         for note in description.get("notes", []):
-            click.echo(f"{topic}: {note}", err=True)
+            say(f"{topic}: {note}", err=True)
     factor = facts["real_time_factor"]
     speed = "" if factor is None else f" in {facts['wall_s']:.3g} s: {factor:.3g}x real time"
     state = "stopped after" if outcome.stopped else "simulated"
-    click.echo(f"{facts['scene']}: {state} {facts['simulated_s']:g} s{speed} (start-up {facts['startup_s']:.2f} s)")
+    say(f"{facts['scene']}: {state} {facts['simulated_s']:g} s{speed} (start-up {facts['startup_s']:.2f} s)")
     summary = facts["summary"]
     _echo_accuracy(summary.get("accuracy"))
     for warning in summary.get("warnings", []):
-        click.echo(f"  warning: {warning}")
+        say(f"  warning: {warning}")
     if "messages" in summary:
-        click.echo(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")
+        say(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")
     for line in checked:
-        click.echo(f"  {line}")
+        say(f"  {line}")
     _echo_metrics(summary.get("metrics", []))
     if row := summary.get("expected"):
         from contact_sim_pkg.report.metrics.regimes import line_of
         from contact_sim_pkg.report.metrics.views import metric_of
 
-        click.echo(f"expected: {line_of(metric_of(row))}")
+        say(f"expected: {line_of(metric_of(row))}")
     if facts["bag"] is not None:
-        click.echo(f"bag: {facts['bag']}")
+        say(f"bag: {facts['bag']}")
 
 
 def _echo_accuracy(numbers: dict[str, Any] | None) -> None:
@@ -148,11 +148,9 @@ def _echo_accuracy(numbers: dict[str, Any] | None) -> None:
     from contact_sim_pkg.records.table import number_of
 
     for line in accuracy_lines(numbers):
-        click.echo(f"  {line}")
+        say(f"  {line}")
     if beyond := above(numbers):
-        click.echo(
-            f"bench: estimated above the requested {number_of(numbers['requested'])}: {', '.join(beyond)}", err=True
-        )
+        say(f"bench: estimated above the requested {number_of(numbers['requested'])}: {', '.join(beyond)}", err=True)
 
 
 def _echo_metrics(rows: list[dict[str, Any]]) -> None:
@@ -162,5 +160,5 @@ def _echo_metrics(rows: list[dict[str, Any]]) -> None:
     from contact_sim_pkg.report.metrics.views import lines_of, verdict_line
 
     for line in lines_of(rows):
-        click.echo(f"  {line}")
-    click.echo(verdict_line(rows))
+        say(f"  {line}")
+    say(verdict_line(rows))

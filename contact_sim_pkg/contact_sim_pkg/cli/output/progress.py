@@ -11,6 +11,8 @@ from typing import Protocol
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from contact_sim_pkg.files import printable_lines
+
 PLAIN_SECONDS = 3.0  # between two lines where standard error is no terminal
 
 
@@ -103,7 +105,7 @@ class RunDisplay:
 
     def print_line(self, line: str) -> None:
         """Print one line, of a node or of the progress."""
-        self._console.print(line, markup=False, soft_wrap=True)
+        self._console.print(printable_lines(line), markup=False, soft_wrap=True)
 
     def __enter__(self) -> RunDisplay:
         """Start the bar."""

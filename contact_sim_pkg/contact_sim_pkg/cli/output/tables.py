@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import shutil
 import sys
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
+
+from contact_sim_pkg.files import printable_lines
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -28,7 +31,11 @@ overwrite_option = click.option("--overwrite", is_flag=True, help="Replace files
 
 def print_json(value: Mapping[str, Any]) -> None:
     """One object on standard output; NaN and infinity, which JSON lacks, become null."""
-    click.echo(json.dumps(_plain(value), indent=2, ensure_ascii=False, allow_nan=False))
+    text = json.dumps(_plain(value), indent=2, ensure_ascii=False, allow_nan=False)
+    # Beside ASCII there are only texts, which JSON escapes
+    click.echo(
+        re.sub("[^\\x20-\\x7e\\n]", lambda each: each[0] if each[0].isprintable() else json.dumps(each[0])[1:-1], text)
+    )
 
 
 def print_json_rows(rows: Sequence[Mapping[str, Any]]) -> None:
@@ -54,10 +61,10 @@ def show_sections(sections: Sequence[Section]) -> None:
         if place:
             click.echo()
         if section.title:
-            _print(Text(section.title, style="bold"))
+            _print(Text(printable_lines(section.title), style="bold"))
         _print_table(section.rows)
         if section.note:
-            _print(Text(section.note, style="dim"))
+            _print(Text(printable_lines(section.note), style="dim"))
 
 
 def _print(what: RenderableType) -> None:
@@ -78,12 +85,13 @@ def _print_table(rows: Sequence[Mapping[str, Any]]) -> None:
     from rich.table import Table
 
     columns = list(dict.fromkeys(key for row in rows for key in row))
+    names = [*map(printable_lines, columns)]
     cells = [[_cell(row.get(column)) for column in columns] for row in rows]
     width = shutil.get_terminal_size().columns if sys.stdout.isatty() else PIPED_WIDTH
     texts = [[line[place] for line in cells] for place in range(len(columns))]
     numbers = [all(map(_is_number, column)) for column in texts]
     table = Table(box=None, pad_edge=False, padding=(0, GAP, 0, 0))
-    for column, number, share in zip(columns, numbers, _widths(columns, texts, numbers, width), strict=True):
+    for column, number, share in zip(names, numbers, _widths(names, texts, numbers, width), strict=True):
         table.add_column(escape(column), justify="right" if number else "left", width=share)
     for line in cells:
         table.add_row(*map(escape, line))
@@ -123,7 +131,7 @@ def _cell(value: Any) -> str:
         return "yes" if value else "no"
     if isinstance(value, float):
         return f"{value:.3g}"
-    return ", ".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+    return printable_lines(", ".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value))
 
 
 def _plain(value: Any) -> Any:

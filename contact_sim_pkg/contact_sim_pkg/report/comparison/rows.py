@@ -9,6 +9,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from contact_sim_pkg.compare.side_by_side import ComparedMetric, Miss, Tolerance
+from contact_sim_pkg.files import as_cell
 from contact_sim_pkg.report.comparison.tables import metric_table
 from contact_sim_pkg.report.metrics.views import junit_text
 
@@ -30,9 +31,8 @@ def csv_text(names: Sequence[str], sides: Sequence[ComparedMetric]) -> str:
     """`rows_of` with a header."""
     text = io.StringIO()
     rows = rows_of(names, sides)
-    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerows(map(as_cell, row) for row in (rows[0], *(row.values() for row in rows)))
     return text.getvalue()
 
 

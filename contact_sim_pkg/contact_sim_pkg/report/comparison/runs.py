@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.compare.side_by_side import side_by_side
-from contact_sim_pkg.files import check_output, new_file
 from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report import facts
@@ -25,12 +23,12 @@ from contact_sim_pkg.report.comparison.maps import map_comparison
 from contact_sim_pkg.report.comparison.scene_differences import differences
 from contact_sim_pkg.report.comparison.tables import difference_table, metric_table
 from contact_sim_pkg.report.drawing import Picture, style
-from contact_sim_pkg.report.page import Section, environment, is_page
-from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.page import Section, environment
+from contact_sim_pkg.report.place import free_place, new_page
+from contact_sim_pkg.report.reading import read_recording, refuse_other_rigs, rig_of_bag, rig_of_recording
 from contact_sim_pkg.report.series import Recording
 
 TEMPLATE = "comparison.html.j2"
-FILE_NAME = "comparison.html"
 
 
 def write_comparison(bags: Sequence[Bag], out: Path | None = None, *, overwrite: bool = False) -> Path:
@@ -48,19 +46,18 @@ def write_comparison(bags: Sequence[Bag], out: Path | None = None, *, overwrite:
         BagError: a bag cannot be read, or the rigs differ.
         FileRefusedError: `out` is another file, or part of a bag that is read.
     """
-    path = Path(FILE_NAME) if out is None else out
-    read = [file for each in bags for file in (each.path, each.path.parent)]
-    check_output(path, read, overwrite=overwrite, ours=is_page)
+    path = free_place(bags, out, overwrite=overwrite)
+    refuse_other_rigs([rig_of_bag(bag) for bag in bags])
     # Everything is read before the file is touched
     page = render_comparison([read_recording(bag) for bag in bags])
-    with new_file(path, read, overwrite=overwrite, ours=is_page) as file:
+    with new_page(path, bags, overwrite=overwrite) as file:
         file.write(page.encode())
     return path
 
 
 def render_comparison(recordings: Sequence[Recording]) -> str:
     """The page as text. Raises BagError for runs of different rigs, or fewer than two."""
-    refuse_other_rigs(recordings)
+    refuse_other_rigs([rig_of_recording(each) for each in recordings])
     names = distinct_names(recordings)
     runs = make_runs(names, recordings)
     sides = side_by_side([compared(name, each) for name, each in zip(names, recordings, strict=True)])
@@ -86,24 +83,6 @@ def distinct_names(recordings: Sequence[Recording]) -> list[str]:
     if len(set(names)) < len(names):
         names = [f"{name} ({place})" for place, name in enumerate(names, start=1)]
     return [f"{letter}: {name}" for letter, name in zip("AB", names, strict=True)] if len(names) == 2 else names
-
-
-def refuse_other_rigs(recordings: Sequence[Recording]) -> None:
-    """Raises BagError where the runs are not of one rig, or fewer than two."""
-    if len(recordings) < 2:
-        raise BagError(f"a comparison needs at least two bags, {len(recordings)} given")
-    first = recordings[0]
-    for each in recordings[1:]:
-        if each.scene.get("rig") != first.scene.get("rig") or set(each.contacts) != set(first.contacts):
-            raise BagError(
-                f"bags of one rig can be compared: {first.name} is of rig {_rig(first)}, {each.name} of rig {_rig(each)}; "
-                "report them one by one"
-            )
-
-
-def _rig(recording: Recording) -> str:
-    contacts = ", ".join(recording.contacts) or "none"
-    return f"{recording.scene.get('rig') or 'unknown'} (contacts: {contacts})"
 
 
 def _sections(runs: list[Run], title: str) -> list[Section]:

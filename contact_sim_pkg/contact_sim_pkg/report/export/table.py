@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_sim_pkg.bag.columns import own_name
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.memory import refuse_above_limit
 from contact_sim_pkg.records.definitions import HEADER, Field, parsed
 
-__all__ = ["Map", "NoTableError", "TopicColumn", "TopicTable", "stamp_of", "table_of"]
+__all__ = ["Map", "NoTableError", "TopicColumn", "TopicTable", "maps_of", "table_of", "time_of"]
 
 PERIODS = ("sample_period", "period")
 """Fields that hold the time between the samples of a message."""
@@ -23,6 +25,8 @@ UNITS = {
     "accel.angular": "rad/s^2", "twist.linear": "m/s", "twist.angular": "rad/s",
 }  # fmt: skip
 """Units of standard messages, which do not state them."""
+BYTES_PER_MESSAGE, BYTES_PER_BYTE = 1024, 4
+"""Memory of a message in a table: its object, its fields as they came, and its rows in columns."""
 LONGEST_ROW = 16
 """Elements of an array of a foreign message that become columns of their own."""
 
@@ -81,17 +85,29 @@ def table_of(bag: Bag, topic: str) -> TopicTable:
 
     Raises:
         BagError: no such topic, or a message does not fit its definition.
+        MemoryLimitError: the table is too large.
     """
     row = bag.topic(topic)
-    try:
-        definition = parsed(row.type, row.definition.partition("\n====")[0])
-        nested = any("/" in field.type and field.type != HEADER for field in definition.fields)
-    except ValueError:
-        nested = True
-    if nested:
+    fields = _fields_of(bag, row.name)
+    if fields is None:
         return _foreign(bag, row.name)
-    fields = _sorted(list(definition.fields))
-    return TopicTable(row.name, _columns(bag, row.name, fields), [_map(field) for field in fields.maps])
+    return TopicTable(row.name, _columns(bag, row.name, fields), maps_of(bag, row.name))
+
+
+def maps_of(bag: Bag, topic: str) -> list[Map]:
+    """The maps of a topic, by its definition; no message is read."""
+    fields = _fields_of(bag, topic)
+    return [] if fields is None else [Map(each.name, each.unit, (each.shape[0], each.shape[1])) for each in fields.maps]
+
+
+def _fields_of(bag: Bag, topic: str) -> _Fields | None:
+    """None for a type with others in it, or with another syntax than ours."""
+    row = bag.topic(topic)
+    try:
+        fields = list(parsed(row.type, row.definition.partition("\n====")[0]).fields)
+    except ValueError:
+        return None
+    return None if any("/" in field.type and field.type != HEADER for field in fields) else _sorted(fields)
 
 
 def _sorted(fields: list[Field]) -> _Fields:
@@ -105,17 +121,10 @@ def _sorted(fields: list[Field]) -> _Fields:
     return _Fields(scalars, arrays, named, [field for field in two if field not in named])
 
 
-def _map(field: Field) -> Map:
-    return Map(field.name, field.unit, (field.shape[0], field.shape[1]))
-
-
 def _columns(bag: Bag, topic: str, fields: _Fields) -> list[TopicColumn]:
-    messages = (
-        [message for _, message in bag.decoded(topic)] if not fields.maps else [*_without_maps(bag, topic, fields)]
-    )
+    times, messages = _kept(bag, topic, fields)
     if not messages:
         return []
-    times = np.array([stamp_of(message) for message in messages])
     period = next((name for name in PERIODS if hasattr(messages[0], name)), "")
     long = [field for field in fields.arrays if any(len(getattr(each, field.name)) for each in messages)]
     counts = _counts(messages, long, fields.named)
@@ -131,10 +140,12 @@ def _columns(bag: Bag, topic: str, fields: _Fields) -> list[TopicColumn]:
         found += [TopicColumn("index", "", number)] if long or fields.named else []
     for field in fields.scalars:
         values = np.array([getattr(each, field.name) for each in messages])
-        found.append(TopicColumn(_own(field.name), field.unit, np.repeat(values, counts)))
+        found.append(TopicColumn(own_name(field.name), field.unit, np.repeat(values, counts)))
     for field in long:
         found.append(
-            TopicColumn(_own(field.name), field.unit, _filled([getattr(each, field.name) for each in messages], counts))
+            TopicColumn(
+                own_name(field.name), field.unit, _filled([getattr(each, field.name) for each in messages], counts)
+            )
         )
     for field in fields.named:
         names = [str(each) for each in getattr(messages[0], field.shape[0])]
@@ -147,16 +158,11 @@ def _columns(bag: Bag, topic: str, fields: _Fields) -> list[TopicColumn]:
     return found
 
 
-def stamp_of(message: Any) -> float:
-    """Stamp [s] of a message; 0 without a header."""
+def time_of(log_time: int, message: Any) -> float:
+    """Stamp [s] of a message; without a header its log time, given in [ns]."""
     if not hasattr(message, "header"):
-        return 0.0
+        return log_time / 1e9
     return float((message.header.stamp.sec * 10**9 + message.header.stamp.nanosec) / 1e9)
-
-
-def _own(name: str) -> str:
-    """`time` of a message beside its stamp."""
-    return "time_in_message" if name == "time" else name
 
 
 def _counts(messages: Sequence[Any], long: Sequence[Field], named: Sequence[Field]) -> NDArray[np.int64]:
@@ -184,12 +190,23 @@ def _filled(parts: Sequence[Any], counts: NDArray[np.int64]) -> Any:
     return column
 
 
-def _without_maps(bag: Bag, topic: str, fields: _Fields) -> Iterator[Any]:
-    """Messages of a topic without their maps, which would not fit into memory together."""
-    for _, message in bag.decoded(topic):
+def _kept(bag: Bag, topic: str, fields: _Fields) -> tuple[NDArray[np.float64], list[Any]]:
+    """Times [s] and messages of a topic, these without their maps, which would not fit into memory together."""
+    times: list[float] = []
+    messages: list[Any] = []
+    needed = 0
+    for raw in bag.messages(topic):
+        needed += BYTES_PER_MESSAGE + BYTES_PER_BYTE * len(raw.data)
+        if not fields.maps:
+            refuse_above_limit(needed, f"{bag.path}, {topic}: the table of its first {len(times) + 1} messages")
+        message = bag.decode(raw)
         for field in fields.maps:
+            needed -= BYTES_PER_BYTE * np.asarray(getattr(message, field.name)).nbytes
             setattr(message, field.name, ())
-        yield message
+        refuse_above_limit(needed, f"{bag.path}, {topic}: the table of its first {len(times) + 1} messages")
+        times.append(time_of(raw.log_time, message))
+        messages.append(message)
+    return np.array(times), messages
 
 
 def _foreign(bag: Bag, topic: str) -> TopicTable:

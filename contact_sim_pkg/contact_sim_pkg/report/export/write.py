@@ -8,19 +8,24 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from importlib import import_module
 from importlib.util import find_spec
+from itertools import count
 from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
 
 from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.names import safe_name
 from contact_sim_pkg.bag.reader import Bag
-from contact_sim_pkg.files import FileRefusedError, check_output, new_file, wrong_name
-from contact_sim_pkg.report.export.table import Map, NoTableError, TopicTable, stamp_of, table_of
+from contact_sim_pkg.files import FileRefusedError, as_cell, check_output, new_file, wrong_name
+from contact_sim_pkg.report.export.table import Map, NoTableError, TopicTable, maps_of, table_of, time_of
 
 __all__ = ["CSV", "PARQUET", "export"]
 
 CSV, PARQUET = "csv", "parquet"
+LONGEST_NAME = 200
+"""Characters of a file's name."""
+ROWS_AT_ONCE = 1 << 16
 GRID = ("cell_x", "cell_y", "origin_x", "origin_y")
 """Fields that place the cells of a map, written above its frames."""
 
@@ -28,10 +33,13 @@ GRID = ("cell_x", "cell_y", "origin_x", "origin_y")
 def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: bool = False) -> Iterator[Path]:
     """Write a file a topic into the folder `out`, `tire_force.csv`, and one a map, `tire_patch_pressure.csv`.
 
+    All files have names of their own, which are free, before the first one is written.
+
     Args:
         bag: to read.
         form: `CSV` or `PARQUET`; maps are CSV in both.
-        topics: all where it is empty, but those that have nothing for a table: `bag.notes` names them.
+        topics: all where it is empty, but those that have nothing for a table: `bag.notes` names them, and those
+            whose file has another name than theirs.
         out: folder, made where it does not exist.
         overwrite: replace files that exist.
 
@@ -40,7 +48,7 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
 
     Raises:
         BagError: no such topic, one that has nothing for a table, nothing recorded, or Parquet without pyarrow.
-        FileRefusedError: a file exists, or `out` is one.
+        FileRefusedError: a file exists, or `out` is one. MemoryLimitError: a table is too large.
     """
     if form == PARQUET and find_spec("pyarrow") is None:
         raise BagError("--parquet needs pyarrow, which is not installed; pip install pyarrow, or --csv")
@@ -51,8 +59,12 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
         raise FileRefusedError(out, reason)
     if out.exists() and not out.is_dir():
         raise FileRefusedError(out, "exists already and is a file; --out names a folder with a file a topic")
-    for name in names if out.exists() else ():
-        check_output(out / f"{file_name(name)}.{form}", [bag.path], overwrite=overwrite)
+    files = _files(bag, names, form)
+    for name in files.values():
+        if out.exists():
+            check_output(out / name, [bag.path], overwrite=overwrite)
+        elif reason := wrong_name(out / name):
+            raise FileRefusedError(out / name, reason)
     # a topic that is named and has no table is refused before the first file
     tables = [table_of(bag, name) for name in names] if topics else _tables(bag, names)
     try:
@@ -61,13 +73,13 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
         raise FileRefusedError(out, f"cannot be made: {error.strerror}") from error
     write = _write_parquet if form == PARQUET else _write_csv
     for table in tables:
-        file = out / f"{file_name(table.topic)}.{form}"
+        file = out / files[table.topic, ""]
         if table.columns:
             with new_file(file, [bag.path], overwrite=overwrite) as stream:
                 write(table, stream)
             yield file
         for each in table.maps:
-            place = out / f"{file_name(table.topic)}_{each.name}.csv"
+            place = out / files[table.topic, each.name]
             with new_file(place, [bag.path], overwrite=overwrite) as stream:
                 _write_map(bag, table.topic, each, stream)
             yield place
@@ -82,9 +94,24 @@ def _tables(bag: Bag, names: Sequence[str]) -> Iterator[TopicTable]:
             bag.notes.append(f"{error}; it is left out")
 
 
-def file_name(topic: str) -> str:
-    """`/tire/force` -> `tire_force`."""
-    return topic.strip("/").replace("/", "_")
+def _files(bag: Bag, names: Sequence[str], form: str) -> dict[tuple[str, str], str]:
+    """Name of the file of each topic, with "", and of each of its maps: `/tire/force` -> `tire_force.csv`.
+
+    A name that another one has taken is numbered, one that is too long is cut; a note in the bag says so.
+    """
+    found: dict[tuple[str, str], str] = {}
+    for topic in names:
+        for part, ending in [("", form), *((each.name, CSV) for each in maps_of(bag, topic))]:
+            plain = "_".join(filter(None, (topic.strip("/").replace("/", "_"), part)))
+            stem = safe_name(plain, LONGEST_NAME)
+            numbered = (f"{stem}_{number}.{ending}" for number in count(2))
+            file = f"{stem}.{ending}"
+            while file in found.values():
+                file = next(numbered)
+            if file != f"{plain}.{ending}":
+                bag.notes.append(f"{' '.join(filter(None, (topic, part)))} is in {file}")
+            found[topic, part] = file
+    return found
 
 
 def _write_csv(table: TopicTable, stream: IO[bytes]) -> None:
@@ -92,8 +119,10 @@ def _write_csv(table: TopicTable, stream: IO[bytes]) -> None:
     value is not defined."""
     text = io.TextIOWrapper(stream, encoding="utf-8", newline="")
     writer = csv.writer(text)
-    writer.writerow([column.header for column in table.columns])
-    writer.writerows(zip(*(_texts(column.values) for column in table.columns), strict=True))
+    writer.writerow([as_cell(column.header) for column in table.columns])
+    for start in range(0, len(table.columns[0].values), ROWS_AT_ONCE):
+        part = slice(start, start + ROWS_AT_ONCE)
+        writer.writerows(zip(*(_texts(column.values[part]) for column in table.columns), strict=True))
     text.flush()
     text.detach()
 
@@ -105,7 +134,7 @@ def _texts(values: Any) -> list[Any]:
         return ["" if math.isnan(value) else str(value) for value in column]
     if column.dtype.kind == "f":
         return ["" if math.isnan(value) else value for value in column.tolist()]
-    return list(column.tolist())
+    return [*map(as_cell, column.tolist())]
 
 
 def _write_parquet(table: TopicTable, stream: IO[bytes]) -> None:
@@ -122,12 +151,12 @@ def _write_map(bag: Bag, topic: str, field: Map, stream: IO[bytes]) -> None:
     """Frames as a pressure mat writes them: what places the cells, then for each frame a line `frame, number, time`,
     and its rows along x from the front of the file's first row, columns along y."""
     write: Callable[[str], Any] = lambda line: stream.write(line.encode() + b"\n")  # noqa: E731
-    for number, (_, message) in enumerate(bag.decoded(topic)):
+    for number, (log_time, message) in enumerate(bag.decoded(topic)):
         rows, cols = (_size(message, side) for side in field.sides)
         if number == 0:
             write(f"{field.name} [{field.unit}],rows,{rows},cols,{cols}")
             write(",".join(f"{name} [m],{getattr(message, name)!r}" for name in GRID if hasattr(message, name)))
-        write(f"frame,{number},time [s],{stamp_of(message)!r},rows,{rows},cols,{cols}")
+        write(f"frame,{number},time [s],{time_of(log_time, message)!r},rows,{rows},cols,{cols}")
         for row in np.reshape(getattr(message, field.name), (rows, cols)):
             write(",".join(map(str, row)))
 

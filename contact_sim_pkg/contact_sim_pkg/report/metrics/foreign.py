@@ -57,10 +57,8 @@ def foreign_metrics(bag: Bag, axis: str | None = None, topic: str | None = None)
     rows = [bag.topic(topic)] if topic is not None else [row for row in bag.topics.values() if row.type in known]
     rows = [row for row in rows if row.type in known and bag.count(row.name)]
     if not rows:
-        raise BagError(
-            f"{bag.path} holds no {'topic ' + repr(topic) + ' of' if topic else ''} Imu, AccelStamped or WrenchStamped: "
-            "there is nothing to weight"
-        )
+        where = f"{bag.path} holds" if topic is None else f"the topic {topic} of {bag.path} holds"
+        raise BagError(f"{where} no Imu, AccelStamped or WrenchStamped: there is nothing to weight")
     found: list[Metric] = []
     notes: list[str] = []
     for row in rows:

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 from xml.etree import ElementTree
 
+from contact_sim_pkg.files import as_cell
 from contact_sim_pkg.records.metric import GOOD, NO_BAND, OUTSIDE, USUAL, Band, Metric
 from contact_sim_pkg.report.rows import number
 
@@ -44,7 +45,8 @@ def csv_of(metrics: Sequence[Metric]) -> str:
     writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
     writer.writeheader()
     for row in rows_of(metrics):
-        writer.writerow({**row, "broken": "; ".join(row["broken"])})
+        row["broken"] = "; ".join(row["broken"])
+        writer.writerow({key: as_cell(value) for key, value in row.items()})
     return text.getvalue()
 
 

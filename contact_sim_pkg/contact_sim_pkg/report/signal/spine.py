@@ -10,11 +10,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import scipy  # its parts are imported on use
 from numpy.typing import NDArray
 
 from contact_sim_pkg.report.signal.metrics import EXPOSURE_TIME
-from contact_sim_pkg.report.signal.weighting import PADDING_TIME
+from contact_sim_pkg.report.signal.weighting import PADDING_TIME, filtered
 
 ZERO = (34.0, 0.35)
 POLES = ((31.0, 0.21), (230.0, 0.88), (260.0, 0.80), (320.0, 0.40), (380.0, 0.75), (420.0, 0.65))
@@ -54,12 +53,8 @@ def _second_order(s: NDArray[np.complex128], omega: float, zeta: float) -> NDArr
 
 def spine_acceleration(acceleration: NDArray[np.float64], sample_rate: float) -> NDArray[np.float64]:
     """Acceleration of the spine [samples] in [m/s^2] of that of the seat [samples] in [m/s^2], whose
-    mean is removed; 0 outside the record. sample_rate: [Hz] > 0."""
-    length = scipy.fft.next_fast_len(acceleration.size + round(PADDING_TIME * sample_rate), real=True)
-    spectrum = scipy.fft.rfft(acceleration - acceleration.mean(), length)
-    spectrum *= spine_response(scipy.fft.rfftfreq(length, 1.0 / sample_rate))
-    found: NDArray[np.float64] = scipy.fft.irfft(spectrum, length)[: acceleration.size]
-    return found
+    mean is removed; 0 outside the record. sample_rate: [Hz] > 0. MemoryLimitError as of `filtered`."""
+    return filtered(acceleration - acceleration.mean(), sample_rate, PADDING_TIME, spine_response)
 
 
 def dose(spine: NDArray[np.float64]) -> float:

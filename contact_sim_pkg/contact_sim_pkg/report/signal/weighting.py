@@ -16,12 +16,19 @@ A digital filter would be up to 6 % low at 80 Hz for data sampled at 476 Hz.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import inf
 from typing import NamedTuple
 
 import numpy as np
 import scipy  # its parts are imported on use: they take 0.1 to 0.3 s
 from numpy.typing import NDArray
+
+from contact_sim_pkg.memory import refuse_above_limit
+
+BYTES_PER_SAMPLE = 40
+"""of a signal that is filtered: padded, its spectrum and frequencies, the result"""
+FREQUENCIES_AT_ONCE = 1 << 18
 
 PADDING_TIME = 10.0
 """[s] of zeros behind a signal: the response of the 0.4 Hz high-pass has died out to e^-17 by
@@ -112,18 +119,48 @@ def apply_weighting(weighting: Weighting, acceleration: NDArray[np.float64], sam
     Raises:
         ValueError: the rate is not a positive number, or the signal has no or more than one
             dimension.
+        MemoryLimitError: the signal and the zeros behind it are too many.
     """
     if not (np.isfinite(sample_rate) and sample_rate > 0.0):
         raise ValueError(f"sample_rate is {sample_rate} Hz; a signal can only be weighted at a known rate above 0")
     if acceleration.ndim != 1:
         raise ValueError(f"acceleration has {acceleration.ndim} dimensions; give one signal at a time")
-    # Padded by the decay of the filter, to a size that transforms fast
+    # Padded by the decay of the filter
     padding = PADDING_TIME * max(1.0, PADDED_CORNER / weighting.high_pass)
-    length = scipy.fft.next_fast_len(acceleration.size + round(padding * sample_rate), real=True)
-    spectrum = scipy.fft.rfft(acceleration, length)
-    spectrum *= response(weighting, scipy.fft.rfftfreq(length, 1.0 / sample_rate))
-    weighted: NDArray[np.float64] = scipy.fft.irfft(spectrum, length)[: acceleration.size]
-    return weighted
+    return filtered(acceleration, sample_rate, padding, lambda frequency: response(weighting, frequency))
+
+
+def filtered(
+    signal: NDArray[np.float64],
+    sample_rate: float,
+    padding: float,
+    of: Callable[[NDArray[np.float64]], NDArray[np.complex128]],
+) -> NDArray[np.float64]:
+    """Signal [samples] times a response in the frequency domain, in the signal's unit.
+
+    Args:
+        signal: [samples], taken as 0 outside.
+        sample_rate: [Hz] > 0.
+        padding: [s] of zeros behind the signal.
+        of: response [frequencies] at frequencies [Hz].
+
+    Raises:
+        MemoryLimitError: the signal and the zeros behind it are too many.
+    """
+    samples = signal.size + padding * sample_rate
+    refuse_above_limit(
+        samples * BYTES_PER_SAMPLE,
+        f"weighting {signal.size} samples at {sample_rate:.6g} Hz with {padding:g} s of zeros (are the stamps right?)",
+    )
+    # To a size that transforms fast; by parts, since a response needs many arrays of its size
+    length = scipy.fft.next_fast_len(signal.size + round(padding * sample_rate), real=True)
+    spectrum = scipy.fft.rfft(signal, length)
+    frequency = scipy.fft.rfftfreq(length, 1.0 / sample_rate)
+    for start in range(0, frequency.size, FREQUENCIES_AT_ONCE):
+        part = slice(start, start + FREQUENCIES_AT_ONCE)
+        spectrum[part] *= of(frequency[part])
+    found: NDArray[np.float64] = scipy.fft.irfft(spectrum, length)[: signal.size]
+    return found
 
 
 def _second_order(s: NDArray[np.complex128], omega: float, quality: float) -> NDArray[np.complex128]:

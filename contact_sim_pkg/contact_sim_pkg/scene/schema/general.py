@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from contact_sim_pkg.memory import LIMIT
 from contact_sim_pkg.records.registry import regime_names
 from contact_sim_pkg.scene.schema.fields import Section, choice, number
 
@@ -68,5 +69,5 @@ class Limits(Section):
     """Caps that a scene may raise for itself."""
 
     memory: float = number(
-        0.001, 1024.0, "GiB", "most memory that grids, roads and signals may need together", default=1.0
+        0.001, 1024.0, "GiB", "most memory that grids, roads and signals may need together", default=LIMIT
     )

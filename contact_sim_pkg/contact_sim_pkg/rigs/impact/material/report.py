@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy
 
-from contact_sim_pkg.files import new_file
+from contact_sim_pkg.files import as_cell, new_file
 from contact_sim_pkg.rigs.impact.material.bag_impacts import impacts_of_bag, is_bag
 from contact_sim_pkg.rigs.impact.material.errors import MaterialError
 from contact_sim_pkg.rigs.impact.material.estimate import (
@@ -171,7 +171,7 @@ def write_csv(report: MaterialReport, path: Path, *, overwrite: bool = False) ->
         text = io.StringIO()
         writer = csv.DictWriter(text, list(rows[0]))
         writer.writeheader()
-        writer.writerows(rows)
+        writer.writerows({name: as_cell(value) for name, value in row.items()} for row in rows)
         with new_file(target, overwrite=overwrite) as file:
             file.write(text.getvalue().encode())
 

@@ -13,6 +13,7 @@ IMPACT_REPORT = ContactReport(
             name="impacts",
             types=tuple(f"contact_msgs_defs/msg/Impact{kind}" for kind in _KINDS),
             reader=f"{__name__}.series:ImpactReader",
+            reduces=True,
         ),
     ),
     sections=f"{__name__}.section:impact_sections",

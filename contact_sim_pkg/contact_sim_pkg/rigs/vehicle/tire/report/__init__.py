@@ -8,13 +8,19 @@ TIRE_REPORT = ContactReport(
     contact="tire",
     series=(
         SeriesReader(
-            name="road", types=("contact_msgs_defs/msg/RoadPatch",), reader=f"{__name__}.road_series:RoadReader"
+            name="road",
+            types=("contact_msgs_defs/msg/RoadPatch",),
+            reader=f"{__name__}.road_series:RoadReader",
+            reduces=True,
         ),
         SeriesReader(
             name="axle", types=("contact_msgs_defs/msg/AxleForce",), reader=f"{__name__}.axle_series:AxleReader"
         ),
         SeriesReader(
-            name="shear", types=("contact_msgs_defs/msg/ContactShear",), reader=f"{__name__}.shear_series:ShearReader"
+            name="shear",
+            types=("contact_msgs_defs/msg/ContactShear",),
+            reader=f"{__name__}.shear_series:ShearReader",
+            reduces=True,
         ),
     ),
     sections=f"{__name__}.section:tire_sections",
