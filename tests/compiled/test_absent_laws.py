@@ -33,13 +33,8 @@ SCENES = {
     ),
     "backrest": (
         ("seat_slap",),
-        (
-            "seat_slap",
-            "effects.backrest.friction=null",
-            "effects.backrest.foam={}",
-            "effects.backrest.foam_hysteresis={}",
-        ),
-        ("seat_general", "effects.backrest.normal_dissipative=null"),
+        ("seat_slap", "effects.backrest.foam={}", "effects.backrest.foam_hysteresis={}"),
+        ("seat_general",),
         ("seat_slap", *SEARCH),
     ),
     "roller": (("roller_flutter",), ("roller_corrugation",)),
