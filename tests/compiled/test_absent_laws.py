@@ -90,6 +90,8 @@ def test_a_law_is_compiled_where_its_effect_is_on_and_nothing_of_it_where_it_is_
         scene = load_resolved(scene_name, *values)
         graph, roots = calls_of(lambda scene=scene: make_simulation(scene).prepare())
         on = {f"{contact.name}.{effect.name}": is_on(scene, contact, effect) for contact, effect in effects_of(scene)}
+        if on.get("seat.foam"):  # the law of the foam stands in place of the spring's
+            on["seat.normal_elastic"] = False
         for name, mark in marks.items():
             found = functions_of(graph, roots, mark)
             seen[name].add(on[name])
