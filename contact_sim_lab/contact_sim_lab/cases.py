@@ -99,7 +99,6 @@ HARD_CASES = (
     *(f"{_LAB}.field.{name}" for name in ("hard_cases_geometry", "hard_cases_field", "hard_cases_entries")),
     *(f"{_LAB}.papers.{name}.hard_cases" for name in ("distance", "cnoidal")),
     f"{_LAB}.identify.hard_cases",
-    f"{_LAB}.hard.absent_laws",
 )  # fmt: skip
 """Modules of hard cases of no rig."""
 

@@ -8,6 +8,7 @@ import math
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, exactly
 from contact_sim_lab.twins import halfspace as reference
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, displacement, make_buffers, make_half_space
@@ -69,12 +70,13 @@ def influence() -> Finding:
     pressure[5, 7] = 1.0
     displacement(grid(), make_buffers(grid()), pressure, result)
     exact = reference.displacement(dense(), pressure)
-    return at_most(float(numpy.abs(result / exact - 1.0).max()), 1e-12)
+    return at_most(float(numpy.abs(result / exact - 1.0).max()), 1e-12, hard=(pressure > 0.0).sum())
 
 
 def smooth() -> Finding:
     """Sphere against dense non-negative least squares."""
-    return at_most(field_error(bowl(), 0.004), 1e-8)
+    pressure, _result = solved(bowl(), 0.004)
+    return at_most(field_error(bowl(), 0.004), 1e-8, hard=((bowl() < 0.004) & (pressure == 0.0)).sum())
 
 
 def rough() -> Finding:
@@ -83,23 +85,29 @@ def rough() -> Finding:
     """
     gap = bowl() + numpy.random.default_rng(20).normal(0.0, 0.002, (SIDE, SIDE))
     gap[10, 13] -= 0.02
+    step = float(0.25 * (gap[9, 13] + gap[11, 13] + gap[10, 12] + gap[10, 14]) - gap[10, 13])
     gap -= gap.min()
-    return at_most(field_error(gap, 0.012), 1e-8)
+    return at_most(field_error(gap, 0.012), 1e-8, hard=step / 0.012)
 
 
 def no_contact() -> Finding:
     """Load without contact and for load 0, with a field that is left from before."""
+    load, approach = 0.0, -1e-6
     left = numpy.full((SIDE, SIDE), 1e4)
-    separated = solve_at_approach(grid(), make_workspace(grid()), bowl(), -1e-6, 1e-8, 100, left)
+    separated = solve_at_approach(grid(), make_workspace(grid()), bowl(), approach, 1e-8, 100, left)
     again = numpy.full((SIDE, SIDE), 1e4)
-    zero = solve_at_load(grid(), make_workspace(grid()), bowl(), 0.0, 1e-8, 100, again)
+    zero = solve_at_load(grid(), make_workspace(grid()), bowl(), load, 1e-8, 100, again)
     codes = 0 if (separated.status, zero.status) == (CONVERGED, CONVERGED) else 1
-    return exactly(separated.load + zero.load + float(left.max() + again.max()) + codes, 0.0)
+    return exactly(separated.load + zero.load + float(left.max() + again.max()) + codes, 0.0, hard=max(load, approach))
 
 
 CASES = (
-    HardCase("halfspace", "influence of a cell, its edges included: relative error", influence),
-    HardCase("halfspace", "sphere against dense NNLS: error of the field", smooth),
-    HardCase("rough road", "white noise and a 20 mm spike: error of the field", rough),
-    HardCase("halfspace", "no contact, and load 0: load and field", no_contact),
-)
+    HardCase("halfspace", "influence of a cell, its edges included: relative error", influence,
+        guard.at_most("loaded cells", 1)),
+    HardCase("halfspace", "sphere against dense NNLS: error of the field", smooth,
+        guard.at_least("cells that overlap undeformed, and yet part", 20)),
+    HardCase("rough road", "white noise and a 20 mm spike: error of the field", rough,
+        guard.at_least("height of one cell over the approach", 1.0)),
+    HardCase("halfspace", "no contact, and load 0: load and field", no_contact,
+        guard.at_most("load [N] and approach [m]", 0.0)),
+)  # fmt: skip

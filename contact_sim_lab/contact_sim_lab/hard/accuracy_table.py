@@ -2,42 +2,46 @@
 
 A row is *held* where force and motion err by no more than requested, beside a run at 3e-5; *named*
 where each of the two that errs by more is estimated above the request by the run, cannot be below it
-by the record of an effect, or where the run ends with a sentence; else *missed*.
+by the record of an effect, or where the run ends with a sentence; else *missed*. A scene whose guard
+is not met is *not hard*, whatever its errors.
 
-Columns of a row: `scene`, `hard` (what is hard about it), `requested`, `force`, `motion` (largest
-error over the scale of its kind), `estimated` by the run, by kind, `mark`, `names` (what names it),
-`cpu_s` of the run, `scene_cpu_s` of all runs of the scene, `start_s`, `end_s`.
+Columns of a row: `scene`, `hard` (what is hard about it), `guard` (in words), `figure`, `relation` and
+`bound` of it, `requested`, `force`, `motion` (largest error over the scale of its kind), `estimated`
+by the run, by kind, `mark`, `names` (what names it), `cpu_s` of the run, `scene_cpu_s` of all runs of
+the scene, `start_s`, `end_s`.
 """
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from contact_sim_lab.hard.accuracy_cases import CASES, AccuracyCase
+from contact_sim_lab.records.guard import Guard
 from contact_sim_pkg.compare.first_look import DEEP, MOVED, REQUESTS, Effort, FirstLook, Request, first_look
 from contact_sim_pkg.compare.least_errors import LeastError, least_errors
-from contact_sim_pkg.records.table import Section, number_of
+from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.rigs import make_simulation
+from contact_sim_pkg.run.scene_outputs import outputs_with
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.resolve import load_resolved
 
-__all__ = ["failed", "mark_of", "rows_of", "sections", "study"]
+__all__ = ["cells", "failed", "mark_of", "rows_of", "study", "summary"]
 
 Row = dict[str, Any]
-HELD, NAMED, MISSED = "held", "named", "missed"
+HELD, NAMED, MISSED, NOT_HARD = "held", "named", "missed", "not hard"
 ASKED = (*REQUESTS, DEEP)
 REFERENCE_CPU, SCALES_CPU = 30.0, 2.0  # [s], at most, of the finer run and of that for the scales
 
 
-def study(progress: Callable[[str], None], cases: Sequence[AccuracyCase] = CASES) -> list[Row]:
-    """Rows of all cases, four requests each, coarsest first."""
-    rows = []
+def study(progress: Callable[[str], None], cases: Sequence[AccuracyCase] = CASES) -> Iterator[list[Row]]:
+    """Rows of each case as they come, four requests, coarsest first."""
     for number, case in enumerate(cases, 1):
         progress(f"{number} of {len(cases)}: {case.name}: {case.hard}")
-        rows += _rows(case, progress)
-    return rows
+        yield _rows(case, progress)
 
 
 def rows_of(case: AccuracyCase, look: FirstLook, least: Mapping[str, LeastError]) -> list[Row]:
@@ -71,19 +75,16 @@ def mark_of(run: Request, least: Mapping[str, LeastError]) -> tuple[str, str]:
     return (NAMED, "; ".join(names)) if all(names) else (MISSED, "")
 
 
-def sections(rows: list[Row]) -> list[Section]:
-    """One line a scene, and the sum of the marks."""
-    lines = []
-    for name in dict.fromkeys(row["scene"] for row in rows):
-        own = [row for row in rows if row["scene"] == name]
-        cells = {number_of(row["requested"]): f"{_error(row)} {row['mark']}".strip() for row in own}
-        lines.append({"scene": name, **cells, "CPU s": f"{own[0]['scene_cpu_s']:.2g}"})
-    return [Section("larger error of force and motion", lines, _summary(rows))]
+def cells(rows: Sequence[Row]) -> dict[str, str]:
+    """The rows of one scene as a line: larger error of force and motion by request, and what makes it hard."""
+    first, requests = rows[0], {number_of(row["requested"]): f"{_error(row)} {row['mark']}".strip() for row in rows}
+    guard = Guard(first["guard"], first["relation"], first["bound"]).says(first["figure"])
+    return {"scene": first["scene"], **requests, "CPU s": f"{first['scene_cpu_s']:.2g}", "hard because": guard}
 
 
 def failed(rows: Sequence[Row]) -> bool:
-    """Whether an error above its request is named by nothing: then the command ends with 1."""
-    return _count(rows, MISSED) > 0
+    """Whether an error above its request is named by nothing, or a scene is not hard: then the command ends with 1."""
+    return _count(rows, MISSED) + _count(rows, NOT_HARD) > 0
 
 
 def _rows(case: AccuracyCase, progress: Callable[[str], None]) -> list[Row]:
@@ -101,8 +102,22 @@ def _rows(case: AccuracyCase, progress: Callable[[str], None]) -> list[Row]:
         except (SceneError, RunError) as error:
             progress(f"  no finer run: {error}")
             rows = [_unjudged(case, asked, MISSED, "") for asked in ASKED]
-    spent = time.process_time() - began
-    return [{**row, "scene_cpu_s": spent} for row in rows]
+    spent, figure = time.process_time() - began, _figure(case, progress)
+    guarded = {
+        "guard": case.is_hard.what, "figure": figure, "relation": case.is_hard.relation, "bound": case.is_hard.bound,
+        "scene_cpu_s": spent, **({} if case.is_hard.met(figure) else {"mark": NOT_HARD}),
+    }  # fmt: skip
+    return [{**row, **guarded} for row in rows]
+
+
+def _figure(case: AccuracyCase, progress: Callable[[str], None]) -> float:
+    """Figure of the guard from a run of the whole scene; NaN where that fails."""
+    try:
+        scene = load_resolved(case.scene, *case.values)
+        return case.measure(scene, outputs_with(scene, make_simulation(scene)))
+    except (SceneError, RunError) as error:
+        progress(f"  no figure of the guard: {error}")
+        return math.nan
 
 
 def _unjudged(case: AccuracyCase, asked: float, mark: str, names: str) -> Row:
@@ -131,9 +146,11 @@ def _count(rows: Sequence[Row], mark: str) -> int:
     return sum(row["mark"] == mark for row in rows)
 
 
-def _summary(rows: Sequence[Row]) -> str:
+def summary(rows: Sequence[Row]) -> str:
+    """The sum of the marks."""
     spent = sum({row["scene"]: row["scene_cpu_s"] for row in rows}.values())
     return (
         f"held {_count(rows, HELD)} of {len(rows)}; named {_count(rows, NAMED)}; missed {_count(rows, MISSED)}; "
+        f"not hard {_count(rows, NOT_HARD)}; "
         f"{spent:.0f} CPU s"
     )

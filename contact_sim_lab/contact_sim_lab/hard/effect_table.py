@@ -9,16 +9,15 @@ decide for example. Columns: `case`, `effect`, `expected`, `verdict`, `mark`, `c
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from contact_sim_lab.hard.effect_cases import CASES, FIGURE, EffectCase
-from contact_sim_pkg.records.table import Section
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.studies.effects import verdicts
 from contact_sim_pkg.studies.effects.effects_study import EffectRow, study_of
 
-__all__ = ["failed", "mark_of", "sections", "study"]
+__all__ = ["cells", "failed", "mark_of", "study", "summary"]
 
 Row = dict[str, Any]
 ASKED = (verdicts.NEEDED, verdicts.OFF_NEEDED)
@@ -26,15 +25,13 @@ MOST_WRONG = 0.15
 """Of the cases."""
 
 
-def study(progress: Callable[[str], None], cases: Sequence[EffectCase] = CASES) -> list[Row]:
-    """A row for each case."""
-    rows = []
+def study(progress: Callable[[str], None], cases: Sequence[EffectCase] = CASES) -> Iterator[list[Row]]:
+    """A row for each case as it comes."""
     for number, case in enumerate(cases, 1):
         progress(f"{number} of {len(cases)}: {case.name}: {case.effect} is expected to be {case.expected}")
         began = time.process_time()
         (found,) = study_of(load_resolved(case.scene, *case.values), lambda _line: None, case.effect).rows
-        rows.append(_row(case, found) | {"cpu_s": time.process_time() - began})
-    return rows
+        yield [_row(case, found) | {"cpu_s": time.process_time() - began}]
 
 
 def mark_of(expected: str, verdict: str) -> str:
@@ -51,17 +48,21 @@ def failed(rows: Sequence[Row]) -> bool:
     return sum(1 for row in rows if row["mark"] != "right") > MOST_WRONG * len(rows)
 
 
-def sections(rows: Sequence[Row]) -> list[Section]:
-    """One line a case, and the counts."""
-    lines = [
-        {"case": row["case"], "effect": row["effect"], "expected": row["expected"], "verdict": row["said"], "": row["mark"],
-         "largest change": row["change"]}
-        for row in rows
-    ]  # fmt: skip
+def cells(rows: Sequence[Row]) -> dict[str, str]:
+    """The row of one case as a line."""
+    (row,) = rows
+    return {
+        "case": row["case"], "effect": row["effect"], "expected": row["expected"], "mark": row["mark"], "verdict": row["said"],
+        "largest change": row["change"],
+    }  # fmt: skip
+
+
+def summary(rows: Sequence[Row]) -> str:
+    """The counts."""
     counts = ", ".join(
         f"{mark} {sum(row['mark'] == mark for row in rows)}" for mark in ("right", "needless", "missed", "other")
     )
-    return [Section("effects", lines, f"{counts} of {len(rows)}; {sum(row['cpu_s'] for row in rows):.0f} CPU s")]
+    return f"{counts} of {len(rows)}; {sum(row['cpu_s'] for row in rows):.0f} CPU s"
 
 
 def _row(case: EffectCase, found: EffectRow) -> Row:

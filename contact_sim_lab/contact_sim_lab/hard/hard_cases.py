@@ -1,10 +1,11 @@
-"""`bench hard`: the hard cases of the models that are built, each with value, expectation, margin
-and verdict.
+"""`bench hard`: the hard cases of the models that are built, each with value, expectation, margin,
+guard and verdict.
 
 A case computes a value with the bench's own kernels and compares it with an expectation that shares
 no code with them: a closed form, multiple precision, scipy, or a plain count. The margin is the
 part of the allowance that is left: 1 where value and expectation agree, 0 at the limit, negative
-where the case fails.
+where the case fails. The guard shows that the run was hard: its figure, and the bound that the figure
+must keep; a case whose run is not hard fails, whatever value it found.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections.abc import Callable
 from typing import Any
 
 from contact_sim_lab import cases
+from contact_sim_lab.records.guard import Guard
 from contact_sim_lab.records.hard_case import Finding, HardCase
 from contact_sim_pkg.records.table import Section
 
@@ -26,7 +28,7 @@ __all__ = [
 ]
 
 
-PASSED, FAILED = "pass", "fail"
+PASSED, FAILED, NOT_HARD = "pass", "fail", "not hard"
 
 
 def all_cases() -> list[HardCase]:
@@ -41,15 +43,18 @@ def evaluate(case: HardCase) -> dict[str, Any]:
     try:
         finding = case.find()
     except Exception as error:  # noqa: BLE001 - a table of cases goes on past a broken one, and says so
-        finding = Finding(math.nan, f"an answer, not {type(error).__name__}: {error}", -math.inf)
-    verdict = PASSED if finding.margin >= 0.0 else FAILED
-    row = {"model": case.model, "case": case.case, "value": float(finding.value), "expectation": finding.expectation}
-    return {**row, "margin": float(finding.margin), "verdict": verdict}
+        finding = Finding(math.nan, f"an answer, not {type(error).__name__}: {error}", -math.inf, math.nan)
+    verdict = FAILED if not finding.margin >= 0.0 else PASSED if case.is_hard.met(finding.hard) else NOT_HARD
+    return {
+        "model": case.model, "case": case.case, "value": float(finding.value), "expectation": finding.expectation,
+        "margin": float(finding.margin), "guard": case.is_hard.what, "figure": float(finding.hard),
+        "relation": case.is_hard.relation, "bound": case.is_hard.bound, "verdict": verdict,
+    }  # fmt: skip
 
 
 def study(model: str | None = None, progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
-    """Rows of all cases, or of those of one `model`: model, case, value, expectation, margin,
-    verdict (`pass` or `fail`).
+    """Rows of all cases, or of those of one `model`: model, case, value, expectation, margin; guard (in
+    words), figure, relation and bound of it; verdict (`pass`, `fail` or `not hard`).
     """
     rows = []
     for case in all_cases():
@@ -69,6 +74,7 @@ def sections(rows: list[dict[str, Any]]) -> list[Section]:
             {
                 "case": row["case"], "value": _value(row), "expectation": row["expectation"],
                 "margin": f"{row['margin']:.3f}", "verdict": row["verdict"],
+                "hard because": Guard(row["guard"], row["relation"], row["bound"]).says(row["figure"]),
             }
             for row in rows
             if row["model"] == model
@@ -83,5 +89,5 @@ def _value(row: dict[str, Any]) -> str:
 
 
 def failed(rows: list[dict[str, Any]]) -> bool:
-    """Whether a row fails: then `bench hard` ends with 1."""
-    return any(row["verdict"] == FAILED for row in rows)
+    """Whether a row fails, or its run is not hard: then `bench hard` ends with 1."""
+    return any(row["verdict"] != PASSED for row in rows)

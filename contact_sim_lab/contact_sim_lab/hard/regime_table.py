@@ -7,21 +7,20 @@ open), `remark`, `verdict` (`met`, `MISSED`, or `none` where a scene expects not
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.records.metric import OUTSIDE, Metric
 from contact_sim_pkg.records.registry import shipped_scenes
-from contact_sim_pkg.records.table import Section
 from contact_sim_pkg.report.metrics.regimes import expected
 from contact_sim_pkg.report.metrics.views import row_of, value_text
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.resolve import load_resolved
 
-__all__ = ["MET", "MISSED", "failed", "row_of_scene", "sections", "study"]
+__all__ = ["MET", "MISSED", "failed", "row_of_scene", "study"]
 
 MET, MISSED, NONE = "met", "MISSED", "none"
 
@@ -29,16 +28,14 @@ MET, MISSED, NONE = "met", "MISSED", "none"
 def study(
     progress: Callable[[str], None], scenes: Iterable[str] | None = None,
     values: Mapping[str, tuple[str, ...]] | None = None,
-) -> list[dict[str, Any]]:  # fmt: skip
-    """A row for each scene: all that are shipped, or those of ``scenes``; run whole, or with the ``values`` of
-    `--set` that are given by scene.
+) -> Iterator[list[dict[str, Any]]]:  # fmt: skip
+    """A row for each scene as it comes: all that are shipped, or those of ``scenes``; run whole, or with the
+    ``values`` of `--set` that are given by scene.
     """
     names = list(shipped_scenes() if scenes is None else scenes)
-    rows = []
     for number, name in enumerate(names, 1):
         progress(f"{number} of {len(names)}: {name}")
-        rows.append(row_of_scene(name, (values or {}).get(name, ())))
-    return rows
+        yield [row_of_scene(name, (values or {}).get(name, ()))]
 
 
 def row_of_scene(name: str, values: Iterable[str] = ()) -> dict[str, Any]:
@@ -67,14 +64,15 @@ def failed(rows: Iterable[dict[str, Any]]) -> bool:
     return any(row["verdict"] != MET for row in rows)
 
 
-def sections(rows: list[dict[str, Any]]) -> list[Section]:
-    """One line a scene, and the count."""
-    lines = [
-        {
-            "scene": row["scene"], "regime": row["regime"] or "-", "value": row.get("shown", "–"), "band": row.get("band", ""),
-            "verdict": row["verdict"], "what it is": "; ".join(filter(None, (row["figure"], row["remark"]))),
-        }
-        for row in rows
-    ]  # fmt: skip
-    met = sum(row["verdict"] == MET for row in rows)
-    return [Section("regimes", lines, f"{met} of {len(rows)} scenes show what they are there for")]
+def cells(rows: Sequence[dict[str, Any]]) -> dict[str, str]:
+    """The row of one scene as a line."""
+    (row,) = rows
+    return {
+        "scene": row["scene"], "regime": row["regime"] or "-", "value": row.get("shown", "–"), "band": row.get("band", ""),
+        "met": row["verdict"], "what it is": "; ".join(filter(None, (row["figure"], row["remark"]))),
+    }  # fmt: skip
+
+
+def summary(rows: Sequence[dict[str, Any]]) -> str:
+    """The count."""
+    return f"{sum(row['verdict'] == MET for row in rows)} of {len(rows)} scenes show what they are there for"

@@ -10,6 +10,7 @@ import numpy
 
 from contact_sim_lab.identify.twins.block_impacts import random_block_impacts
 from contact_sim_lab.identify.twins.falling_body import FallingBody, Record, fall
+from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_pkg.identify import geometry
 from contact_sim_pkg.identify.contact import wrench
@@ -69,12 +70,14 @@ def _spatial(table: ImpactTable) -> ParameterEstimate:
 
 def through_the_centre() -> Finding:
     """Rank from four impulses through the centre of mass."""
-    return exactly(_spatial(_table(4, central=True)).directions.rank, 0)
+    table = _table(4, central=True)
+    return exactly(_spatial(table).directions.rank, 0, hard=abs(table.spin_after - table.spin_before).max())
 
 
 def two_impacts() -> Finding:
     """Rank from two impacts in space."""
-    return exactly(_spatial(_table(2)).directions.rank, 5)
+    table = _table(2)
+    return exactly(_spatial(table).directions.rank, 5, hard=len(table.rotation))
 
 
 def two_impacts_named() -> Finding:
@@ -93,12 +96,18 @@ def two_impacts_named() -> Finding:
         "body axis" in words
         for words in unobservable(found.directions.missing, found.parameters, found.scale, True, False)
     )
-    return at_most(1.0 - abs(float(alike)) if named else numpy.inf, 1e-9)
+    return at_most(1.0 - abs(float(alike)) if named else numpy.inf, 1e-9, hard=len(table.rotation))
+
+
+def _off_samples() -> float:
+    record = _record()
+    interval = record.time[1] - record.time[0]
+    return min(float(abs(record.time - bounce.time).min() / interval) for bounce in record.bounces)
 
 
 def between_samples() -> Finding:
     """Relative error of m/J from impacts between samples."""
-    return at_most(abs(INERTIA / _found().parameters[0].value - 1.0), 1e-9)
+    return at_most(abs(INERTIA / _found().parameters[0].value - 1.0), 1e-9, hard=_off_samples())
 
 
 def impulses() -> Finding:
@@ -106,58 +115,72 @@ def impulses() -> Finding:
     worst = 0.0
     for contact, bounce in zip(_found().contacts, _record().bounces, strict=True):
         if contact.push is None:
-            return at_most(numpy.inf, 1e-9)
+            return at_most(numpy.inf, 1e-9, hard=_off_samples())
         push = bounce.impulse / MASS
         worst = max(worst, *(abs(contact.push[axis] / push[axis] - 1.0) for axis in (0, 2)))
-    return at_most(worst, 1e-9)
+    return at_most(worst, 1e-9, hard=_off_samples())
 
 
 def mass_without_force() -> Finding:
     """Sentences that name the mass as not identifiable; no parameter is a mass."""
-    found = _found()
+    force = (0.0, 0.0, 0.0)
+    found = _found(force)
     named = sum(words.startswith("mass is not identifiable without an external force") for words in found.unobservable)
-    return exactly(named + sum(parameter.name == "1/m" for parameter in found.parameters), 1)
+    return exactly(
+        named + sum(parameter.name == "1/m" for parameter in found.parameters), 1, hard=float(numpy.linalg.norm(force))
+    )
 
 
 def mass_with_force() -> Finding:
     """The mass with a known force."""
-    return close_to(1.0 / _found(FORCE, known=True).parameters[-1].value, MASS, 1e-9 * MASS)
+    return close_to(
+        1.0 / _found(FORCE, known=True).parameters[-1].value, MASS, 1e-9 * MASS, hard=len(_record(FORCE).bounces)
+    )
 
 
 @functools.cache
-def _noisy() -> tuple[Array, Array]:
-    """Relative errors of m/J and reported standard deviations over the draws."""
-    random, errors, reported = numpy.random.default_rng(11), [], []
+def _noisy() -> tuple[Array, Array, float]:
+    """Relative errors of m/J and reported standard deviations over the draws; the noise that was added [m/s]."""
+    random, errors, reported, added = numpy.random.default_rng(11), [], [], []
     for _ in range(DRAWS):
         exact = random_block_impacts(random, IMPACTS)
         velocities = [field + SPEED_NOISE * random.normal(size=field.shape) for field in exact[1:3]]
+        added.append(velocities[0] - exact[1])
         spins = [field + SPIN_NOISE * random.normal(size=field.shape) for field in exact[3:5]]
         table = ImpactTable(exact.rotation, velocities[0], velocities[1], spins[0], spins[1])
         found = estimate_from_impacts(problem_of_impacts(table, SQUARE, (SPEED_NOISE, SPIN_NOISE), PITCH))
         errors.append(INERTIA / found.parameters[0] - 1.0)
         reported.append(float(numpy.sqrt(found.covariance[0, 0])) / found.parameters[0])
-    return numpy.array(errors), numpy.array(reported)
+    return numpy.array(errors), numpy.array(reported), float(numpy.std(added))
 
 
 def noise() -> Finding:
     """Root mean square of the relative error of m/J over the draws."""
-    return at_most(float(numpy.sqrt(numpy.mean(_noisy()[0] ** 2))), 1.5e-3)
+    return at_most(float(numpy.sqrt(numpy.mean(_noisy()[0] ** 2))), 1.5e-3, hard=_noisy()[2])
 
 
 def reported_noise() -> Finding:
     """The same over the standard deviation that is reported."""
-    errors, reported = _noisy()
-    return close_to(float(numpy.sqrt(numpy.mean(errors**2) / numpy.mean(reported**2))), 1.0, 0.3)
+    errors, reported, _added = _noisy()
+    return close_to(float(numpy.sqrt(numpy.mean(errors**2) / numpy.mean(reported**2))), 1.0, 0.3, hard=_noisy()[2])
 
 
 CASES = (
-    HardCase("identification", "impulses through the centre of mass: rank", through_the_centre),
-    HardCase("identification", "two impacts, six unknowns: rank", two_impacts),
-    HardCase("identification", "two impacts: direction that is named, distance", two_impacts_named),
-    HardCase("identification", "impacts between samples: error of m/J", between_samples),
-    HardCase("identification", "impacts between samples: error of the impulses", impulses),
-    HardCase("identification", "no external force: mass named, not computed", mass_without_force),
-    HardCase("identification", "known force: mass [kg]", mass_with_force),
-    HardCase("identification", "10 impacts, 1 mm/s, 10 mrad/s: rms error of m/J", noise),
-    HardCase("identification", "the same: error over reported deviation", reported_noise),
-)
+    HardCase("identification", "impulses through the centre of mass: rank", through_the_centre,
+        guard.at_most("change of the spin [rad/s]", 1e-12)),
+    HardCase("identification", "two impacts, six unknowns: rank", two_impacts,
+        guard.at_most("impacts, of three that are needed", 2)),
+    HardCase("identification", "two impacts: direction that is named, distance", two_impacts_named,
+        guard.at_most("impacts, of three that are needed", 2)),
+    HardCase("identification", "impacts between samples: error of m/J", between_samples,
+        guard.at_least("distance of an impact from its samples, over their interval", 1e-3)),
+    HardCase("identification", "impacts between samples: error of the impulses", impulses,
+        guard.at_least("distance of an impact from its samples, over their interval", 1e-3)),
+    HardCase("identification", "no external force: mass named, not computed", mass_without_force,
+        guard.zero("force from outside [N]")),
+    HardCase("identification", "known force: mass [kg]", mass_with_force, guard.impacts(3)),
+    HardCase("identification", "10 impacts, 1 mm/s, 10 mrad/s: rms error of m/J", noise,
+        guard.at_least("standard deviation of the speeds [m/s]", 9e-4)),
+    HardCase("identification", "the same: error over reported deviation", reported_noise,
+        guard.at_least("standard deviation of the speeds [m/s]", 9e-4)),
+)  # fmt: skip

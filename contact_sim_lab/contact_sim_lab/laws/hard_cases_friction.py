@@ -8,6 +8,7 @@ import math
 
 import numpy
 
+from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_lab.twins.belt_slider import StickSlip, period_of_rigid_law, slip_starts, state_at
 from contact_sim_pkg.compiled.arrays import Vector
@@ -58,7 +59,12 @@ def error_follows_the_tolerance() -> Finding:
     N/m.
     """
     springs = ((1.0e4, 140.0), (1.0e5, 400.0), (1.0e6, 1.0e3))
-    return at_most(max(stick_slip_error(*spring, 10.0**-p) * 10.0**p for spring in springs for p in range(3, 12)), 10.0)
+    tolerances = [10.0**-p for p in range(3, 12)]
+    return at_most(
+        max(stick_slip_error(*spring, each) / each for spring in springs for each in tolerances),
+        10.0,
+        hard=max(tolerances) / min(tolerances),
+    )
 
 
 def stick_slip_period(stiffness: float, damping: float, tolerance: float) -> float:
@@ -76,11 +82,20 @@ def stick_slip_period(stiffness: float, damping: float, tolerance: float) -> flo
     return float(period - (states[2, 0] - states[1, 0]) / states[1, 1])
 
 
+def _slip_changes(rig: BeltSlider, scale: Vector, end: float) -> int:
+    return integrate(rig, AT_REST_ON_BELT, scale, numpy.array([0.0, end])).events
+
+
 def period_of_the_spring_law() -> Finding:
     """Stick-slip period of the spring-damper law against its twin."""
-    _rig, case = stick_slip(1.0e6, 1.0e3)
+    rig, case = stick_slip(1.0e6, 1.0e3)
     starts = slip_starts(case, 6)
-    return close_to(stick_slip_period(1.0e6, 1.0e3, 1e-11), starts[5] - starts[4], 1e-9)
+    return close_to(
+        stick_slip_period(1.0e6, 1.0e3, 1e-11),
+        starts[5] - starts[4],
+        1e-9,
+        hard=_slip_changes(rig, scale_of(1.0e6) * 1e-11, 4.0),
+    )
 
 
 def period_of_the_rigid_law() -> Finding:
@@ -89,7 +104,7 @@ def period_of_the_rigid_law() -> Finding:
     periods = numpy.array([stick_slip_period(c, 1.4 * math.sqrt(c * MASS), 1e-12) for c in stiffness])
     weights = numpy.vander(stiffness**-0.5, len(stiffness), increasing=True)
     limit = float(numpy.linalg.solve(weights, periods)[0])
-    return close_to(limit, period_of_rigid_law(stick_slip(1.0, 0.0)[1]), 1e-9)
+    return close_to(limit, period_of_rigid_law(stick_slip(1.0, 0.0)[1]), 1e-9, hard=float(stiffness.max()) / SPRING)
 
 
 def no_creep() -> Finding:
@@ -100,7 +115,9 @@ def no_creep() -> Finding:
     held = 0.8 * STATIC * LOAD / SPRING
     scale = numpy.array([1e-3, 1e-2, 1e-3]) * 1e-10
     states = integrate(rig, numpy.array([held, 0.0, 0.0]), scale, numpy.array([0.0, 5.0, 15.0])).states
-    return at_most(abs(float(states[2, 0] - states[1, 0])) / 10.0, 1e-15)
+    return at_most(
+        abs(float(states[2, 0] - states[1, 0])) / 10.0, 1e-15, hard=SPRING * float(states[2, 0]) / (STATIC * LOAD)
+    )
 
 
 def slide_to_rest() -> Finding:
@@ -110,16 +127,16 @@ def slide_to_rest() -> Finding:
     friction = Friction(1.0e6, 1.4e3, KINETIC, KINETIC)
     rig = BeltSlider(MASS, 0.0, 0.0, LOAD, friction)
     scale = numpy.array([1.0, 1.0, 1e-3]) * 1e-12
-    states = integrate(rig, numpy.array([0.0, 2.0, 0.0]), scale, numpy.array([0.0, 3.0]), mode=-1).states
+    course = integrate(rig, numpy.array([0.0, 2.0, 0.0]), scale, numpy.array([0.0, 3.0]), mode=-1)
     deceleration = KINETIC * LOAD / MASS
     last_speed = friction.damping * deceleration / friction.stiffness  # slip ends where v equals the spring's rate
     slid = (4.0 - last_speed**2) / (2.0 * deceleration)
     released = (KINETIC * LOAD - friction.damping * last_speed) / friction.stiffness
-    return close_to(float(states[-1, 0]), slid - released, 1e-10)
+    return close_to(float(course.states[-1, 0]), slid - released, 1e-10, hard=course.events)
 
 
 def equal_ratios() -> Finding:
-    """Status after 200 slip reversals with mu_s = mu_k, where slip ends exactly on the limit of
+    """Status after 170 starts and stops of slip with mu_s = mu_k, where slip ends exactly on the limit of
     stick.
     """
     rig = BeltSlider(MASS, 1.0e4, 0.0, LOAD, Friction(1.0e6, 0.0, KINETIC, KINETIC))
@@ -130,7 +147,7 @@ def equal_ratios() -> Finding:
         numpy.array([0.0, 10.0]),
         strict=False,
     )
-    return exactly(course.status, DONE)
+    return exactly(course.status, DONE, hard=course.events)
 
 
 def slide_with_lift_off() -> tuple[Vector, Vector, float]:
@@ -167,16 +184,18 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     return samples[2], samples[0], abs(supplied - kinetic - potential - stored - dissipated) / dissipated
 
 
+def _separated(forces: Vector) -> int:
+    return int((forces[:, entries.SEAT_APPROACH] < 0.0).sum())
+
+
 def separated_without_friction() -> Finding:
     """Largest friction force and spring deflection while the occupant is off the cushion (which
     happens).
     """
     forces, states, _residual = slide_with_lift_off()
     separated = forces[:, entries.SEAT_APPROACH] < 0.0
-    if separated.sum() < 100:
-        return Finding(float(separated.sum()), "at least 100 samples separated", -math.inf)
     held = numpy.abs(forces[separated, entries.SEAT_TANGENTIAL]).max() + numpy.abs(states[separated, 4]).max()
-    return exactly(float(held), 0.0)
+    return exactly(float(held), 0.0, hard=separated.sum())
 
 
 def within_the_limit() -> Finding:
@@ -185,22 +204,28 @@ def within_the_limit() -> Finding:
     """
     forces, _states, _residual = slide_with_lift_off()
     limit = STATIC * forces[:, entries.SEAT_NORMAL]
-    return at_most(float((numpy.abs(forces[:, entries.SEAT_TANGENTIAL]) - limit).max()), 1e-6)
+    return at_most(float((numpy.abs(forces[:, entries.SEAT_TANGENTIAL]) - limit).max()), 1e-6, hard=_separated(forces))
 
 
 def ledger_with_friction() -> Finding:
     """Energy residual over dissipated energy with sticking, slipping and lift-off."""
-    return at_most(float(slide_with_lift_off()[2]), 1e-7)
+    forces, _states, residual = slide_with_lift_off()
+    return at_most(residual, 1e-7, hard=_separated(forces))
 
 
 CASES = (
-    HardCase("stick-slip", "period of the spring-damper law [s]", period_of_the_spring_law),
-    HardCase("stick-slip", "period, friction stiffness → ∞ [s]", period_of_the_rigid_law),
-    HardCase("stick-slip", "error over requested tolerance, 1e-3 to 1e-11", error_follows_the_tolerance),
-    HardCase("stick-slip", "no creep in stick at 80 % of the limit [m/s]", no_creep),
-    HardCase("stick-slip", "2 m/s to rest: distance [m]", slide_to_rest),
-    HardCase("stick-slip", "μs = μk, slip ends on the limit of stick: status", equal_ratios),
-    HardCase("stick-slip", "normal force jumps to 0: friction and deflection separated", separated_without_friction),
-    HardCase("stick-slip", "μF → 0 while slipping: force beyond μs·N [N]", within_the_limit),
-    HardCase("stick-slip", "energy ledger over dissipated, with lift-off", ledger_with_friction),
-)
+    HardCase("stick-slip", "period of the spring-damper law [s]", period_of_the_spring_law, guard.slip_changes(10)),
+    HardCase("stick-slip", "period, friction stiffness → ∞ [s]", period_of_the_rigid_law,
+        guard.scales("friction spring and spring", 1e4)),
+    HardCase("stick-slip", "error over requested tolerance, 1e-3 to 1e-11", error_follows_the_tolerance,
+        guard.scales("tolerances", 1e8)),
+    HardCase("stick-slip", "no creep in stick at 80 % of the limit [m/s]", no_creep,
+        guard.at_least("force over the limit of stick", 0.79)),
+    HardCase("stick-slip", "2 m/s to rest: distance [m]", slide_to_rest, guard.slip_changes(1)),
+    HardCase("stick-slip", "μs = μk, slip ends on the limit of stick: status", equal_ratios, guard.slip_changes(150)),
+    HardCase("stick-slip", "normal force jumps to 0: friction and deflection separated", separated_without_friction,
+        guard.contact_lost(100)),
+    HardCase("stick-slip", "μF → 0 while slipping: force beyond μs·N [N]", within_the_limit, guard.contact_lost(100)),
+    HardCase("stick-slip", "energy ledger over dissipated, with lift-off", ledger_with_friction,
+        guard.contact_lost(100)),
+)  # fmt: skip

@@ -33,7 +33,7 @@ def silent(_line):
     "case", [case for case in effect_cases.CASES if case.name in QUICK], ids=lambda case: case.name
 )
 def test_the_verdict_is_the_expected_one(case):
-    (row,) = effect_table.study(silent, [case])
+    ((row,),) = effect_table.study(silent, [case])
     assert row["verdict"] == case.expected, row
 
 

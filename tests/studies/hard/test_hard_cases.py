@@ -1,5 +1,6 @@
 """Every row of `bench hard`, and more ranges of the same cases."""
 
+import json
 import math
 
 import numpy
@@ -9,6 +10,9 @@ from hypothesis import strategies as st
 
 from contact_sim_lab.hard import hard_cases
 from contact_sim_lab.laws import hard_cases_impact
+from contact_sim_lab.records import guard
+from contact_sim_lab.records.guard import Guard
+from contact_sim_lab.records.hard_case import HardCase, at_most, close_to
 from contact_sim_lab.twins import impact
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
@@ -24,14 +28,63 @@ CASES = hard_cases.all_cases()
 
 @pytest.mark.parametrize("case", CASES, ids=[f"{case.model}: {case.case}" for case in CASES])
 def test_each_hard_case_meets_its_expectation(case):
-    finding = case.find()
-    assert finding.margin >= 0.0, f"{finding.value} instead of {finding.expectation}"
+    row = hard_cases.evaluate(case)
+    assert row["verdict"] == "pass", (
+        f"{row['value']} instead of {row['expectation']}; {case.is_hard.says(row['figure'])}"
+    )
+
+
+def test_every_case_says_what_makes_it_hard_and_none_can_be_made_without():
+    for case in CASES:
+        assert isinstance(case.is_hard, Guard), case.case
+        assert case.is_hard.what
+        assert not case.is_hard.met(math.nan)
+        # A bound that every figure keeps guards nothing
+        assert not all(case.is_hard.met(figure) for figure in (-math.inf, -1.0, 0.0, 1.0, math.inf)), case.case
+    with pytest.raises(TypeError):
+        HardCase("model", "case", lambda: close_to(1.0, 1.0, 0.1, hard=1.0))
+    with pytest.raises(TypeError):
+        at_most(0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("is_hard", "hard", "soft"),
+    [
+        (guard.contact_lost(), 1, 0),
+        (guard.touches(3), 3, 2),
+        (guard.impacts(3), 4, 2),
+        (guard.slip_changes(1), 1, 0),
+        (guard.denominator_below_0(), -0.71, 3.69),
+        (guard.grid_left(4), 4, 3),
+        (guard.rank_lost(1), 1, 0),
+        (guard.condition(1e6), 2e6, 9e5),
+        (guard.scales("loads", 1e12), 1e12, 1e11),
+        (guard.zero("load [N]"), -0.0, 5e-324),
+        (guard.above("tilt [rad]", 0.0), 5e-324, 0.0),
+        (guard.below("1 - m", 1.0), 0.5, 1.0),
+    ],
+)
+def test_a_case_whose_run_is_not_hard_fails_and_says_so(is_hard, hard, soft):
+    rows = [
+        hard_cases.evaluate(HardCase("model", "case", lambda figure=figure: at_most(0.0, 1.0, hard=figure), is_hard))
+        for figure in (hard, soft)
+    ]
+    assert [row["verdict"] for row in rows] == ["pass", "not hard"]
+    assert not hard_cases.failed(rows[:1])
+    assert hard_cases.failed(rows)
+    [section] = hard_cases.sections(rows)
+    first, second = (line["hard because"] for line in section.rows)
+    assert is_hard.what in first
+    assert "not" not in first.removeprefix(is_hard.what)
+    assert f"not {is_hard.relation}" in second
+    assert json.loads(json.dumps(rows[1]))["figure"] == soft
 
 
 def test_a_case_that_misses_its_expectation_fails_the_table():
-    wrong = hard_cases.HardCase("model", "case", lambda: hard_cases.close_to(1.1, 1.0, 0.05))
-    broken = hard_cases.HardCase("model", "case", lambda: hard_cases.at_most(1 / 0, 1.0))
-    not_a_number = hard_cases.HardCase("model", "case", lambda: hard_cases.at_most(math.nan, 1.0))
+    hard = guard.at_least("figure", 1.0)
+    wrong = HardCase("model", "case", lambda: close_to(1.1, 1.0, 0.05, hard=1.0), hard)
+    broken = HardCase("model", "case", lambda: at_most(1 / 0, 1.0, hard=1.0), hard)
+    not_a_number = HardCase("model", "case", lambda: at_most(math.nan, 1.0, hard=1.0), hard)
     for case in (wrong, broken, not_a_number):
         row = hard_cases.evaluate(case)
         assert row["verdict"] == "fail"

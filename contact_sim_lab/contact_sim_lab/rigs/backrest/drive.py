@@ -43,6 +43,7 @@ class BackrestMotion(NamedTuple):
     touches: Vector  # [s] instants at which the first point touches
     supplied: float = 0.0  # [J] work of the shaking and of the sliding
     residual: float = 0.0  # [J] supplied less what is kinetic, potential, stored and dissipated
+    place: Vector | None = None  # [samples, 2] [m] of the first point from the shell's middle
 
 
 def drive_of(scene: ResolvedScene, duration: float) -> DrivenBackrest:
@@ -81,6 +82,7 @@ def fast_run(drive: DrivenBackrest, scale: Vector) -> BackrestMotion:
         by_point[:, :, entries.POINT_APPROACH].copy(), forces[:, entries.NORMAL], forces[:, entries.TANGENTIAL],
         numpy.unique(touches),  # the last episode may have ended
         float(supplied), float(supplied - kinetic - potential - stored - dissipated),
+        by_point[:, 0, entries.POINT_UP : entries.POINT_ACROSS + 1],
     )  # fmt: skip
 
 

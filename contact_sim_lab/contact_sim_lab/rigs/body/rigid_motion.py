@@ -16,11 +16,11 @@ from contact_sim_pkg.rigid.results import SENTENCES, SOLVED
 
 __all__ = [
     "BOUNCE_TIME", "SLIDE", "SPEED", "bounce_to_rest", "bounced", "creep", "cube_for_a_second", "elastic_drift",
-    "slide_error",
+    "slid", "slide_error",
 ]  # fmt: skip
 
 GRAVITY, SIDE, RADIUS = 9.81, 0.1, 0.05
-SPEED, FRICTION = 2.0, 0.3
+SPEED, FRICTION, SLOPE = 2.0, 0.3, math.radians(15.0)
 SLIDE = SPEED**2 / (2.0 * FRICTION * GRAVITY)  # [m]
 HEIGHT, RESTITUTION = 1.0, 0.8
 BOUNCE_TIME = math.sqrt(2.0 * HEIGHT / GRAVITY) * (1.0 + RESTITUTION) / (1.0 - RESTITUTION)  # [s]
@@ -47,17 +47,20 @@ def cube_for_a_second(speed: float) -> None:
     _checked(LocatedBody(cube, slope(3), motion).advance_over(TICK, round(1.0 / TICK))[0])
 
 
-def slide_error(step: float | None, tick: float = TICK) -> float:
-    """Relative error of the distance in which a block at 2 m/s stops; ``step`` [s], None:
-    located.
-    """
+def slid(step: float | None, tick: float = TICK) -> LocatedBody | SteppedBody:
+    """A block after a second, that slid from 2 m/s to a stop; ``step`` [s], None: located."""
     body = _sliding(step)
     if isinstance(body, LocatedBody):
         for _ in range(round(1.0 / tick)):
             _checked(body.advance(tick))
     else:
         _checked(body.advance(round(1.0 / body.step)))
-    return abs(float(body.motion.position[0]) / SLIDE - 1.0)
+    return body
+
+
+def slide_error(step: float | None, tick: float = TICK) -> float:
+    """Relative error of its distance; the arguments as of `slid`."""
+    return abs(float(slid(step, tick).motion.position[0]) / SLIDE - 1.0)
 
 
 def bounce_to_rest(restitution: float = RESTITUTION, tick: float = 0.05) -> tuple[float, int]:
@@ -92,7 +95,7 @@ def bounced(step: float | None, duration: float = 1.0) -> float:
 
 def creep(duration: float = 10.0, tick: float = 0.01) -> float:
     """Mean speed in [m/s] of a block at rest on a slope of 15 degrees, friction 0.3."""
-    angle = math.radians(15.0)
+    angle = SLOPE
     block = regular_block(SIDE, 1.0, FRICTION, 0.3)
     normal: Vector = numpy.array([-math.sin(angle), math.cos(angle)])
     motion = placed(block, 0.5 * SIDE * normal, numpy.zeros(3), angle=angle)
@@ -102,8 +105,8 @@ def creep(duration: float = 10.0, tick: float = 0.01) -> float:
     return float(numpy.abs(motion.position - start).max()) / duration
 
 
-def elastic_drift(bounces: int = 1000) -> float:
-    """Largest change of the energy of a ball over elastic bounces, of its energy: dimensionless."""
+def elastic_drift(bounces: int = 1000) -> tuple[float, int]:
+    """Largest change of the energy of a ball over elastic bounces, of its energy: dimensionless; and its impacts."""
     ball = sphere(RADIUS, 1.0, 0.0, 1.0)
     motion = placed(ball, numpy.array([0.0, 0.0, 0.1 + RADIUS]), numpy.zeros(6))
     body, impacts = LocatedBody(ball, slope(3), motion), 0
@@ -112,4 +115,4 @@ def elastic_drift(bounces: int = 1000) -> float:
         _checked(body.advance(0.1))
         impacts += len(body.impacts)
         worst = max(worst, abs((body.kinetic_energy() + GRAVITY * float(motion.position[2])) / start - 1.0))
-    return worst
+    return worst, impacts

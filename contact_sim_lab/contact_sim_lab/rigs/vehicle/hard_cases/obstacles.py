@@ -6,6 +6,7 @@ import math
 
 import numpy
 
+from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, exactly
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.compare.span import Span, run_span
@@ -37,7 +38,9 @@ def late_start() -> Finding:
         scene = load_resolved("tire_bump", "duration=3600", road, GRID)
         run = run_span(scene, Span(first, first, first + BLOCKS), lambda _line: None)
         forces.append(numpy.concatenate([each.record.normal for each in run.outputs if each.topic == "tire/force"]))
-    return at_most(float(numpy.abs(forces[1] - forces[0]).max() / forces[0].max()), 1e-6)
+    return at_most(
+        float(numpy.abs(forces[1] - forces[0]).max() / forces[0].max()), 1e-6, hard=LATE * BLOCK_WAY / 2.0**-8
+    )
 
 
 def pothole() -> Finding:
@@ -49,7 +52,7 @@ def pothole() -> Finding:
     force, height = _of(outputs, "normal"), _of(outputs, "effective_height")
     fine = numpy.isfinite(force).all() and abs(force[-1] - STANDING) < SETTLED * STANDING
     drop = RADIUS - math.sqrt(RADIUS**2 - (0.5 * HOLE) ** 2)
-    return at_most(float(-height.min() / drop) if fine else math.inf, 1.001)
+    return at_most(float(-height.min() / drop) if fine else math.inf, 1.001, hard=DEPTH / RADIUS)
 
 
 def aloft_with_shear() -> Finding:
@@ -62,7 +65,7 @@ def aloft_with_shear() -> Finding:
     motion = [value for record in records_of(outputs, "bench/motion") for value in (record.position, record.velocity)]
     fine = all(numpy.isfinite(each).all() for each in (normal, shear, *motion))
     lands = len(aloft) > 0 and bool((normal[aloft[-1] + 1 :] > 0.0).any())
-    return exactly(float(shear[aloft].max()) if fine and lands else math.nan, 0.0)
+    return exactly(float(shear[aloft].max(initial=0.0)) if fine and lands else math.nan, 0.0, hard=len(aloft))
 
 
 def _of(outputs: list[Output], column: str) -> Vector:
@@ -71,7 +74,10 @@ def _of(outputs: list[Output], column: str) -> Vector:
 
 
 CASES = (
-    HardCase("tire", "a cleat at 3584 s and 35.8 km, force against that at the start", late_start),
-    HardCase("tire", "pothole as deep as the radius, fall over that of a rigid wheel", pothole),
-    HardCase("tire", "aloft behind an edge: force of the bristles, and landing", aloft_with_shear),
-)
+    HardCase("tire", "a cleat at 3584 s and 35.8 km, force against that at the start", late_start,
+        guard.scales("place and cell of the grid", 1e6)),
+    HardCase("tire", "pothole as deep as the radius, fall over that of a rigid wheel", pothole,
+        guard.at_least("depth over the tire's radius", 0.9)),
+    HardCase("tire", "aloft behind an edge: force of the bristles, and landing", aloft_with_shear,
+        guard.contact_lost(10)),
+)  # fmt: skip

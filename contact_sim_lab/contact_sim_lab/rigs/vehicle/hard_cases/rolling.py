@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most
 from contact_sim_lab.rigs.vehicle.machines.flat_track import Track, flat_track
 from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
@@ -26,13 +27,14 @@ def locked_wheel() -> Finding:
     """Force of a wheel that a brake holds against Coulomb's, from 0.1 to 60 m/s, and what its rim turns
     backward.
     """
-    worst = 0.0
+    worst, rim = 0.0, 0.0
     for speed in (0.1, 5.0, 60.0):
         values = ("effects.tire.wheel_spin={brake: 20000}", "effects.tire.brush.coefficient_static=0.8")
         track = _spinning(speed, max(0.4, 0.4 / speed), *values)
         error = abs(float(track.force[-1, 0]) / (-KINETIC * LOAD) - 1.0)
+        rim = max(rim, abs(float(track.spin[-1])) * track.radius / speed)
         worst = max(worst, error, float(-track.spin.min()))
-    return at_most(worst, 1e-3)
+    return at_most(worst, 1e-3, hard=rim)
 
 
 def standstill_and_reversal() -> Finding:
@@ -45,16 +47,18 @@ def standstill_and_reversal() -> Finding:
     )  # fmt: skip
     outputs = outputs_of(SCENE, 0.8, *values)
     lost = numpy.array([record.dissipated for record in records_of(outputs, "tire/shear")])
+    spin = min(float(record.spin.min()) for record in records_of(outputs, "tire/axle"))
     forces = numpy.concatenate([record.longitudinal for record in records_of(outputs, "tire/axle")])
     if not numpy.isfinite(forces).all():
-        return at_most(float("inf"), 1e-12)
-    return at_most(float(-lost[lost < 0.0].sum() / lost.sum()), 1e-12)
+        return at_most(float("inf"), 1e-12, hard=spin)
+    return at_most(float(-lost[lost < 0.0].sum() / lost.sum()), 1e-12, hard=spin)
 
 
 def held_at_rest() -> Finding:
     """Speed of the rim [rad/s] under a drive below its brake, standing, within a second."""
-    track = _spinning(0.0, 1.0, "effects.tire.wheel_spin={drive: 900, brake: 1000}")
-    return at_most(float(abs(track.spin).max()), 1e-12)
+    drive, brake = 900, 1000
+    track = _spinning(0.0, 1.0, f"effects.tire.wheel_spin={{drive: {drive}, brake: {brake}}}")
+    return at_most(float(abs(track.spin).max()), 1e-12, hard=drive / brake)
 
 
 def landing() -> Finding:
@@ -70,7 +74,7 @@ def landing() -> Finding:
         force = float(numpy.hypot(shear.force_x, shear.force_y))
         in_air += load == 0.0
         worst = max(worst, force if load == 0.0 else force / (1.15 * load) - 1.0)
-    return at_most(worst if in_air else float("inf"), 1e-9)
+    return at_most(worst, 1e-9, hard=in_air)
 
 
 def _steady(track: Track) -> NDArray[numpy.float64]:
@@ -87,18 +91,24 @@ def any_speed() -> Finding:
         "slip={angle: 0.03}",
         "effects.tire.brush={coefficient_static: 1, coefficient_kinetic: 1}",
     )
-    found = numpy.array(
-        [_steady(flat_track(LOAD, speed, 1.0 / speed + 0.1, *values))[1:] for speed in (1.0, 10.0, 80.0)]
-    )
-    return at_most(float((numpy.ptp(found, axis=0) / abs(found[1])).max()), 0.02)
+    speeds = (1.0, 10.0, 80.0)
+    found = numpy.array([_steady(flat_track(LOAD, speed, 1.0 / speed + 0.1, *values))[1:] for speed in speeds])
+    return at_most(float((numpy.ptp(found, axis=0) / abs(found[1])).max()), 0.02, hard=max(speeds) / min(speeds))
 
 
 CASES = (
     HardCase(
-        "rolling tire", "locked wheel at 0.1 to 60 m/s: error of Coulomb's force, rim that turns back", locked_wheel
+        "rolling tire",
+        "locked wheel at 0.1 to 60 m/s: error of Coulomb's force, rim that turns back",
+        locked_wheel,
+        guard.at_most("speed of the rim over that of the road", 1e-3),
     ),
-    HardCase("rolling tire", "stopped, standing, turned back: energy gained from friction", standstill_and_reversal),
-    HardCase("rolling tire", "a standing wheel under a brake above its drive: spin", held_at_rest),
-    HardCase("rolling tire", "driven wheel thrown off a bump, landing: friction above its limit", landing),
-    HardCase("rolling tire", "one slip angle at 1 to 80 m/s: change of force and moment", any_speed),
-)
+    HardCase("rolling tire", "stopped, standing, turned back: energy gained from friction", standstill_and_reversal,
+        guard.below("least spin of the rim [rad/s]", 0.0)),
+    HardCase("rolling tire", "a standing wheel under a brake above its drive: spin", held_at_rest,
+        guard.at_least("drive over brake", 0.9)),
+    HardCase("rolling tire", "driven wheel thrown off a bump, landing: friction above its limit", landing,
+        guard.at_least("pressure maps without load", 1)),
+    HardCase("rolling tire", "one slip angle at 1 to 80 m/s: change of force and moment", any_speed,
+        guard.scales("speeds", 80.0)),
+)  # fmt: skip
