@@ -38,7 +38,9 @@ class BagReplayNode(LifecycleBenchNode):
         super().__init__("bag_replay")
         self._bag_name = declare(self, "bag", "", "Directory of the bag.")
         self._rate = declare(self, "rate", 1.0, "Recorded seconds per second.", (0.001, 1000.0))
-        self._offset = declare(self, "start_offset", 0.0, "Recorded time to begin at, in s.", (0.0, 1e9))
+        self._offset = declare(
+            self, "start_offset", 0.0, "Recorded time to begin at, since the first message, in s.", (0.0, 1e9)
+        )
         self._first = declare(
             self, "start_message", 0, "Number of the message to begin at, from 0, among those replayed.", (0, 2**62)
         )
