@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rclpy.duration import Duration
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from std_srvs.srv import SetBool
 
 from contact_sim_pkg.bag.reader import open_bag
@@ -128,9 +129,10 @@ class BagReplayNode(LifecycleBenchNode):
             self._shown_at = now
             self.get_logger().info(progress.describe())
 
-    def stop(self) -> None:
-        """End at once."""
-        self.exit_status = DONE
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Forget the bag; a replay that is configured again begins anew."""
+        self._player, self._began, self._paused = None, False, False
+        return super().on_cleanup(state)
 
     def destroy_node(self) -> None:
         """Report how many messages were sent, and restore the terminal."""

@@ -21,7 +21,7 @@ from contact_sim_pkg.nodes.parameters import declare
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.nodes.protocol.endpoints import message_type, profile_of, viewing_subscription
 from contact_sim_pkg.nodes.protocol.pacing import RateLimit
-from contact_sim_pkg.nodes.protocol.states import DONE, NodeError
+from contact_sim_pkg.nodes.protocol.states import NodeError
 from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.standard.convert import Converter, record_type
 from contact_sim_pkg.standard.messages import encoded
@@ -62,6 +62,10 @@ class BenchViewNode(LifecycleBenchNode):
 
     def configure(self) -> None:
         """Begin without a topic: the graph says which there are."""
+        self._forget()
+
+    def close(self) -> None:
+        """Forget the publishers and subscriptions, which are destroyed next."""
         self._forget()
 
     def tick(self, now: float) -> float:
@@ -143,10 +147,6 @@ class BenchViewNode(LifecycleBenchNode):
             self.get_logger().warning(
                 f"{source}: {error}; dropped ({self._dropped[source]} so far)", throttle_duration_sec=1.0
             )
-
-    def stop(self) -> None:
-        """End at once."""
-        self.exit_status = DONE
 
 
 def main() -> int:

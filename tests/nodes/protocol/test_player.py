@@ -97,7 +97,7 @@ def test_offsets_of_a_bag_in_wall_time_count_from_its_first_message():
     late = [entry for entry in RecordedSince1970.entries if entry.log_time >= RecordedSince1970.begin + 45_000_000]
     assert [message for _, message in came] == [RecordedSince1970.entries[4], *late]
     assert came[1][0] == pytest.approx(1.005)
-    with pytest.raises(BagError, match=r"start_offset is 0.2 s, bag lasts 0.1 s; begin before that"):
+    with pytest.raises(BagError, match=r"start_offset is 0.2 s, bag lasts 0.1 s; begin before its end"):
         Player(RecordedSince1970(), ALL, [], start=0.2)
 
 

@@ -61,7 +61,7 @@ class Player:
         self._start = max(bag.begin + round(start * 1e9), self._time_of(start_message))
         if self._start > bag.end:
             raise BagError(
-                f"start_offset is {start:g} s, {bag.path} lasts {self._seconds(bag.end):g} s; begin before that"
+                f"start_offset is {start:g} s, {bag.path} lasts {self._seconds(bag.end):g} s; begin before its end"
             )
         self.passes = 0
         self._base, self._resumed_at = self._start, math.inf
