@@ -23,7 +23,8 @@ from contact_sim_pkg.nodes.protocol.window import Gather
 from contact_sim_pkg.records.messages import BenchProgress
 
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
-STOP_SECONDS = 0.5  # from a signal to closing, for the simulator's last messages
+STOP_SECONDS = 0.5  # from a signal of the supervisor to closing, for the simulator's last messages
+UNHURRIED_SECONDS = 3.0  # the same where no supervisor kills what takes long
 SETTLE_SECONDS = 1.0  # for the last answer to be acknowledged
 DEAD_SETTLE_SECONDS = 0.2  # for the same once a process of the run has died
 
@@ -38,6 +39,7 @@ class BagLoggerNode(LifecycleBenchNode):
         self._directory = declare(self, "bag", "", BAG_TEXT)
         self._patience = declare_input_timeout(self)
         self._recording: BagRecording | None = None
+        self._stop_seconds = STOP_SECONDS if self.supervisor else UNHURRIED_SECONDS
         self._gather = Gather()
 
     def configure(self) -> None:
@@ -103,6 +105,7 @@ class BagLoggerNode(LifecycleBenchNode):
         """End the run for all of its nodes, also before it has begun."""
         if self._recording is not None and not self._recording.created:
             self._leave_without_bag(STOPPED_BY_USER)
+        self._stop_seconds = UNHURRIED_SECONDS
         return super().on_shutdown(state)
 
     def _leave_without_bag(self, sentence: str) -> None:
@@ -126,7 +129,7 @@ class BagLoggerNode(LifecycleBenchNode):
             self.close()
             self.exit_status = DONE
         else:
-            self._leave_at = time.monotonic() + STOP_SECONDS
+            self._leave_at = time.monotonic() + self._stop_seconds
             self._answers.publish(recording.answer(sentence=STOPPED_BY_USER))
 
     def fault(self, sentence: str, exit_status: int) -> None:
