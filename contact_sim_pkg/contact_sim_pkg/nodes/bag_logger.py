@@ -39,6 +39,7 @@ class BagLoggerNode(LifecycleBenchNode):
         self._directory = declare(self, "bag", "", BAG_TEXT)
         self._patience = declare_input_timeout(self)
         self._recording: BagRecording | None = None
+        self._request = ""  # to the simulator; in every answer from then on, for only the last one is kept
         self._stop_seconds = STOP_SECONDS if self.supervisor else UNHURRIED_SECONDS
         self._gather = Gather()
 
@@ -49,6 +50,7 @@ class BagLoggerNode(LifecycleBenchNode):
         scene = read_scene(self.scene_name)
         path = new_directory(Path(self._directory) if self._directory else None, scene.name)
         self._run, self._news, self._leave_at = Follower(), time.monotonic(), float("inf")
+        self._request = ""
         self._scene, self._recording = scene, BagRecording(path, scene, scene.block_length_ns)
         self._answers = publisher(self, "bench/recorded")
         kept = [
@@ -88,7 +90,7 @@ class BagLoggerNode(LifecycleBenchNode):
         if not (self.active or self._run.state.ended or self._leave_at < float("inf")):
             return 1.0
         if recording.write_whole():
-            self._answers.publish(recording.answer())
+            self._answers.publish(recording.answer(sentence=self._request))
         lacking = recording.order.missing()
         if self._run.state.ended and not lacking:
             self._end("")
@@ -130,7 +132,8 @@ class BagLoggerNode(LifecycleBenchNode):
             self.exit_status = DONE
         else:
             self._leave_at = time.monotonic() + self._stop_seconds
-            self._answers.publish(recording.answer(sentence=STOPPED_BY_USER))
+            self._request = STOPPED_BY_USER
+            self._answers.publish(recording.answer(sentence=self._request))
 
     def fault(self, sentence: str, exit_status: int) -> None:
         """Log the failure, close the bag with the whole blocks, end the process."""
