@@ -29,7 +29,6 @@ with packages_named():
     from contact_sim_pkg.nodes.processes.run_folder import RunFolder
     from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
     from contact_sim_pkg.nodes.processes.scene_file import write_scene
-    from contact_sim_pkg.nodes.processes.stop_requests import NODES_SECONDS, STOP_SECONDS
     from contact_sim_pkg.python_process import python_command
 
 ARGUMENTS = arguments_of(command, without=("offline", "json"))
@@ -69,9 +68,6 @@ def start_nodes(context: LaunchContext) -> list[Node]:
             output="screen",
             additional_env=plugin_environment(run.scene),
             on_exit=end_of(node.name, ended, run.directory, check=values["check"], strict=values["strict"]),
-            # as `bench run` ends them: the last one is killed 1.7 s after the first signal
-            sigterm_timeout=str(NODES_SECONDS),
-            sigkill_timeout=str(STOP_SECONDS - NODES_SECONDS),
         )
         for node in nodes
     ]

@@ -1,7 +1,9 @@
 """The command line: refusals, tables, one JSON object on standard output, exit statuses."""
 
 import json
+import os
 import signal
+import time
 
 import pytest
 from tests.bench_process import ENVIRONMENT, LONGEST, bench, end, needs_ros, start_bench, wait_until
@@ -76,6 +78,35 @@ def test_a_write_that_fails_during_a_run_ends_it_with_status_3_and_a_sentence(ca
     facts = json.loads(out)
     assert (facts["ended"], facts["failure"]) == ("stopped", "no space left on device")
     assert "no space left on device" in said
+
+
+@pytest.mark.fault("F1")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_skips_the_summary_whose_bag_is_closed(capsys, tmp_path, monkeypatch, number):
+    """A first one stops the run, another one comes while it is summed up."""
+    from contact_sim_pkg.report import summary
+    from contact_sim_pkg.run import offline
+
+    run, bag = offline.run_offline, tmp_path / "bag"
+    closed = []
+
+    def never_ends(opened):
+        closed.append(opened.complete)
+        os.kill(os.getpid(), number)
+        time.sleep(LONGEST)
+
+    def stopped_after_a_block(scene, directory, on_progress, stop, *others):
+        return run(scene, directory, lambda each: stop.on_signal(), stop, *others)
+
+    monkeypatch.setattr(summary, "summarise", never_ends)
+    monkeypatch.setattr(offline, "run_offline", stopped_after_a_block)
+    assert bench_main(["run", "seat_ride", *OFFLINE, "--out", str(bag), "--json"]) == 0
+    out, said = capsys.readouterr()
+    facts = json.loads(out)
+    assert (facts["ended"], facts["summary"], facts["bag"]) == ("stopped", {}, str(bag))
+    assert closed == [True]
+    assert f"{bag} is closed; its summary follows, another signal skips it" in said
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
 
 
 def test_a_run_that_fails_has_its_failure_in_its_json(capsys, tmp_path, monkeypatch):

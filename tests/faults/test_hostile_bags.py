@@ -18,7 +18,7 @@ from tests.report.synthetic_bag import car_bag
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import decode, encode
 from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.bag.typestore import store_of_definition
+from contact_sim_pkg.bag.typestore import definition, store_of_definition
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main as bench
 from contact_sim_pkg.records.messages import String, VibrationBlock
@@ -256,6 +256,9 @@ def test_a_replay_refuses_what_it_cannot_publish_before_it_begins(tmp_path, ride
         assert {"quality": "the stored quality of service", "scene": "is another than"}[name] in ended.stderr
 
 
+OTHER = definition("contact_msgs_defs/msg/VibrationBlock").replace("sample_period", "sampling_period")
+
+
 @needs_ros
 @pytest.mark.fault("G10")
 @pytest.mark.parametrize(
@@ -264,11 +267,18 @@ def test_a_replay_refuses_what_it_cannot_publish_before_it_begins(tmp_path, ride
         ({"names": {VIBRATION: "/no name"}}, "'/no name' is no name of a topic of ROS"),
         ({"names": {VIBRATION: "/{node}/~"}}, "'/{node}/~' is no name of a topic of ROS"),
         ({"encodings": {VIBRATION: "json"}}, "the messages of /platform/vibration are encoded as 'json'"),
+        (
+            {"definitions": {VIBRATION: OTHER}},
+            "/platform/vibration was recorded with another definition of contact_msgs_defs/msg",
+        ),
+        ({"messages": "empty"}, "the message of /platform/vibration at 0.01 s has 0 bytes"),
     ],
 )
 def test_a_topic_that_ros_cannot_carry_is_refused_by_name_and_the_others_go_out_without_it(
     tmp_path, ride, change, sentence
 ):
+    if "messages" in change:
+        change = {"messages": [*ride.messages[:-1], (*ride.messages[-1][:2], b"")]}
     file = write(tmp_path / "bag", dataclasses.replace(ride, **change))
     ended = run_bench("replay", file, "--delay", "0")
     assert ended.returncode == 2, ended.stderr

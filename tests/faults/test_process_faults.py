@@ -65,6 +65,7 @@ def test_a_signal_ends_the_run_with_its_bag_closed_and_status_0(running, number)
     _, said = process.communicate(timeout=LONGEST)
     assert process.returncode == 0, said
     assert "Traceback" not in said
+    assert f"{bag} is closed; its summary follows" in said
     closed = open_bag(bag)
     assert closed.complete
     assert closed.metadata["ended"] == "stopped"

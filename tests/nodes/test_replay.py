@@ -1,5 +1,6 @@
 """A replay over the real middleware: nothing of its beginning is lost; it can be paused, remapped and begun anywhere."""
 
+import dataclasses
 import fcntl
 import os
 import pty
@@ -8,7 +9,8 @@ import subprocess
 import termios
 
 import pytest
-from tests.bench_process import ENVIRONMENT, LONGEST, Nodes, needs_ros, resolved
+from tests.bag.hand_made import seat_ride, write
+from tests.bench_process import ENVIRONMENT, LONGEST, Nodes, bench, needs_ros, resolved
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.python_process import python_command
@@ -72,6 +74,18 @@ def test_a_subscriber_that_is_there_gets_every_byte_from_the_first_on(bag, repla
     count = open_bag(bag).count()
     assert f"{count} of {count} messages went out" in nodes.printed[-1]
     assert any("2 subscriptions on 2 of 8 topics" in line for line in nodes.printed)
+
+
+@pytest.mark.fault("C7")
+def test_a_bag_whose_log_times_are_wall_time_is_sent_at_once_and_shows_its_own_length(tmp_path):
+    """As `ros2 bag record` writes it: log times of now, and no text of ours."""
+    ride = seat_ride()
+    late = [(topic, time + 1_800_000_000_000_000_000, data) for topic, time, data in ride.messages]
+    write(tmp_path / "bag", dataclasses.replace(ride, messages=late, texts={}, seal=False))
+    ended = bench("replay", tmp_path / "bag", "--delay", "0", "--start-offset", "0.005")
+    assert ended.returncode == 0, ended.stderr
+    assert "2 of 2 messages went out" in ended.stderr  # the latched scene from before the offset, and the second block
+    assert "of 0.01 s" in ended.stderr
 
 
 def test_a_subscriber_that_cannot_be_served_is_named_and_not_waited_for(bag, replay, listener):

@@ -1,5 +1,6 @@
 """`bench_view` over the real middleware: nothing is subscribed or made that nobody reads; what is read is right."""
 
+import re
 import time
 
 import numpy
@@ -13,6 +14,7 @@ pytestmark = needs_ros
 
 G = 9.81  # [m/s^2]
 VIEW = "bench_view"
+STAMP = 10_000_000  # [ns]
 OFFERED = {"/tf", "/view/markers", "/view/imu/seat", "/view/imu/floor", "/view/joints", "/view/seat/load"}
 
 
@@ -126,6 +128,64 @@ def test_what_is_read_is_the_recorded_run(bag, nodes, reader):
         stamp = seat.header.stamp.sec * 10**9 + seat.header.stamp.nanosec
         heights[stamp] = seat.transform.translation.z - position[stamp]
     assert max(heights.values()) - min(heights.values()) < 1e-12  # one rest place
+
+
+@pytest.mark.fault("B2")
+def test_a_malformed_message_of_a_stranger_is_dropped_named_and_counted_and_the_next_one_is_shown(tmp_path):
+    from sensor_msgs.msg import JointState
+    from std_msgs.msg import Float64
+    from tests.nodes.stand_in import StandIn
+    from tests.standard.records import motion_of
+
+    from contact_sim_pkg.bag.messages import encode
+    from contact_sim_pkg.nodes.protocol.endpoints import publisher
+    from contact_sim_pkg.records.messages import ContactForce
+
+    def force(samples):
+        values = numpy.full(samples, 512.0)
+        return ContactForce(
+            block=1, sample_period=1e-3, normal=values, tangential=values, approach=values, effective_height=values
+        )
+
+    motion = motion_of(("floor_z", "seat_frame_z"))
+    good = {"seat/force": encode(force(10), STAMP), "bench/motion": encode(motion, STAMP)}
+    bad = {
+        "seat/force": (good["seat/force"][:4], good["seat/force"][:40], encode(force(0), STAMP)),
+        "bench/motion": (bytes(8), encode(motion._replace(sample_period=numpy.nan), STAMP)),
+    }
+    heard: dict[str, list] = {topic: [] for topic in good}
+    nodes = Nodes(resolved("seat_ride"), tmp_path)
+    try:
+        with StandIn("stranger", "seat/force") as stranger:
+            nodes.start(VIEW, rate=100.0)
+            sent = {"seat/force": stranger.entry, "bench/motion": publisher(stranger.node, "bench/motion")}
+            stranger.node.create_subscription(Float64, "view/seat/load", heard["seat/force"].append, 10)
+            stranger.node.create_subscription(JointState, "view/joints", heard["bench/motion"].append, 10)
+
+            def send_until(topic, data, condition):
+                """The view takes a message now and then, and names at most one a second."""
+                stranger.spin_until(lambda: sent[topic].publish(data) or nodes.ended() or condition())
+                assert not nodes.ended()
+
+            for topic in good:
+                for data in bad[topic]:
+                    before = dropped(topic, nodes.printed)
+                    send_until(topic, data, lambda topic=topic, before=before: dropped(topic, nodes.printed) > before)
+                    heard[topic].clear()
+                    send_until(topic, good[topic], lambda topic=topic: heard[topic])
+    finally:
+        nodes.end()
+    assert heard["seat/force"][0].data == 512.0
+    assert list(heard["bench/motion"][0].name) == ["floor_z", "seat_frame_z"]
+    assert not [line for line in nodes.printed if "Traceback" in line]
+
+
+def dropped(topic, printed):
+    """How many messages of a topic the view says to have dropped."""
+    return max(
+        (int(count) for line in printed for count in re.findall(rf"{topic}: .*; dropped \((\d+) so far", line)),
+        default=0,
+    )
 
 
 def test_a_signal_ends_it_with_status_0(nodes, reader):

@@ -103,6 +103,23 @@ def test_every_ros_package_imported_by_the_nodes_is_declared():
     assert imported - declared == set()
 
 
+ROSDEP_KEYS = {  # those of rosdep/python.yaml that the packages use; one that is not there refuses the whole workspace
+    "python3-click", "python3-jinja2", "python3-matplotlib", "python3-numpy", "python3-pydantic", "python3-pytest",
+    "python3-rich", "python3-rosbags-pip", "python3-ruamel.yaml", "python3-scipy",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "folder", [MESSAGES, PACKAGE, PACKAGE.with_name("contact_sim_lab")], ids=lambda each: each.name
+)
+def test_every_python_dependency_of_a_package_is_a_key_of_rosdep(folder):
+    """mpmath has none, and neither have numba, mcap and zstandard: they stand in setup.py."""
+    listed = {
+        each.text for kind in ("depend", "exec_depend", "test_depend") for each in package_xml(folder).findall(kind)
+    }
+    assert {each for each in listed if each.startswith("python3-")} - ROSDEP_KEYS == set()
+
+
 def test_every_console_script_names_a_module_that_exists():
     text = (PACKAGE / "setup.py").read_text()
     (nodes,) = [

@@ -172,16 +172,16 @@ WRENCH = """\
 
 The forces of a contact on the upper body (wheel, occupant, sphere), in the contact's frame and
 about its origin: `tire_contact` lies on the ground (z = 0 of the road) below the wheel centre,
-`seat_contact` below the centre of the occupant, `backrest_contact` in the middle of the back, with
-a cushion in the middle of its lower edge, `impact_contact` where the sphere falls. `force` is
+`seat_contact` below the centre of the occupant, `backrest_contact` in the middle of the back (with
+`cushion` at the lower edge of the seat back), `impact_contact` where the sphere falls. `force` is
 friction along x and y, as in the contact's `force` topic, and the normal force along z. All forces
 act in the plane z = 0; the normal one in the centre of pressure (x_c, y_c) of the last field or
 points, so `torque` = (y_c F_z, -x_c F_z, M_z), M_z that of friction. Where a scene has neither
 field nor points the torque is 0. About the axle of a tire, R_e above the ground, the moment is
-`torque.y` - R_e `force.x`, which `moment_y` of `tire/axle` is in steady rolling; pressure on
-slopes of the road is in `tire/axle` alone. `block/wrench` is about the centre of mass of the body,
-its mean over a display period, in the axes of the ground (in those of the world where frame_id is
-bench)."""
+`torque.y` - R_e `force.x`, which `moment_y` of `tire/axle` is in steady rolling; pressure on slopes
+of the road is in `tire/axle` alone.
+`block/wrench` is about the centre of mass of the body, its mean over a display period, in the
+axes of the ground (in those of the world where frame_id is bench)."""
 
 
 def own_types() -> list[str]:

@@ -180,6 +180,11 @@ class Bag:
         )
 
     @property
+    def begin(self) -> int:
+        """Earliest log time in [ns]; 0 without messages. A bag of another recorder is in wall time."""
+        return min((chunk.start - self._epoch for chunk in self._layout.chunks), default=0)
+
+    @property
     def end(self) -> int:
         """Latest log time in [ns]; 0 without messages."""
         return max((chunk.end - self._epoch for chunk in self._layout.chunks), default=0)

@@ -33,7 +33,7 @@ class Number(click.FloatRange):
     default=0.0,
     show_default=True,
     metavar="S",
-    help="Recorded time to begin at.",
+    help="Recorded time to begin at, since the first message.",
 )
 @click.option(
     "--start-message",
@@ -89,7 +89,7 @@ def command(
         topics=topics,
     )  # fmt: skip
     rules = [part for rule in rules_of(remapped, recorded) for part in ("-r", ":=".join(rule))]
-    with RunDisplay(recorded.end * 1e-9, "waiting for the subscribers", "message") as display:
+    with RunDisplay((recorded.end - recorded.begin) * 1e-9, "waiting for the subscribers", "message") as display:
         status = main(
             ["bench", *node_arguments(parameters), *rules],
             lambda progress: display.update(progress.simulated, progress.describe()),

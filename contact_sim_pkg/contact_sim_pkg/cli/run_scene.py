@@ -38,6 +38,42 @@ class SetUpInterrupted(BaseException):
     """A signal broke the set-up off, before anything was created."""
 
 
+class SummarySkipped(BaseException):
+    """A signal while the run is summed up."""
+
+
+class OtherSignals:
+    """What a signal does outside of the run, which has an answer of its own: it skips the summary, or breaks off."""
+
+    def __init__(self) -> None:
+        """Before the run."""
+        self.has_summary = False  # one comes next, or is being made
+        self._skips = self._sums_up = False
+
+    def __call__(self) -> None:
+        """A signal."""
+        if not self.has_summary:
+            raise KeyboardInterrupt
+        self._skips = True
+        if self._sums_up:
+            raise SummarySkipped
+
+    def sum_up(self, scene: ResolvedScene, ended: RunEnd) -> dict[str, Any]:
+        """The outcome of a run, for whose summary its recording is read, unless a signal says that nobody waits for it."""
+        if ended.stopped and ended.bag is not None and not ended.failure:
+            print(f"bench: {ended.bag} is closed; its summary follows, another signal skips it", file=sys.stderr)
+        try:
+            self._sums_up = True
+            with RunDisplay(1.0, "summing up"):
+                facts = describe(scene, ended, with_summary=not self._skips)
+            self._sums_up = False
+        except SummarySkipped:
+            self._sums_up = False
+            facts = describe(scene, ended, with_summary=False)
+        self.has_summary = False
+        return facts
+
+
 class StopRequest:
     """Whether there was a signal: it breaks the set-up off at once, and is checked between two
     blocks once they are computed.
@@ -124,9 +160,12 @@ def run_scene(
     """
     scene, directory, forecast = prepare(options, out=out, from_bag=from_bag, record=record, allow_long=allow_long)
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
-    with RunDisplay(scene.duration) as display:
-        ended = run(scene, directory, from_bag, display)
-    status = _report_outcome(scene, ended, forecast, check=check, as_json=as_json, strict=strict)
+    signals = OtherSignals()
+    with _signals_call(signals):
+        with RunDisplay(scene.duration) as display:
+            ended = run(scene, directory, from_bag, display)
+        signals.has_summary = True
+        status = _report_outcome(scene, ended, forecast, signals, check=check, as_json=as_json, strict=strict)
     # compiled code that does not return would keep the interpreter from ending
     if ended.computes_on:
         sys.stdout.flush()
@@ -136,7 +175,14 @@ def run_scene(
 
 
 def _report_outcome(
-    scene: ResolvedScene, ended: RunEnd, forecast: dict[str, Any], *, check: bool, as_json: bool, strict: bool
+    scene: ResolvedScene,
+    ended: RunEnd,
+    forecast: dict[str, Any],
+    signals: OtherSignals,
+    *,
+    check: bool,
+    as_json: bool,
+    strict: bool,
 ) -> int:
     """Report the outcome of a run; returns the exit status."""
     if ended.failure:
@@ -144,9 +190,7 @@ def _report_outcome(
     if ended.exit_status == 2:
         return 2
     hint = _leave_metadata(scene, ended)
-    # the recording is read for its summary
-    with RunDisplay(1.0, "summing up"):
-        facts = describe(scene, ended) | forecast
+    facts = signals.sum_up(scene, ended) | forecast
     checked = check_of_run(scene, ended) if check else None
     if as_json:
         print_json(facts | facts_of_check(checked))

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from rclpy.duration import Duration
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.names import new_directory
@@ -17,12 +18,13 @@ from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_descriptions, read_reason, read_scene
 from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, publisher, subscription
 from contact_sim_pkg.nodes.protocol.recording import BagRecording
-from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, Follower, RunState
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, STOPPED_BY_USER, Follower, RunState
 from contact_sim_pkg.nodes.protocol.window import Gather
 from contact_sim_pkg.records.messages import BenchProgress
 
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
-STOP_SECONDS = 0.5  # from a signal to closing, for the simulator's last messages
+STOP_SECONDS = 0.5  # from a signal of the supervisor to closing, for the simulator's last messages
+UNHURRIED_SECONDS = 3.0  # the same where no supervisor kills what takes long
 SETTLE_SECONDS = 1.0  # for the last answer to be acknowledged
 DEAD_SETTLE_SECONDS = 0.2  # for the same once a process of the run has died
 
@@ -37,6 +39,8 @@ class BagLoggerNode(LifecycleBenchNode):
         self._directory = declare(self, "bag", "", BAG_TEXT)
         self._patience = declare_input_timeout(self)
         self._recording: BagRecording | None = None
+        self._request = ""  # to the simulator; in every answer from then on, for only the last one is kept
+        self._stop_seconds = STOP_SECONDS if self.supervisor else UNHURRIED_SECONDS
         self._gather = Gather()
 
     def configure(self) -> None:
@@ -46,6 +50,7 @@ class BagLoggerNode(LifecycleBenchNode):
         scene = read_scene(self.scene_name)
         path = new_directory(Path(self._directory) if self._directory else None, scene.name)
         self._run, self._news, self._leave_at = Follower(), time.monotonic(), float("inf")
+        self._request = ""
         self._scene, self._recording = scene, BagRecording(path, scene, scene.block_length_ns)
         self._answers = publisher(self, "bench/recorded")
         kept = [
@@ -67,7 +72,8 @@ class BagLoggerNode(LifecycleBenchNode):
         if recording is None or recording.closed or not self._run.accept(progress):
             return
         self._news = time.monotonic()
-        if self._run.state >= RunState.READY and not recording.created:
+        never_began = self._run.state is RunState.STOPPED and progress.block < 0
+        if self._run.state >= RunState.READY and not never_began and not recording.created:
             recording.open(self.resolve_topic_name, read_descriptions(self.scene_name, self._scene))
             self.announce(f"recording to {recording.path}")
         recording.order.on_progress(progress.block, progress.messages_sent)
@@ -76,15 +82,20 @@ class BagLoggerNode(LifecycleBenchNode):
     def tick(self, now: float) -> float:
         """Write whole blocks; close once the run has ended and all is here, or no wait is left."""
         recording = self._recording
-        if not self.active or recording is None or recording.closed:
+        if recording is None or recording.closed:
+            return 1.0
+        if self._run.state.ended and not recording.created:
+            self._leave_without_bag("")
+            return 1.0
+        if not (self.active or self._run.state.ended or self._leave_at < float("inf")):
             return 1.0
         if recording.write_whole():
-            self._answers.publish(recording.answer())
+            self._answers.publish(recording.answer(sentence=self._request))
         lacking = recording.order.missing()
         if self._run.state.ended and not lacking:
             self._end("")
         elif now > self._leave_at:
-            self._end("stopped")
+            self._end(STOPPED_BY_USER)
         elif self._run.state.ended and now - self._news > self._patience:
             self._end(f"{lacking} messages never came")
         return 1.0
@@ -92,14 +103,37 @@ class BagLoggerNode(LifecycleBenchNode):
     def _end(self, sentence: str) -> None:
         self.exit_status = LOSS if self._close_bag(sentence) else DONE
 
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """End the run for all of its nodes, also before it has begun."""
+        if self._recording is not None and not self._recording.created:
+            self._leave_without_bag(STOPPED_BY_USER)
+        self._stop_seconds = UNHURRIED_SECONDS
+        return super().on_shutdown(state)
+
+    def _leave_without_bag(self, sentence: str) -> None:
+        """End a run that never began: its simulator is told that nothing is to be waited for."""
+        if self._recording is not None:
+            self._answers.publish(self._recording.answer(closed=True, sentence=sentence))
+            self._answers.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
+        self.exit_status = DONE
+
+    def refusal(self, transition: str) -> str:
+        """See `LifecycleBenchNode`."""
+        if transition in ("deactivate", "cleanup") and self._recording is not None and self._recording.is_open:
+            return "the run waits for its recording; deactivate contact_simulator for a pause, end the run by shutdown"
+        return ""
+
     def stop(self) -> None:
-        """Wait shortly for the last messages of the simulator, then close."""
-        if self._recording is None or not self._recording.created or self._leave_at < float("inf"):
+        """Ask the simulator for its end and wait shortly for its last messages, then close."""
+        recording = self._recording
+        if recording is None or not recording.created or self._leave_at < float("inf"):
             self._leave_at = 0.0
             self.close()
             self.exit_status = DONE
         else:
-            self._leave_at = time.monotonic() + STOP_SECONDS
+            self._leave_at = time.monotonic() + self._stop_seconds
+            self._request = STOPPED_BY_USER
+            self._answers.publish(recording.answer(sentence=self._request))
 
     def fault(self, sentence: str, exit_status: int) -> None:
         """Log the failure, close the bag with the whole blocks, end the process."""

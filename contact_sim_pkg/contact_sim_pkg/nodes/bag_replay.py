@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rclpy.duration import Duration
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from std_srvs.srv import SetBool
 
 from contact_sim_pkg.bag.reader import open_bag
@@ -38,7 +39,9 @@ class BagReplayNode(LifecycleBenchNode):
         super().__init__("bag_replay")
         self._bag_name = declare(self, "bag", "", "Directory of the bag.")
         self._rate = declare(self, "rate", 1.0, "Recorded seconds per second.", (0.001, 1000.0))
-        self._offset = declare(self, "start_offset", 0.0, "Recorded time to begin at, in s.", (0.0, 1e9))
+        self._offset = declare(
+            self, "start_offset", 0.0, "Recorded time to begin at, since the first message, in s.", (0.0, 1e9)
+        )
         self._first = declare(
             self, "start_message", 0, "Number of the message to begin at, from 0, among those replayed.", (0, 2**62)
         )
@@ -126,9 +129,10 @@ class BagReplayNode(LifecycleBenchNode):
             self._shown_at = now
             self.get_logger().info(progress.describe())
 
-    def stop(self) -> None:
-        """End at once."""
-        self.exit_status = DONE
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Forget the bag; a replay that is configured again begins anew."""
+        self._player, self._began, self._paused = None, False, False
+        return super().on_cleanup(state)
 
     def destroy_node(self) -> None:
         """Report how many messages were sent, and restore the terminal."""

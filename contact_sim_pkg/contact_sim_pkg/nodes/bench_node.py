@@ -4,6 +4,8 @@ itself unless `autostart` is false.
 
 from __future__ import annotations
 
+from typing import Any
+
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
@@ -11,9 +13,11 @@ from rclpy.subscription import Subscription
 from contact_sim_pkg.files import RefusedError
 from contact_sim_pkg.nodes.parameters import declare
 from contact_sim_pkg.nodes.processes.process import end_unexpectedly
-from contact_sim_pkg.nodes.protocol.states import FAULT, REFUSED, NodeError
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, REFUSED, NodeError
 from contact_sim_pkg.run.errors import RunError
 
+NAMES = {1: "configure", 2: "cleanup", 3: "activate", 4: "deactivate", 5: "shutdown", 6: "shutdown", 7: "shutdown"}
+"""Transitions of `lifecycle_msgs/Transition` by number; shutdown has one for each state that it begins in."""
 SUPERVISOR_TEXT = "Process number of the supervisor that started this node; the node ends when it is gone. 0: none."
 
 
@@ -23,7 +27,8 @@ class LifecycleBenchNode(LifecycleNode):
 
     Configure reads, loads, compiles and creates publishers; activate lets the run begin. With
     `autostart` both follow the start of the process. A refusal is a log line and a FAILURE of the
-    transition.
+    transition; a transition that does not exist now, or that `refusal` forbids, is a log line too, and
+    its request is answered with false. Shutdown ends the node as a signal does.
     """
 
     exit_status: int | None = None
@@ -38,6 +43,8 @@ class LifecycleBenchNode(LifecycleNode):
         self._autostart = declare(self, "autostart", True, "Configure and activate at the start of the process.")
         self.active = False
         self._endpoints_before: list[Publisher | Subscription] = []
+        self._change_state = self._service_change_state.callback
+        self._service_change_state.callback = self._on_change_state  # that of rclpy raises for what does not exist now
 
     def configure(self) -> None:
         """Set up; a refusal raises."""
@@ -45,6 +52,31 @@ class LifecycleBenchNode(LifecycleNode):
 
     def close(self) -> None:
         """Release what `configure` opened; may be called more than once."""
+
+    def stop(self) -> None:
+        """The user wants the end: begin to end cleanly."""
+        self.exit_status = DONE
+
+    def refusal(self, transition: str) -> str:
+        """Why this transition, which exists now, is not possible, with the cure; empty where it is."""
+        return ""
+
+    def _on_change_state(self, request: Any, response: Any) -> Any:
+        """Answer a request for a transition, by its label or else its number."""
+        possible = {label: number for number, label, *_ in self._state_machine.available_transitions}
+        names = {number: label for label, number in possible.items()}
+        wanted = request.transition.label or names.get(request.transition.id, "")
+        if wanted in possible:
+            reason = self.refusal(wanted)
+        else:
+            wanted = wanted or NAMES.get(request.transition.id, f"transition {request.transition.id}")
+            now = ", ".join(f"{label} ({number})" for label, number in possible.items()) or "none"
+            reason = f"the node is {self._state_machine.current_state[1]}; possible are {now}"
+        if reason:
+            self.get_logger().warning(f"{wanted[:40]!r} is refused: {reason}")
+            response.success = False
+            return response
+        return self._change_state(request, response)
 
     def start(self) -> None:
         """Go through the transitions, unless a manager does."""
@@ -117,7 +149,6 @@ class LifecycleBenchNode(LifecycleNode):
         self._state_machine.destroy_when_not_in_use()
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Release everything and end the process."""
-        self.close()
-        self.exit_status = 0 if self.exit_status is None else self.exit_status
+        """End as at a signal."""
+        self.stop()
         return TransitionCallbackReturn.SUCCESS

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import struct
 import sys
 import time
+from collections import Counter
 from functools import partial
 
 from rclpy.event_handler import PublisherEventCallbacks
@@ -19,7 +21,7 @@ from contact_sim_pkg.nodes.parameters import declare
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.nodes.protocol.endpoints import message_type, profile_of, viewing_subscription
 from contact_sim_pkg.nodes.protocol.pacing import RateLimit
-from contact_sim_pkg.nodes.protocol.states import DONE, NodeError
+from contact_sim_pkg.nodes.protocol.states import NodeError
 from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.standard.convert import Converter, record_type
 from contact_sim_pkg.standard.messages import encoded
@@ -28,6 +30,8 @@ from contact_sim_pkg.standard.topics import RATE, SCENE, StandardTopic, standard
 LOOK_SECONDS = 1.0  # between two looks at the graph for topics of a run
 LONGEST_GATHER = 0.05  # [s]; signals are looked at as often
 RATE_TEXT = "Messages of a topic a second of the steady clock, at most."
+MALFORMED = (BagError, ArithmeticError, LookupError, TypeError, ValueError, struct.error)
+"""What decoding and converting raise where the bytes or values of a message are none that the bench sends."""
 
 
 class BenchViewNode(LifecycleBenchNode):
@@ -50,6 +54,7 @@ class BenchViewNode(LifecycleBenchNode):
         self._without: set[str] = set()  # standard topics whose type is not installed
         self._read: set[str] = set()  # standard topics with a reader
         self._sources: dict[str, Subscription] = {}
+        self._dropped = Counter[str]()
         self._limit = RateLimit(self._rate, 0.5 * self.gather)
         self._converter = Converter(())
         self._changed = self._knows_scene = False
@@ -57,6 +62,10 @@ class BenchViewNode(LifecycleBenchNode):
 
     def configure(self) -> None:
         """Begin without a topic: the graph says which there are."""
+        self._forget()
+
+    def close(self) -> None:
+        """Forget the publishers and subscriptions, which are destroyed next."""
         self._forget()
 
     def tick(self, now: float) -> float:
@@ -122,20 +131,22 @@ class BenchViewNode(LifecycleBenchNode):
         self._knows_scene = True
 
     def _on_message(self, source: str, data: bytes) -> None:
-        """Show one message, unless one of its topic was shown a moment ago."""
+        """Show one message, unless one of its topic was shown a moment ago; drop and count a malformed one."""
         if not self.active or not self._limit.passes(source, time.monotonic()):
             return
         wanted = [
             name for name in self._read
             if name in self._converter.topics and (self._knows_scene or not self._converter.topics[name].places)
         ]  # fmt: skip
-        record = decode(record_type(source), data)
-        for shown in self._converter.convert(source, stamp_of(data), record, wanted):
-            self._offered[shown.topic].publish(encoded(shown.message))
-
-    def stop(self) -> None:
-        """End at once."""
-        self.exit_status = DONE
+        try:
+            record = decode(record_type(source), data)
+            for shown in self._converter.convert(source, stamp_of(data), record, wanted):
+                self._offered[shown.topic].publish(encoded(shown.message))
+        except MALFORMED as error:
+            self._dropped[source] += 1
+            self.get_logger().warning(
+                f"{source}: {error}; dropped ({self._dropped[source]} so far)", throttle_duration_sec=1.0
+            )
 
 
 def main() -> int:

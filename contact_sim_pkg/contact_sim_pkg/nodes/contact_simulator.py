@@ -7,6 +7,8 @@ import sys
 import time
 from functools import partial
 
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
+
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.compiled.jit import closed
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
@@ -17,7 +19,7 @@ from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_scene
 from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, subscription
 from contact_sim_pkg.nodes.protocol.peers import Peers
 from contact_sim_pkg.nodes.protocol.simulated_run import SimulatedRun
-from contact_sim_pkg.nodes.protocol.states import DONE, RunState
+from contact_sim_pkg.nodes.protocol.states import DONE, STOPPED_BY_USER, RunState
 from contact_sim_pkg.nodes.simulator_publishers import SimulatorPublishers
 from contact_sim_pkg.records.messages import BenchRecorded
 from contact_sim_pkg.run.block_simulation import cautions_of
@@ -71,20 +73,22 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self.get_logger().warning(sentence)
 
     def tick(self, now: float) -> float:
-        """Look for peers before ready; advance until the end; then leave once the bag is closed."""
+        """Look for peers before ready; advance until the end, but for pauses; then leave once the bag is closed."""
         run = self._run
-        if run is None or run.report.last is None or not self.active:
+        if run is None or run.report.last is None:
             return 1.0
         self._out.diagnostics.report(now, run.report.last)
+        if run.state.ended:
+            self._leave(run, now)
+            return 1.0
+        if not self.active:
+            return 1.0
         if run.state is RunState.STARTING:
             if self._peers.complete(now):
                 self._out.clock.start(now)
                 run.start(now)
                 self.announce("ready")
             return PEERS_SECONDS
-        if run.state.ended:
-            self._leave(run, now)
-            return 1.0
         if self._peers.alone(now):
             self._advance(run, now)
             run.refuse_standstill(time.monotonic())
@@ -110,7 +114,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self._out.diagnostics.late = run.late
 
     def _on_recorded(self, run: SimulatedRun, data: bytes) -> None:
-        if reason := run.on_recorded(decode(BenchRecorded, data)):
+        if reason := run.on_recorded(decode(BenchRecorded, data), time.monotonic()):
             self.get_logger().error(f"the logger closed its bag before the end: {reason}")
             self._out.diagnostics.warn(time.monotonic(), reason)
 
@@ -124,6 +128,35 @@ class ContactSimulatorNode(LifecycleBenchNode):
                 self._out.settle()
             self.announce(run.report.describe())
             self.exit_status = status
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Let the run begin, or go on at its pace."""
+        if self._run is not None:
+            self._run.resume(time.monotonic())
+        return super().on_activate(state)
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Pause a run under way: the others hear PAUSED, and wait."""
+        if self._run is not None:
+            self._run.pause(time.monotonic())
+        return super().on_deactivate(state)
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """End the run for all of its nodes, also before it has begun."""
+        if self._run is not None and self._run.state is RunState.STARTING:
+            self._run.report.send(RunState.STOPPED, STOPPED_BY_USER)
+            self._out.settle()
+        return super().on_shutdown(state)
+
+    def refusal(self, transition: str) -> str:
+        """See `LifecycleBenchNode`."""
+        if transition == "cleanup" and self._run is not None and self._run.state >= RunState.READY:
+            return "logger and sources of the run wait for its end; end it by shutdown"
+        return ""
+
+    def close(self) -> None:
+        """Forget the run, whose publishers are destroyed next."""
+        self._run = None
 
     def stop(self) -> None:
         """End the run after the block done last; a second signal does not wait for the logger."""

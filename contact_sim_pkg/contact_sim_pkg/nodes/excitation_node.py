@@ -106,9 +106,11 @@ class ExcitationNode(Node):
     def _on_progress(self, data: bytes) -> None:
         progress = decode(BenchProgress, data)
         if self._run.accept(progress):
+            now = time.monotonic()
             self._window.on_done(progress.block)
+            (self._pacer.pause if self._run.state is RunState.PAUSED else self._pacer.resume)(now)
             if self._at_full_speed:
-                self.gather = self._gather.on_block(progress.block, time.monotonic())
+                self.gather = self._gather.on_block(progress.block, now)
 
     def _on_recorded(self, data: bytes) -> None:
         recorded = decode(BenchRecorded, data)

@@ -64,6 +64,7 @@ class BenchProgress(_Record):
     FINISHED: ClassVar[int]
     STOPPED: ClassVar[int]
     FAILED: ClassVar[int]
+    PAUSED: ClassVar[int]
     state: int
     block: int
     blocks: int

@@ -108,12 +108,12 @@ class Converter:
     def _markers_at(self, motion: BodyMotion, stamp: int) -> Any:
         if self._markers is None:
             self._markers = Markers(self._places, moved_bodies(motion.bodies), self._wrenches.values())
-        for source, record in self._latest.items():
+        while self._latest:  # each is taken once, also where it is malformed and raises
+            source, record = self._latest.popitem()
             if source == ROAD:
                 self._markers.take_road(record)
             else:
                 self._markers.take_force(self._wrenches[source], record)
-        self._latest.clear()
         return self._markers.message(stamp)
 
 

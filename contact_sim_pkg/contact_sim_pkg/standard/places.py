@@ -25,6 +25,7 @@ FLOOR_HEIGHT = 0.25  # [m] above the wheel centre
 SEAT_HEIGHT = 0.3  # [m] above the floor
 OCCUPANT_STEP = 0.25  # [m] from one mass of the occupant up to the next
 BACK = 0.25  # [m] from the middle of the seat back to its back
+EDGE = 0.35  # [m] from the lower edge of a cushioned seat back up to its middle, where the median back presses
 
 BACKREST_TURN = (0.5**0.5, 0.0, 0.5**0.5, 0.0)
 """Quaternion x, y, z, w of a backrest's frame: x up, y to the right, z forward."""
@@ -37,7 +38,7 @@ class Places(NamedTuple):
     radius: float = 0.0  # [m] of the tire, free; 0 without a tire
     width: float = 0.0  # [m] of the tire
     travel: Travel | None = None
-    foam_back: bool = False  # the map of a seat back of foam counts x from its lower edge, others from its middle
+    edge: float = 0.0  # [m] from the origin of the backrest's contact up to the middle of the seat back
 
     def travelled(self, stamp: int) -> float:
         """Way [m] of the rig along the road at a stamp [ns]."""
@@ -64,8 +65,7 @@ class Places(NamedTuple):
         if contact == "seat":
             return floor, (0.0, 0.0, SEAT_HEIGHT), LEVEL
         if contact == "backrest":
-            height = SEAT_HEIGHT + (0.0 if self.foam_back else OCCUPANT_STEP)  # the lower edge is level with the seat
-            return floor, (-BACK, 0.0, height), BACKREST_TURN
+            return floor, (-BACK, 0.0, SEAT_HEIGHT + OCCUPANT_STEP - self.edge), BACKREST_TURN
         return BASE, bodies.get(contact, (0.0, 0.0, 0.0)), LEVEL
 
 
@@ -84,13 +84,14 @@ def places_of(scene: Mapping[str, Any]) -> Places:
 def _places_of(scene: Mapping[str, Any]) -> Places:
     resolved = ResolvedScene(dict(scene))
     travel = None if resolved.travel is None else make_travel(resolved)
-    of_contacts = scene.get("effects") or {}
-    effects, back = of_contacts.get("tire"), of_contacts.get("backrest") or {}
+    contacts = scene.get("effects") or {}
+    edge = EDGE if "cushion" in (contacts.get("backrest") or {}) else 0.0  # its map counts from there
+    effects = contacts.get("tire")
     if effects is None:
-        return Places(travel=travel, foam_back=back.get("cushion") is not None)
+        return Places(travel=travel, edge=edge)
     inflation = effects.get("inflation")
     if inflation:
         size = read_size(str(inflation["size"]))
-        return Places(size.radius, size.width, travel)
+        return Places(size.radius, size.width, travel, edge)
     tire = scene.get("tire") or {}
-    return Places(float(tire.get("radius_rolling", 0.3)), 0.2, travel)
+    return Places(float(tire.get("radius_rolling", 0.3)), 0.2, travel, edge)

@@ -38,6 +38,21 @@ def test_a_late_run_catches_up_from_the_first_start():
     assert pacer.wait(50, 100.6) == 0.0
 
 
+def test_behind_a_pause_blocks_are_due_as_much_later_as_it_lasted():
+    pacer = Pacer(2.0, 0.01)
+    pacer.start(100.0)
+    lateness = Lateness(pacer)
+    for now in (100.5, 101.0):  # the second call changes nothing
+        pacer.pause(now)
+    assert pacer.wait(101, 200.0) == math.inf
+    pacer.resume(140.5)
+    pacer.resume(150.0)
+    assert pacer.wait(100, 140.5) == 0.0
+    assert pacer.wait(104, 140.5) == pytest.approx(0.02)
+    assert lateness.block_done(103, 140.52, 1.0) == ""
+    assert lateness.late == 0
+
+
 def test_at_pace_max_every_block_is_due_at_once():
     pacer = Pacer(math.inf, 0.01)
     pacer.start(100.0)

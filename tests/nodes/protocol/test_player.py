@@ -11,12 +11,14 @@ from contact_sim_pkg.nodes.protocol.player import Player
 class Entry(NamedTuple):
     topic: str
     log_time: int  # [ns]
+    data: bytes = bytes(4)
 
 
 class Recorded:
     """A bag of a latched text and of two topics, with a message each 10 and 20 ms."""
 
     path = "bag"
+    begin = 0
     entries = (
         Entry("/text", 0),
         *sorted(
@@ -31,6 +33,18 @@ class Recorded:
 
     def count(self, topic):
         return sum(entry.topic == topic for entry in self.entries)
+
+
+class RecordedSince1970(Recorded):
+    """The same messages as another recorder writes them: log times in wall time, not in order, the text 30 ms late."""
+
+    begin = 1_800_000_000_123_456_789
+    entries = (
+        *(Entry(each.topic, each.log_time + 1_800_000_000_123_456_789) for each in Recorded.entries[1:5]),
+        Entry("/text", 1_800_000_000_153_456_789),
+        *(Entry(each.topic, each.log_time + 1_800_000_000_123_456_789) for each in Recorded.entries[5:]),
+    )
+    end = 1_800_000_000_223_456_789
 
 
 ALL = ("/text", "/a", "/b")
@@ -57,6 +71,45 @@ def test_each_message_comes_when_it_is_due_and_the_count_is_whole(rate):
         assert -1e-9 < now - 2.0 - message.log_time * 1e-9 / rate < 0.005 + 1e-9
     assert player.done
     assert (player.progress(3.0).sent, player.messages) == (18, 18)
+
+
+@pytest.mark.fault("C7")
+@pytest.mark.parametrize("rate", [0.5, 3.0])
+def test_a_bag_in_wall_time_begins_at_its_first_message_and_shows_its_own_length(rate):
+    player = Player(RecordedSince1970(), ALL, ["/text"], rate=rate)
+    player.resume(2.0)
+    came = play(player, 0.3, begin=2.0)
+    assert [message for _, message in came] == list(RecordedSince1970.entries)
+    due = 0
+    for now, message in came:
+        due = max(due, message.log_time - RecordedSince1970.begin)  # what comes late in the file is sent at once
+        assert -1e-9 < now - 2.0 - due * 1e-9 / rate < 0.005 + 1e-9
+    assert player.position(2.04) == RecordedSince1970.begin + round(0.04e9 * rate)  # what --clock shows
+    assert player.progress(2.02).simulated == pytest.approx(0.02 * rate, rel=1e-9)
+    assert player.progress(9.0).describe() == "0.10 of 0.1 s, 18 of 18 messages"
+
+
+@pytest.mark.fault("C7")
+def test_offsets_of_a_bag_in_wall_time_count_from_its_first_message():
+    player = Player(RecordedSince1970(), ALL, ["/text"], start=0.045, loop=True)
+    player.resume(1.0)
+    came = play(player, 0.0549, begin=1.0)
+    late = [entry for entry in RecordedSince1970.entries if entry.log_time >= RecordedSince1970.begin + 45_000_000]
+    assert [message for _, message in came] == [RecordedSince1970.entries[4], *late]
+    assert came[1][0] == pytest.approx(1.005)
+    with pytest.raises(BagError, match=r"start_offset is 0.2 s, bag lasts 0.1 s; begin before its end"):
+        Player(RecordedSince1970(), ALL, [], start=0.2)
+
+
+@pytest.mark.fault("G10")
+@pytest.mark.parametrize("size", [0, 3])
+def test_a_message_that_is_too_short_to_be_one_is_refused_by_name_before_the_first_is_sent(size):
+    class Cut(RecordedSince1970):
+        entries = (*RecordedSince1970.entries, Entry("/a", RecordedSince1970.end, bytes(size)))
+
+    with pytest.raises(BagError, match=rf"bag: the message of /a at 0.1 s has {size} bytes.*--topics"):
+        Player(Cut(), ALL, [])
+    assert Player(Cut(), ("/b", "/text"), []).messages == 7  # the others go out without it
 
 
 def test_a_begin_skips_all_but_latched_messages():
@@ -155,7 +208,7 @@ def test_a_loop_over_one_instant_does_not_send_without_end():
 
 @pytest.mark.parametrize(
     ("begin", "sentence"),
-    [({"start": 0.2}, "ends at 0.1 s"), ({"start_message": 18}, "holds 18 messages to replay, from 0")],
+    [({"start": 0.2}, "lasts 0.1 s"), ({"start_message": 18}, "holds 18 messages to replay, from 0")],
 )
 def test_a_begin_after_the_end_is_refused(begin, sentence):
     with pytest.raises(BagError, match=sentence):

@@ -64,6 +64,25 @@ def test_a_second_bench_that_starts_beside_a_run_is_passed_over(state):
     assert follower.state is RunState.RUNNING
 
 
+def test_a_run_may_pause_again_and_again_and_go_on():
+    follower = Follower()
+    steps = [(RunState.STARTING, -1), (RunState.READY, -1), (RunState.PAUSED, -1), (RunState.RUNNING, -1),
+             (RunState.RUNNING, 7), (RunState.PAUSED, 7), (RunState.RUNNING, 7), (RunState.PAUSED, 9)]  # fmt: skip
+    for step in steps:
+        assert follower.accept(report(*step))
+        assert follower.state is step[0]
+        assert follower.state.under_way == (step[0] is not RunState.STARTING)
+        assert not follower.state.ended
+    assert not follower.accept(report(RunState.READY, 9))
+    assert follower.accept(report(RunState.STOPPED, 9))
+    assert follower.state.ended
+
+
+def test_a_paused_run_that_this_node_did_not_see_begin_is_another_bench():
+    with pytest.raises(NodeError, match="another bench"):
+        Follower().accept(report(RunState.PAUSED, -1))
+
+
 def test_nothing_follows_the_end():
     follower = Follower()
     follower.accept(report(RunState.READY, -1))

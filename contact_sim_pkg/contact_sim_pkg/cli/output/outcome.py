@@ -48,10 +48,10 @@ class Outcome(Protocol):
         """By topic: findings in the excitation and their treatment."""
 
 
-def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
+def describe(scene: ResolvedScene, outcome: Outcome, *, with_summary: bool = True) -> dict[str, Any]:
     """The object that `--json` prints; `bag` is None and `summary` empty where nothing was
     recorded, `summary` also where the run has failed: who waits for a failure is not kept waiting
-    for numbers, and `bench report` has them.
+    for numbers, and `bench report` has them. It is empty, too, without `with_summary`.
     """
     # `ended` and `failure` repeat the texts that the bag ends with
     simulated = round(outcome.blocks * scene.block_length, 9)
@@ -68,7 +68,7 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
         "excitation": outcome.excitation,
         "bag": None if outcome.bag is None else str(outcome.bag),
         "summary": {}
-        if outcome.bag is None or not outcome.blocks or outcome.exit_status == 1
+        if outcome.bag is None or not outcome.blocks or outcome.exit_status == 1 or not with_summary
         else _summary(outcome.bag, lossy=outcome.exit_status != 0),
     }
 

@@ -39,7 +39,7 @@ class DisplayedProgress(Protocol):
 
     @property
     def message(self) -> str:
-        """Before the first block: what is being done."""
+        """Before the first block, and in a pause: what is being done."""
 
 
 class RunDisplay:
@@ -74,6 +74,8 @@ class RunDisplay:
         )
         if progress.peak_pressure > 0.0:
             text += f", peak {progress.peak_pressure / 1e3:.1f} kPa"
+        if progress.message:
+            text += f", {progress.message}"
         self.update(progress.simulated, text)
 
     def show_set_up(self, text: str) -> None:

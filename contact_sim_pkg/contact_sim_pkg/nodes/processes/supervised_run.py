@@ -19,7 +19,7 @@ class Report(NamedTuple):
     real_time_factor: float
     load: float  # [N]
     peak_pressure: float  # [Pa]
-    message: str  # before the first block: what the simulator is doing
+    message: str  # before the first block and in a pause: what the simulator is doing
 
 
 class SupervisedRun(NamedTuple):
@@ -45,5 +45,5 @@ def report_of(progress: BenchProgress, block_length: float) -> Report:
         real_time_factor=progress.real_time_factor,
         load=progress.load,
         peak_pressure=progress.peak_pressure,
-        message=progress.message,
+        message="" if RunState(progress.state).ended else progress.message,
     )

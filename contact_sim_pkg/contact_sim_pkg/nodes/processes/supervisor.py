@@ -124,8 +124,7 @@ class Supervisor:
                 folder.keep_segments(children.segments() | mapped_segments(os.getpid()))
             if monitor.run.last is not None:
                 on_report(report_of(monitor.run.last, self._scene.block_length))
-            under_way = monitor.run.state in (RunState.READY, RunState.RUNNING)
-            self._stops.hand_on(children, now, under_way=under_way)
+            self._stops.hand_on(children, now, under_way=monitor.run.state.under_way)
             if self._stops.expired(now):
                 return
             if monitor.run.state.ended:

@@ -10,7 +10,7 @@ from contact_sim_pkg.nodes.protocol.window import BlockWindow
 from contact_sim_pkg.records.messages import BenchRecorded
 
 CLOSE_SECONDS = 10.0  # for the logger to close its bag after the last block
-STOP_SECONDS = 1.0  # for the same after a signal
+STOP_SECONDS = 4.0  # for the same after a signal; `ros2 launch` sends a second one after 5 s
 
 
 class LoggerAnswers:

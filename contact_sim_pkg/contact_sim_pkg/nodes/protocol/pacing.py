@@ -43,6 +43,7 @@ class Pacer:
         """
         self.interval = block_length / factor
         self._start: float | None = None
+        self._paused: float | None = None
 
     def start(self, now: float) -> None:
         """Begin to count at `now` of the steady clock, [s]; a second call changes nothing."""
@@ -53,9 +54,19 @@ class Pacer:
         """When block 0 was due, [s] of the steady clock; infinity before the start."""
         return math.inf if self._start is None else self._start
 
+    def pause(self, now: float) -> None:
+        """Nothing is due from `now` of the steady clock, [s], on; a second call changes nothing."""
+        self._paused = now if self._paused is None else self._paused
+
+    def resume(self, now: float) -> None:
+        """Go on at `now` of the steady clock, [s], where the pause has begun; without a pause nothing happens."""
+        if self._start is not None and self._paused is not None:
+            self._start += now - self._paused
+        self._paused = None
+
     def wait(self, block: int, now: float) -> float:
-        """Seconds until the block is due: 0 when it is, infinity before the start."""
-        if self._start is None:
+        """Seconds until the block is due: 0 when it is, infinity before the start and in a pause."""
+        if self._start is None or self._paused is not None:
             return math.inf
         return max(0.0, self._start + block * self.interval - now)
 

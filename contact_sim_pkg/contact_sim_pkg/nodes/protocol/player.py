@@ -8,6 +8,7 @@ import math
 from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
+from contact_sim_pkg.bag.encoding import CDR_HEADER
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag, BagMessage
 
@@ -17,8 +18,8 @@ SHORTEST_PASS_NS = 100_000_000  # of a loop: a bag of one instant is not sent wi
 class ReplayProgress(NamedTuple):
     """Progress of a replay."""
 
-    simulated: float  # [s] of the recording
-    end: float  # [s] of the recording
+    simulated: float  # [s] since the begin of the recording
+    end: float  # [s] of the recording, since its begin
     sent: int  # messages in this pass
     messages: int  # of this pass
     passes: int  # done before
@@ -38,43 +39,56 @@ class Player:
         self, bag: Bag, topics: Collection[str], latched: Collection[str], *,
         start: float = 0.0, start_message: int = 0, rate: float = 1.0, loop: bool = False,
     ) -> None:  # fmt: skip
-        """Find the begin.
+        """Find the begin, and look at every message before the first one is sent.
 
         Args:
-            bag: the bag.
+            bag: the bag; its log times may count from any instant.
             topics: names in the bag of the topics to replay.
             latched: those of them whose messages before the begin are sent too, at once.
-            start: recorded time to begin at, [s].
+            start: recorded time to begin at, since the first message of the bag, [s].
             start_message: number of the message to begin at, among those of the topics, from 0.
             rate: recorded seconds per second.
             loop: begin again after the end.
 
         Raises:
-            BagError: the begin lies after the end, or the bag is damaged.
+            BagError: the begin lies after the end, a message is too short to be one, or the bag is
+                damaged.
         """
         # the begin is the later of the offset and the time of the first message
         self._bag, self._topics, self._latched = bag, set(topics), set(latched)
         self._total = sum(bag.count(name) for name in self._topics)
         self._first, self._rate, self._loop = start_message, rate, loop
-        self._start = max(round(start * 1e9), self._time_of(start_message))
+        self._start = max(bag.begin + round(start * 1e9), self._time_of(start_message))
         if self._start > bag.end:
             raise BagError(
-                f"start_offset is {start:g} s, {bag.path} ends at {bag.end * 1e-9:g} s; begin before its end"
+                f"start_offset is {start:g} s, {bag.path} lasts {self._seconds(bag.end):g} s; begin before its end"
             )
         self.passes = 0
         self._base, self._resumed_at = self._start, math.inf
         self._rewind()
 
     def _time_of(self, number: int) -> int:
-        """Recorded time of the message with this number, [ns]; nothing is read for number 0."""
-        if number == 0:
-            return 0
-        if number >= self._total:
+        """Recorded time of the message with this number, [ns]; for number 0 the begin of the bag."""
+        if number >= max(1, self._total):
             raise BagError(
                 f"start_message is {number}, {self._bag.path} holds {self._total} messages to replay, from 0"
             )
+        found = self._bag.begin
         chosen = (message for message in self._bag.messages() if message.topic in self._topics)
-        return next(message.log_time for index, message in enumerate(chosen) if index == number)
+        for index, message in enumerate(chosen):
+            if len(message.data) < len(CDR_HEADER):
+                raise BagError(
+                    f"{self._bag.path}: the message of {message.topic} at {self._seconds(message.log_time):g} s has "
+                    f"{len(message.data)} bytes, and the head of a message alone has {len(CDR_HEADER)}; "
+                    "leave its topic out: give the others with --topics"
+                )
+            if index == number > 0:
+                found = message.log_time
+        return found
+
+    def _seconds(self, time: int) -> float:
+        """A recorded time in [ns] as time since the begin, [s]."""
+        return (time - self._bag.begin) * 1e-9
 
     def _rewind(self) -> None:
         self.sent, self._skipped = 0, 0
@@ -149,8 +163,8 @@ class Player:
 
     def progress(self, now: float) -> ReplayProgress:
         """Progress at `now` of the steady clock, [s]."""
-        simulated = min(self.position(now), self._bag.end) * 1e-9
-        return ReplayProgress(simulated, self._bag.end * 1e-9, self.sent, self.messages, self.passes, self.paused)
+        simulated, end = self._seconds(min(self.position(now), self._bag.end)), self._seconds(self._bag.end)
+        return ReplayProgress(simulated, end, self.sent, self.messages, self.passes, self.paused)
 
 
 def chosen_topics(bag: Bag, chosen: str) -> list[str]:

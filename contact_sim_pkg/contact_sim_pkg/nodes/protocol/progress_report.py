@@ -27,15 +27,20 @@ class ProgressReport:
         self._blocks, self._period_ns = scene.blocks, scene.block_length_ns
         self._block, self._sent = -1, 0
         self._load = self._peak = 0.0
-        self._began: float | None = None
+        self._began: float | None = None  # later by each pause
+        self._paused: float | None = None
         self.last: BenchProgress | None = None
 
     def send(self, state: RunState, message: str = "") -> None:
         """Report a state, with one sentence for a person."""
+        now = time.monotonic()
         if state is RunState.READY:
-            self._began = time.monotonic()
+            self._began = now
+        if self._began is not None and self._paused is not None:
+            self._began += now - self._paused
+        self._paused = now if state is RunState.PAUSED else None
         self.state = state
-        elapsed = 0.0 if self._began is None else time.monotonic() - self._began
+        elapsed = 0.0 if self._began is None else now - self._began
         # the stamp is the end of the last block done; the speed counts from block 0
         simulated_ns = (self._block + 1) * self._period_ns
         factor = simulated_ns * 1e-9 / elapsed if elapsed > 0.0 else 0.0

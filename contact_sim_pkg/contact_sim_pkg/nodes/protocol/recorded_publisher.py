@@ -13,6 +13,7 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.metadata import CDR, RecordedTopic
 from contact_sim_pkg.bag.texts import values_of_text
+from contact_sim_pkg.bag.typestore import store_of_definition
 from contact_sim_pkg.nodes.protocol.endpoints import message_type
 from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
 
@@ -44,7 +45,7 @@ def recorded_publisher(node: Node, row: RecordedTopic, least_depth: int) -> Publ
 
     A volatile topic keeps at least `least_depth` messages. Raises NodeError (refused) where its name
     is none of ROS, its messages are not CDR, or the topic was recorded with another definition of
-    its type than the installed one.
+    its type than the installed one; BagError where the bag does not say with which.
     """
     _refuse_foreign(row)
     profile, name = profile_of_recorded(row.offered_qos), row.name.lstrip("/")
@@ -53,13 +54,28 @@ def recorded_publisher(node: Node, row: RecordedTopic, least_depth: int) -> Publ
     made = node.create_publisher(message_type(row.type), name, profile)
     for info in node.get_publishers_info_by_topic(name):
         installed = str(info.topic_type_hash)
-        if info.node_name == node.get_name() and row.type_hash and installed != row.type_hash:
+        if info.node_name == node.get_name() and (others := _recorded_hashes(row) - {installed}):
             raise NodeError(
                 f"{row.name} was recorded with another definition of {info.topic_type} than the installed one "
-                f"({row.type_hash}, {installed}); replay it with the package that it was recorded with",
+                f"({', '.join(others)}, {installed}); replay it with the package that it was recorded with",
                 REFUSED,
             )
     return made
+
+
+def _recorded_hashes(row: RecordedTopic) -> set[str]:
+    """Hash of the type as the bag states it, and as follows from the definition in the bag.
+
+    One is enough: older recorders state none, and a definition in IDL is not read. BagError without
+    either.
+    """
+    stated = {row.type_hash} - {""}
+    try:
+        return stated | {store_of_definition(row.type, row.definition).hash_rihs01(row.type)}
+    except BagError:
+        if not stated:
+            raise
+        return stated
 
 
 def _refuse_foreign(row: RecordedTopic) -> None:

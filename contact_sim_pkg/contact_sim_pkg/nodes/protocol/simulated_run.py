@@ -11,7 +11,7 @@ from contact_sim_pkg.nodes.protocol.input_blocks import InputBlocks
 from contact_sim_pkg.nodes.protocol.logger_answers import LoggerAnswers
 from contact_sim_pkg.nodes.protocol.pacing import Lateness, Pacer
 from contact_sim_pkg.nodes.protocol.progress_report import ProgressReport
-from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, NodeError, RunState
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, STOPPED_BY_USER, NodeError, RunState
 from contact_sim_pkg.nodes.protocol.window import BlockWindow
 from contact_sim_pkg.records.messages import BenchRecorded
 from contact_sim_pkg.run.block_simulation import BlockResult, BlockSimulation
@@ -89,13 +89,34 @@ class SimulatedRun:
         if now - self._advanced > self._timeout and not self.state.ended:
             raise NodeError(f"{self.logger.cause_of_delay(self.inputs)} (waited {self._timeout:g} s)", FAULT)
 
-    def on_recorded(self, recorded: BenchRecorded) -> str:
-        """Accept an answer of the logger; the reason why it closed its bag before the end, else
-        empty.
+    def pause(self, now: float) -> None:
+        """Begin no further block from `now` of the steady clock, [s], on, and report PAUSED; only a run under way."""
+        if self.state in (RunState.READY, RunState.RUNNING):
+            self._pacer.pause(now)
+            self.report.send(RunState.PAUSED, "paused")
+
+    def resume(self, now: float) -> None:
+        """Go on at the pace from `now` of the steady clock, [s], on, and report RUNNING; only a paused run."""
+        if self.state is RunState.PAUSED:
+            self._pacer.resume(now)
+            self._advanced = now
+            self.report.send(RunState.RUNNING)
+
+    def on_recorded(self, recorded: BenchRecorded, now: float) -> str:
+        """Accept an answer of the logger, at `now` of the steady clock, [s].
+
+        The logger may be asked to end in place of the simulator, and hands that on. Returns the
+        reason why it closed its bag before the end, otherwise empty.
         """
+        is_request = recorded.message == STOPPED_BY_USER
         if self.state < RunState.READY:
+            if is_request and recorded.closed and recorded.block < 0:  # before there is a bag; of no run under way
+                self.logger.accept(recorded)
+                self.report.send(RunState.STOPPED, STOPPED_BY_USER)
             return ""
         reason = self.logger.accept(recorded)
+        if is_request:
+            self.stop(now)
         if reason is None or self.state.ended:
             return ""
         self.logger.lost()
@@ -107,11 +128,11 @@ class SimulatedRun:
 
         Returns the exit status where nothing is left to end, so that the process may leave at once.
         """
-        return None if self.end(RunState.STOPPED, "stopped by the user", now) else self.logger.exit_status
+        return None if self.end(RunState.STOPPED, STOPPED_BY_USER, now) else self.logger.exit_status
 
     def end(self, state: RunState, sentence: str, now: float, exit_status: int = DONE) -> bool:
         """End a run under way at `now` of the steady clock, [s]; False where there is none."""
-        if self.state not in (RunState.READY, RunState.RUNNING):
+        if not self.state.under_way:
             return False
         self.logger.end(now, exit_status, stopped=state is RunState.STOPPED)
         self.report.send(state, sentence)

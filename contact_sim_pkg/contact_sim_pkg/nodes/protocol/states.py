@@ -27,13 +27,25 @@ class RunState(IntEnum):
     FINISHED = BenchProgress.FINISHED
     STOPPED = BenchProgress.STOPPED
     FAILED = BenchProgress.FAILED
+    PAUSED = BenchProgress.PAUSED
 
     @property
     def ended(self) -> bool:
         """No further block will be done."""
-        return self >= RunState.FINISHED
+        return self in (RunState.FINISHED, RunState.STOPPED, RunState.FAILED)
+
+    @property
+    def under_way(self) -> bool:
+        """Ready and not ended."""
+        return self in (RunState.READY, RunState.RUNNING, RunState.PAUSED)
+
+    @property
+    def stage(self) -> int:
+        """Order within a run, in which PAUSED stands beside RUNNING."""
+        return int(RunState.RUNNING if self is RunState.PAUSED else self)
 
 
+STOPPED_BY_USER = "stopped by the user"  # message of whoever ends a run; of the logger also a request to the simulator
 REFUSED, LOSS, FAULT, DONE = 2, 3, 1, 0  # exit statuses
 
 
@@ -70,7 +82,7 @@ class Follower:
                 "bench/progress; end it, or give this one a ROS_DOMAIN_ID of its own",
                 REFUSED,
             )
-        if state < self.state or progress.block < self.block or self.state.ended:
+        if state.stage < self.state.stage or progress.block < self.block or self.state.ended:
             return False
         self.state, self.block, self.last = state, progress.block, progress
         return True
