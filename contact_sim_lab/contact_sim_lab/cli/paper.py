@@ -160,7 +160,7 @@ def _figure(
 def _end(verdicts: Sequence[str]) -> None:
     """Status 1 where a number is beyond its tolerance."""
     if "OUTSIDE" in verdicts:
-        raise SystemExit(1)
+        click.get_current_context().exit(1)
 
 
 def _line(row: Mapping[str, Any]) -> dict[str, Any]:

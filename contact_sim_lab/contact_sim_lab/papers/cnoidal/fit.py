@@ -131,7 +131,8 @@ def _apart(slopes: Array, terms: int, nonlinear: bool) -> Array:
     )
     flat = numpy.linalg.norm(directions[singular < FLAT * singular[0]], axis=0) > SHARE
     _c, a, _m, _f, b, _g = _parts(flat, terms, nonlinear)
-    return numpy.logical_not(numpy.logical_or(a, b))
+    apart: Array = numpy.logical_not(numpy.logical_or(a, b))
+    return apart
 
 
 def _parts(values: Array, terms: int, nonlinear: bool) -> tuple[float, Array, Array, Array, Array, Array]:

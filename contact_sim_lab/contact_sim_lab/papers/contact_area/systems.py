@@ -43,7 +43,7 @@ SYSTEMS = (
         "bench run impact_rubber_drop --set effects.impact.history.model=standard_solid",
     ),
     System(
-        "material of a measured impact", (("104, 105", "storage_modulus, loss_tangent"),), "bench material IMPACTS.csv"
+        "material of a measured impact", (("104, 105", "E', tan_beta"),), "bench material IMPACTS.csv"
     ),
     System(
         "single formulas: overlap, damped sine, restitution, velocities of the surface, retarded stress",

@@ -5,6 +5,7 @@ rigid axisymmetric tip and by the forms of a Lamé domain for an outline (Tire/R
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -75,7 +76,7 @@ def _tip(table: dict[str, Array], values: Values) -> SystemResult:
     course = [
         {"load_N": share * load, "r_m": float(r), "pressure_Pa": float(p)}
         for share, radius in zip(LOADS, radii, strict=True)
-        for r, p in _over(radius, lambda r, radius=radius: pressure(shape, modulus, radius, r))
+        for r, p in _over(radius, partial(pressure, shape, modulus, radius))
     ]
     return SystemResult(rows, lambda canvas: _draw_tip(canvas, table, shape, modulus, radii), note, course=course)
 
@@ -120,9 +121,15 @@ def _outline(table: dict[str, Array], values: Values) -> SystemResult:
     course = [
         {"form": row["form"], "x_m": float(x), "pressure_Pa": float(p)}
         for row, contact in zip(rows, (ansatz, ellipse), strict=True)
-        for x, p in _over(contact.a, lambda x, contact=contact: lame_pressure(contact, x, numpy.zeros(1)))
+        for x, p in _over(contact.a, partial(_along, contact))
     ]
     return SystemResult(rows, lambda canvas: _draw_outline(canvas, table, fit, (ansatz, ellipse)), note, course=course)
+
+
+def _along(contact: LamePressure, x: Array) -> Array:
+    """Pressure [Pa] along x through the centre."""
+    found: Array = lame_pressure(contact, x, numpy.zeros(1))
+    return found
 
 
 def _row(name: str, contact: LamePressure) -> dict[str, float | str]:
