@@ -101,10 +101,14 @@ def state_of(scene: ResolvedScene, outcome: Outcome) -> str:
 def _summary(bag: Path, *, lossy: bool) -> dict[str, Any]:
     from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.bag.reader import open_bag
+    from contact_sim_pkg.memory import MemoryLimitError
     from contact_sim_pkg.report.summary import summarise
 
     try:
         return summarise(open_bag(bag))
+    except MemoryLimitError as error:  # the bag is whole, and too long to be read at once
+        say(f"no summary: {error}", err=True)
+        return {}
     except BagError:
         if not lossy:
             raise
