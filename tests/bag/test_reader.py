@@ -162,18 +162,18 @@ def test_a_topic_without_messages_has_empty_columns(tmp_path: Path) -> None:
     assert all(len(column) == 0 for column in columns.values())
 
 
-@pytest.mark.parametrize("content", [b"", b"\x89MCAP", b"#ROSBAG V2.0\n", bytes(64)])
+@pytest.mark.parametrize("content", [b"", b"\x89MCAP", bytes(64)])
 def test_a_file_that_is_no_bag_is_refused_with_its_content(tmp_path: Path, content: bytes) -> None:
     file = tmp_path / "x.mcap"
     file.write_bytes(content)
-    with pytest.raises(BagError, match=r"x.mcap is no MCAP file: it begins with"):
+    with pytest.raises(BagError, match=r"x.mcap is no bag: it begins with"):
         open_bag(file)
 
 
 def test_places_without_one_bag_are_refused(tmp_path: Path) -> None:
     with pytest.raises(BagError, match="cannot be opened: No such file"):
         open_bag(tmp_path / "nothing")
-    with pytest.raises(BagError, match="holds 0 bag files"):
+    with pytest.raises(BagError, match="holds no bag files"):
         open_bag(tmp_path)
     (tmp_path / "metadata.yaml").write_text("just: text\n")
     with pytest.raises(BagError, match="is no metadata of a bag"):

@@ -176,7 +176,7 @@ def test_e3_a_bag_cut_anywhere_opens_with_a_whole_beginning_or_is_refused_in_one
         cut = tmp_path / "cut.mcap"
         cut.write_bytes(content[:offset])
         if offset < 8:
-            with pytest.raises(BagError, match="is no MCAP file"):
+            with pytest.raises(BagError, match="is no bag"):
                 open_bag(cut)
             continue
         bag = open_bag(cut)

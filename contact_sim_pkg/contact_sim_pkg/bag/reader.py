@@ -5,65 +5,49 @@ Types come from the definitions in the bag, not from those installed. Nothing is
 disk.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-from mcap.records import Channel, Message, Schema
 from rosbags.serde import SerdeError
 from rosbags.typesys.store import Typestore
 
 from contact_sim_pkg.bag.columns import Stack
 from contact_sim_pkg.bag.encoding import deserialize
 from contact_sim_pkg.bag.errors import BagError, CorruptChunkError
-from contact_sim_pkg.bag.mcap.append_file import is_being_written
-from contact_sim_pkg.bag.mcap.layout import Layout, chunk_records, read_layout
 from contact_sim_pkg.bag.metadata import (
     CDR,
     LACKING,
     OUTCOME,
     RECORD,
-    RELATIVE_NAME,
     ROSBAG2,
     SCENE_KEY,
     RecordedTopic,
-    files_of_bag,
     unsealed,
     wall_time_of,
 )
+from contact_sim_pkg.bag.parts.find import parts_of
+from contact_sim_pkg.bag.parts.part import BagMessage, Part, add_topic
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.bag.typestore import store_of_definition, type_hash
-from contact_sim_pkg.files import open_regular_file
 
-LONGEST_NAME = 255  # characters of a topic
+__all__ = ["Bag", "BagMessage", "open_bag"]
+
 SCENE_TOPIC, SCENE_TYPE = "bench/scene", "std_msgs/msg/String"
-
-
-class BagMessage(NamedTuple):
-    """One recorded message; times in [ns] of simulated time, `data` as it was recorded."""
-
-    topic: str
-    type: str
-    log_time: int
-    data: bytes
-    publish_time: int
-    sequence: int
 
 
 class Bag:
     """A bag that is read. `notes` are lines on what is missing; `complete` is True without any."""
 
-    def __init__(self, path: Path, layout: Layout, skip_bad: bool) -> None:
-        """Take a layout that was read from the MCAP file at `path`; `open_bag` does that."""
-        self.path, self._layout, self._skip_bad = path, layout, skip_bad
-        self.notes = [layout.note] if layout.note else []
-        if layout.note and is_being_written(path):
-            self.notes.append(f"{path.name} is being recorded at this moment")
-        self.topics = _topics(layout, path)
-        unknown = sum(count for number, count in layout.counts.items() if number not in layout.channels)
-        if unknown:
-            self.notes.append(f"{unknown} messages of {path.name} cannot be read: what says their topic is damaged")
+    def __init__(self, parts: list[Part], skip_bad: bool) -> None:
+        """Take files that were opened, in their order; `open_bag` does that."""
+        self.path, self._parts, self._skip_bad = parts[0].path, parts, skip_bad
+        self.notes = [note for part in parts for note in part.notes]
+        self.topics: dict[str, RecordedTopic] = {}
+        for part in parts:
+            for row in part.topics.values():
+                add_topic(self.topics, row, part.path)
         self._stores: dict[str, Typestore] = {}
         self.metadata: dict[str, str] = {}
         """The texts kept at the start and at the end of the recording: scene, versions, how it
@@ -74,7 +58,7 @@ class Bag:
         self._epoch = 0  # [ns] that the stored times are later than simulated time
         self._take_texts()
         if LACKING in self.metadata:
-            self.notes.append(f"{path.name}: {self.metadata[LACKING]}")
+            self.notes.append(f"{self.path.name}: {self.metadata[LACKING]}")
 
     @property
     def complete(self) -> bool:
@@ -86,20 +70,19 @@ class Bag:
         """Line on parts of the file that the reader skips and a recovery leaves out; empty
         where there is nothing.
         """
-        names = [record.name for record in self._layout.records if record.name not in (RECORD, OUTCOME, ROSBAG2)]
-        parts = [f"the metadata record {name!r}" for name in names]
-        if self._layout.attachments:
-            parts.append(f"{self._layout.attachments} MCAP attachment(s)")
-        return ", ".join(parts)
+        names = [name for part in self._parts for name, _ in part.texts if name not in (RECORD, OUTCOME, ROSBAG2)]
+        found = [f"the metadata record {name!r}" for name in names]
+        attachments = sum(part.attachments for part in self._parts)
+        if attachments:
+            found.append(f"{attachments} MCAP attachment(s)")
+        return ", ".join(found)
 
     def _take_texts(self) -> None:
         """Set `metadata` and `scene`; BagError, or a note with `skip_bad`, for damaged ones."""
-        ours = [record for record in self._layout.records if record.name in (RECORD, OUTCOME)]
-        for record, texts in zip(ours, unsealed([record.metadata for record in ours]), strict=True):
+        ours = [record for part in self._parts for record in part.texts if record[0] in (RECORD, OUTCOME)]
+        for (name, _), texts in zip(ours, unsealed([content for _, content in ours]), strict=True):
             if texts is None:
-                self._leave_out(
-                    f"the texts {record.name!r} in the metadata of {self.path} are not as they were written"
-                )
+                self._leave_out(f"the texts {name!r} in the metadata of {self.path} are not as they were written")
             self.metadata.update(texts or {})
         self._epoch = wall_time_of(self.metadata)
         kept, recorded = self.metadata.get(SCENE_KEY), self._recorded_scene()
@@ -171,23 +154,20 @@ class Bag:
 
     def count(self, topic: str | None = None) -> int:
         """Messages on a topic, or on all; 0 for a topic that the bag does not have."""
-        wanted = None if topic is None else self.topic(topic).name if topic in self else ""
-        channels = self._layout.channels
-        return sum(
-            count
-            for number, count in self._layout.counts.items()
-            if number in channels and wanted in (None, channels[number].topic)
-        )
+        if topic is None:
+            return sum(sum(part.counts.values()) for part in self._parts)
+        name = self.topic(topic).name if topic in self else ""
+        return sum(part.counts.get(name, 0) for part in self._parts)
 
     @property
     def begin(self) -> int:
         """Earliest log time in [ns]; 0 without messages. A bag of another recorder is in wall time."""
-        return min((chunk.start - self._epoch for chunk in self._layout.chunks), default=0)
+        return min((part.begin - self._epoch for part in self._parts if part.end), default=0)
 
     @property
     def end(self) -> int:
         """Latest log time in [ns]; 0 without messages."""
-        return max((chunk.end - self._epoch for chunk in self._layout.chunks), default=0)
+        return max((part.end - self._epoch for part in self._parts if part.end), default=0)
 
     def messages(self, topic: str | None = None) -> Iterator[BagMessage]:
         """All messages, or those of one topic, in file order.
@@ -195,16 +175,9 @@ class Bag:
         Raises CorruptChunkError at a damaged chunk, which names its time range; with `skip_bad` a
         note is kept instead.
         """
-        wanted = None if topic is None else self.topic(topic).name
-        numbers = {number for number, channel in self._layout.channels.items() if wanted in (None, channel.topic)}
-        with open_regular_file(self.path) as file:
-            for place in self._layout.chunks:
-                if place.channels is not None and place.channels.isdisjoint(numbers):
-                    continue
-                try:
-                    yield from self._messages_of(chunk_records(file, place, self.path.name, numbers))
-                except CorruptChunkError as error:
-                    self._skip_or_raise(error)
+        names = self.topics.keys() if topic is None else {self.topic(topic).name}
+        for part in self._parts:
+            yield from part.messages(names, self._epoch, self._skip_or_raise)
 
     def decoded(self, topic: str) -> Iterator[tuple[int, Any]]:
         """Log time in [ns] and message object of each message of a topic, by the bag's own
@@ -263,16 +236,6 @@ class Bag:
             self._stores[row.type] = store_of_definition(row.type, row.definition)
         return self._stores[row.type]
 
-    def _messages_of(self, records: Iterable[Any]) -> Iterator[BagMessage]:
-        channels = self._layout.channels
-        for record in records:
-            if isinstance(record, Message):
-                row = self.topics[channels[record.channel_id].topic]
-                yield BagMessage(
-                    row.name, row.type, record.log_time - self._epoch, record.data, record.publish_time - self._epoch,
-                    record.sequence,
-                )  # fmt: skip
-
     def _skip_or_raise(self, error: CorruptChunkError) -> None:
         if not self._skip_bad:
             raise error
@@ -282,75 +245,18 @@ class Bag:
 
 
 def open_bag(path: Path | str, *, skip_bad: bool = False) -> Bag:
-    """Open a bag for reading.
+    """Open a bag of anybody for reading: MCAP, SQLite or ROS 1, in one file or several, packed or not.
 
     Args:
-        path: the bag's directory, or its `.mcap` file.
-        skip_bad: go on after a damaged chunk, and without damaged texts, instead of stopping at
+        path: the bag's directory, or its file.
+        skip_bad: go on after a damaged chunk or file, and without damaged texts, instead of stopping at
             them.
 
     Raises:
-        BagError: there is no bag, it is of another storage, it is spread over several files, or its
-            texts do not hold: their checksum fails, or its metadata and `bench/scene` hold
-                different scenes.
+        BagError: there is no bag, or its texts do not hold: their checksum fails, or its metadata and
+            `bench/scene` hold different scenes.
     """
-    # the metadata file names the .mcap of a directory; a lone file needs none
-    place = Path(path)
-    file_path = _file_of(place) if place.is_dir() else place
-    try:
-        with open_regular_file(file_path) as file:
-            layout = read_layout(file, file_path.name)
-    except OSError as error:
-        raise BagError(
-            f"the bag {place} cannot be opened: {error.strerror}; give its directory or its .mcap file"
-        ) from None
-    return Bag(file_path, layout, skip_bad)
-
-
-def _file_of(directory: Path) -> Path:
-    """The one MCAP file of a bag's directory."""
-    metadata = directory / "metadata.yaml"
-    if metadata.exists():
-        names = [Path(name).name for name in files_of_bag(metadata)]
-    else:
-        names = sorted(entry.name for entry in directory.glob("*.mcap"))
-    if len(names) != 1 or not names[0].endswith(".mcap"):
-        raise BagError(
-            f"{directory} holds {len(names)} bag files ({', '.join(names) or 'none'}); give the one .mcap file to read"
-        )
-    return directory / names[0]
-
-
-def _topics(layout: Layout, path: Path) -> dict[str, RecordedTopic]:
-    """By name; BagError for what is no name, and for two definitions under one."""
-    found: dict[str, RecordedTopic] = {}
-    for channel in layout.channels.values():
-        row, name = _topic(channel, layout.schemas.get(channel.schema_id)), channel.topic
-        if not name.isprintable() or len(name) > LONGEST_NAME:
-            raise BagError(f"{path} has a topic whose name cannot be one: {name[:40]!r}")
-        first = found.setdefault(name, row)
-        if first.encoding != row.encoding:
-            raise BagError(
-                f"{path} has two encodings of the topic {name}: {first.encoding!r:.20} and {row.encoding!r:.20}"
-            )
-        if (first.type, first.definition) != (row.type, row.definition):
-            raise BagError(f"{path} has two definitions of the topic {name}: {first.type[:40]!r} and {row.type[:40]!r}")
-    return found
-
-
-def _topic(channel: Channel, schema: Schema | None) -> RecordedTopic:
-    type_name, text = (schema.name, schema.data.decode("utf-8", "replace")) if schema else ("", "")
-    kept = channel.metadata
-    return RecordedTopic(
-        channel.topic,
-        channel.topic,
-        type_name,
-        text,
-        kept.get("topic_type_hash", ""),
-        kept.get("offered_qos_profiles", ""),
-        kept.get(RELATIVE_NAME, ""),
-        channel.message_encoding,
-    )
+    return Bag(parts_of(Path(path), skip_bad=skip_bad), skip_bad)
 
 
 def _relative(name: str) -> str:

@@ -10,13 +10,15 @@ definitions.
 
 from functools import cache
 
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.records.definitions import PACKAGE, texts
 
 LONGEST_DEFINITION = 1 << 18  # characters of a definition with all that it contains
+HEADER = "std_msgs/msg/Header"
+IDL = "ros2idl"  # encoding of a definition that was written in IDL
 _SEPARATOR = "=" * 80 + "\n"
 
 
@@ -67,3 +69,26 @@ def store_of_definition(type_name: str, text: str) -> Typestore:
         reason = " ".join(str(known.get(type(error), error)).split()) or type(error).__name__
         raise BagError(f"the bag's definition of {type_name[:100]!r} cannot be used: {reason:.300}") from None
     return store
+
+
+def ros2msg_text(type_name: str, text: str, encoding: str) -> str:
+    """The `ros2msg` text of a definition; that of one in IDL is made from it, and is empty where it cannot be."""
+    if encoding != IDL or len(text) > LONGEST_DEFINITION:
+        return text
+    store, types = get_typestore(Stores.EMPTY), {}
+    try:
+        for part in text.split(_SEPARATOR):
+            head, _, body = part.partition("\n")
+            types.update(get_types_from_idl(body if head.startswith("IDL: ") else part))
+        store.register(types)
+        return store.generate_msgdef(type_name, ros_version=2)[0]
+    except Exception:  # noqa: BLE001 - the parser of foreign definitions raises errors of many kinds
+        return ""
+
+
+def text_of_known(type_name: str) -> str:
+    """The `ros2msg` text of a type that a bag names without its definition: ours, or one of Jazzy; empty for others."""
+    if type_name in texts():
+        return definition(type_name)
+    store = get_typestore(Stores.ROS2_JAZZY)
+    return store.generate_msgdef(type_name, ros_version=2)[0] if type_name in store.fielddefs else ""

@@ -22,7 +22,7 @@ from contact_sim_lab.papers.identifiability.regressor import (
 from contact_sim_lab.papers.inputs import is_bag, read_table
 from contact_sim_lab.records.paper import PaperError, SystemResult, Values
 from contact_sim_pkg.bag.encoding import SECOND
-from contact_sim_pkg.identify.readers.any_bag import AnyBag, use_bag
+from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.identify.readers.stamped import all_messages, chosen, stamp, vectors
 from contact_sim_pkg.identify.readers.wrenches import WRENCH
 
@@ -47,7 +47,7 @@ def inertia(path: Path | None, values: Values) -> SystemResult:
     Raises PaperError and BagError for an input that does not hold them.
     """
     assert path is not None
-    motion = use_bag(path, _motion_of_bag) if is_bag(path) else _motion_of_table(path)
+    motion = _motion_of_bag(open_bag(path, skip_bad=True)) if is_bag(path) else _motion_of_table(path)
     found, course = batch(motion), recursive(motion)
     last = course[-1]
     rows = [
@@ -92,7 +92,7 @@ def _motion_of_table(path: Path) -> BodyMotion:
     return BodyMotion(*(parts[:, first : first + 3] for first in range(0, 15, 3)))
 
 
-def _motion_of_bag(bag: AnyBag) -> BodyMotion:
+def _motion_of_bag(bag: Bag) -> BodyMotion:
     """Samples at the stamps of the Imu, within the time of the wrench; the spin's rate from AccelStamped where there is
     one, else from a spline through the spin.
     """
@@ -107,7 +107,7 @@ def _motion_of_bag(bag: AnyBag) -> BodyMotion:
         )
     spin = vectors([message.angular_velocity for message in imu])
     rate = CubicSpline(time, spin).derivative()(time)
-    if ACCEL in bag.topics.values():
+    if any(row.type == ACCEL for row in bag.topics.values()):
         accel_time, accel = _series(bag, (ACCEL,), lambda message: (message.accel.angular,))
         rate = _at(time, (accel_time - force_time[0]) / SECOND, accel)
     wrench = _at(time, (force_time - force_time[0]) / SECOND, force)
@@ -115,7 +115,7 @@ def _motion_of_bag(bag: AnyBag) -> BodyMotion:
     return BodyMotion(*(part[inside] for part in (specific, spin, rate, wrench[:, :3], wrench[:, 3:])))
 
 
-def _series(bag: AnyBag, types: tuple[str, ...], parts: Any) -> tuple[NDArray[numpy.int64], Array]:
+def _series(bag: Bag, types: tuple[str, ...], parts: Any) -> tuple[NDArray[numpy.int64], Array]:
     """Stamps [n] [ns] and values [n, 3 k] of the only topic of some types."""
     messages = _once(all_messages(bag, chosen(bag, None, types, "one topic of it")))
     columns = zip(*(parts(message) for message in messages), strict=True)

@@ -19,6 +19,7 @@ from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
 from mcap.records import Channel, Chunk, ChunkIndex, McapRecord, Message, Metadata, MetadataIndex, Schema
+from mcap.summary import Summary
 
 from contact_sim_pkg.bag.errors import BagError, CorruptChunkError
 from contact_sim_pkg.bag.mcap.chunks import LARGEST_RECORD, damaged, decompressed
@@ -28,17 +29,19 @@ MAGIC = b"\x89MCAP0\r\n"
 _HEAD = 9  # opcode and length of a record
 _RECORD = struct.Struct("<BQ")  # that head
 _MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log and publish time
+LARGEST_ROW = 4 << 20  # [bytes] of messages outside of chunks that are read together
 _FAULTS = (McapError, struct.error, ValueError, OSError, IndexError, KeyError, OverflowError)
 
 
 class ChunkPlace(NamedTuple):
-    """One chunk of the file; times in [ns]."""
+    """One chunk of the file, or a row of messages outside of chunks; times in [ns]."""
 
     offset: int
     length: int
     start: int
     end: int
     channels: frozenset[int] | None  # those of its messages; None where that is not known
+    bare: bool = False  # messages outside of chunks
 
 
 class Layout(NamedTuple):
@@ -92,6 +95,10 @@ def chunk_records(
     With `channels` only the messages of these.
     """
     try:
+        if place.bare:
+            file.seek(place.offset)
+            yield from _records(file.read(place.length), channels)
+            return
         opcode, length = _head(file, place.offset)
         if opcode != Opcode.CHUNK or length != place.length - _HEAD or length > LARGEST_RECORD:
             raise ValueError(f"a chunk of {place.length} bytes should stand there")
@@ -143,22 +150,24 @@ def _head(file: IO[bytes], offset: int) -> tuple[int, int]:
 
 
 def _from_summary(file: IO[bytes], name: str) -> Layout | None:
-    """The layout from a summary whose checksum is right; None where there is none."""
+    """The layout from a summary whose checksum is right and which says all; None where there is none."""
     try:
-        if not _summary_is_whole(file):
+        summary = _summary(file)
+        if summary is None or summary.statistics is None:
             return None
-        file.seek(0)
-        reader = SeekingReader(file, record_size_limit=LARGEST_RECORD)
-        summary = reader.get_summary()
+        counts = dict(summary.statistics.channel_message_counts)
+        # A writer may leave out channels, the index of chunks, or chunks altogether
         if (
-            summary is None
-            or summary.statistics is None
-            or (summary.statistics.message_count and not summary.chunk_indexes)
+            sum(counts.values()) != summary.statistics.message_count
+            or len(summary.chunk_indexes) != summary.statistics.chunk_count
+            or len(summary.metadata_indexes) != summary.statistics.metadata_count
+            or (counts and not summary.chunk_indexes)
+            or not counts.keys() <= summary.channels.keys()
+            or any(each.schema_id not in (0, *summary.schemas) for each in summary.channels.values())
         ):
             return None
         # in the order of the file, which is that of the messages
         chunks = [_place(index) for index in sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)]
-        counts = dict(summary.statistics.channel_message_counts)
         records = [_indexed(file, index) for index in summary.metadata_indexes]
         attached = summary.statistics.attachment_count
         return Layout(chunks, summary.schemas, summary.channels, counts, records, attached, True, "")
@@ -166,8 +175,17 @@ def _from_summary(file: IO[bytes], name: str) -> Layout | None:
         return None
 
 
+def _summary(file: IO[bytes]) -> Summary | None:
+    """The summary of a file that ends with a footer, empty where the writer left it out; None where it is not whole."""
+    if not _summary_is_whole(file):
+        return None
+    file.seek(0)
+    summary: Summary | None = SeekingReader(file, record_size_limit=LARGEST_RECORD).get_summary()
+    return summary or Summary()
+
+
 def _summary_is_whole(file: IO[bytes]) -> bool:
-    """Whether the file ends with a footer, and the summary has the checksum that the footer states
+    """Whether the file ends with a footer, and the summary, if any, has the checksum that the footer states
     (0: none stated).
     """
     tail = _HEAD + 20 + len(MAGIC)
@@ -177,6 +195,8 @@ def _summary_is_whole(file: IO[bytes]) -> bool:
     if len(footer) < tail or footer[-len(MAGIC) :] != MAGIC or footer[0] != Opcode.FOOTER:
         return False
     start, _, checksum = struct.unpack("<QQI", footer[_HEAD : _HEAD + 20])
+    if start == 0:
+        return True
     if not 0 < start <= end - tail or end - start > LARGEST_RECORD:
         return False
     file.seek(start)
@@ -226,18 +246,37 @@ def _walk(file: IO[bytes], name: str) -> Layout:
         whole = _take(file, ChunkPlace(offset, length + _HEAD, 0, 0, None), opcode, found, name)
         damaged_records += not whole
         attachments += opcode == Opcode.ATTACHMENT
-        last_is_whole = whole if opcode == Opcode.CHUNK else last_is_whole
+        last_is_whole = whole if opcode in (Opcode.CHUNK, Opcode.MESSAGE) else last_is_whole
         offset += length + _HEAD
-    if not last_is_whole and opcode != Opcode.DATA_END:
+    if opcode == Opcode.DATA_END:
+        reason = _why_not_finished(file, found, damaged_records)
+        if not reason:
+            return found._replace(attachments=attachments, finished=True)
+    elif not last_is_whole:
         found.chunks.pop()  # torn by a power loss: its length reached the disk, its content did not
     lost = f"{reason}, the last {end - offset} bytes are not read" if reason else "it was not finished"
     return found._replace(note=_note(name, found, lost, damaged_records), attachments=attachments)
 
 
+def _why_not_finished(file: IO[bytes], found: Layout, damaged_records: int) -> str:
+    """What is wrong with a file that was walked to the end of its data; empty where all of it was found."""
+    try:
+        summary = _summary(file)
+    except _FAULTS:
+        summary = None
+    if summary is None:
+        return "its summary is damaged"
+    walked = sum(found.counts.values())
+    stated = walked if summary.statistics is None else summary.statistics.message_count
+    if stated != walked:
+        return f"its statistics state {stated} messages"
+    return "some of its records are damaged" if damaged_records else ""
+
+
 def _why_not(opcode: int, length: int, left: int) -> str:
     """Why the walk cannot go past this record; empty where it can."""
     if opcode == Opcode.DATA_END:
-        return "its summary is damaged"
+        return "its data ends there"
     if left < 0 or opcode in (0, Opcode.FOOTER):
         return "it was not finished"
     if length > LARGEST_RECORD:
@@ -257,6 +296,8 @@ def _take(file: IO[bytes], place: ChunkPlace, opcode: int, found: Layout, name: 
             times = file.read(16)
             found.chunks.append(place._replace(start=_time(times[:8]), end=_time(times[8:])))
             _count(chunk_records(file, found.chunks[-1], name), found)
+        elif opcode == Opcode.MESSAGE:
+            _add_message(file.read(_MESSAGE.size), place, found)
         elif opcode == Opcode.METADATA:
             found.records.append(_metadata(file, length))
         elif opcode == Opcode.SCHEMA:
@@ -266,6 +307,20 @@ def _take(file: IO[bytes], place: ChunkPlace, opcode: int, found: Layout, name: 
     except (CorruptChunkError, *_FAULTS):
         return False
     return True
+
+
+def _add_message(head: bytes, place: ChunkPlace, found: Layout) -> None:
+    """Take a message outside of chunks, to those in front of it where they are its neighbours."""
+    channel, _, log_time, _ = _MESSAGE.unpack(head)
+    last = found.chunks[-1] if found.chunks else place
+    if last.bare and last.offset + last.length == place.offset and last.length < LARGEST_ROW:
+        found.chunks[-1] = ChunkPlace(
+            last.offset, last.length + place.length, min(last.start, log_time), max(last.end, log_time),
+            (last.channels or frozenset()) | {channel}, True,
+        )  # fmt: skip
+    else:
+        found.chunks.append(place._replace(start=log_time, end=log_time, channels=frozenset((channel,)), bare=True))
+    found.counts[channel] = found.counts.get(channel, 0) + 1
 
 
 def _time(eight: bytes) -> int:

@@ -1,7 +1,7 @@
 """States of a rigid body from a bag: ours (`bench/motion`), or anyone's with Odometry, or
 PoseStamped and TwistStamped.
 
-Foreign bags are read as `identify/readers/any_bag.py` says. The twist of an Odometry is in body
+The twist of an Odometry is in body
 axes, as its definition says; that of a TwistStamped is in the frame that its header names
 (`identify/readers/twists.py`, `identify/readers/axes.py`).
 """
@@ -19,7 +19,6 @@ from contact_sim_pkg.bag.messages import decode, stamp_of
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.identify.motion.rotation import exponential, from_quaternion
 from contact_sim_pkg.identify.motion.states import BodyStates
-from contact_sim_pkg.identify.readers.any_bag import AnyBag, use_bag
 from contact_sim_pkg.identify.readers.axes import Axes
 from contact_sim_pkg.identify.readers.stamped import Array, all_messages, chosen, one_a_stamp, stamp, vectors
 from contact_sim_pkg.identify.readers.twists import pairs_of, reading_of_odometry, reading_of_twists
@@ -59,10 +58,12 @@ def read_body_states(
     Raises:
         BagError: no bag, no such topic, several to choose from, or stamps that do not fit.
     """
-    own = _own(path)
-    if own is not None and topic in (None, MOTION, f"/{MOTION}"):
-        return bench_states(own)
-    return use_bag(path, lambda bag: _foreign(bag, topic, twist_topic, twist_axes))
+    bag = open_bag(path, skip_bad=True)
+    if MOTION in bag and topic in (None, MOTION, f"/{MOTION}"):
+        return bench_states(bag)
+    if not bag.topics:
+        raise BagError(f"of the bag {path} nothing can be read: {'; '.join(bag.notes) or 'it is empty'}")
+    return _foreign(bag, topic, twist_topic, twist_axes)
 
 
 def bench_states(bag: Bag) -> RecordedStates:
@@ -129,21 +130,12 @@ def _spread(values: Array, rows: list[int | None]) -> Array:
     return numpy.stack(columns, axis=1)
 
 
-def _own(path: Path) -> Bag | None:
-    """The bag, if it is one of ours."""
-    try:
-        bag = open_bag(path, skip_bad=True)
-    except BagError:
-        return None
-    return bag if MOTION in bag else None
-
-
-def _foreign(bag: AnyBag, topic: str | None, twist_topic: str | None, twist_axes: Axes) -> RecordedStates:
+def _foreign(bag: Bag, topic: str | None, twist_topic: str | None, twist_axes: Axes) -> RecordedStates:
     name = chosen(bag, topic, (ODOMETRY, POSE), "--topic")
     messages = all_messages(bag, name)
     time = [stamp(message) for message in messages]
     alone: tuple[str, ...] = ()
-    if bag.topics[name] == ODOMETRY:
+    if bag.topics[name].type == ODOMETRY:
         poses, twists = [message.pose.pose for message in messages], [message.twist.twist for message in messages]
         reading = reading_of_odometry(messages[0], name, twist_axes)
     else:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.encoding import SECOND
 from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.identify.motion.states import BodyStates
-from contact_sim_pkg.identify.readers.any_bag import AnyBag
 
 __all__ = ["Array", "WrenchSamples", "all_messages", "chosen", "one_a_stamp", "stamp", "vectors"]
 
@@ -34,18 +34,18 @@ class WrenchSamples(NamedTuple):
 Samples = TypeVar("Samples", BodyStates, WrenchSamples)
 
 
-def chosen(bag: AnyBag, topic: str | None, types: tuple[str, ...], option: str) -> str:
+def chosen(bag: Bag, topic: str | None, types: tuple[str, ...], option: str) -> str:
     """The name of a topic, or the only one of the types; BagError with what the bag has."""
     kinds = " or ".join(name.split("/")[-1] for name in types)
-    fitting = [name for name, kind in bag.topics.items() if kind in types]
+    fitting = [name for name, row in bag.topics.items() if row.type in types]
     if topic is not None:
         name = topic if topic in bag.topics else f"/{topic}"
         if name not in bag.topics:
             raise BagError(f"{bag.path} has no topic {topic}; of {kinds} it has {', '.join(fitting) or 'none'}")
-        if bag.topics[name] not in types:
-            raise BagError(f"{name} of {bag.path} is of {bag.topics[name]}; {option} needs {kinds}")
+        if bag.topics[name].type not in types:
+            raise BagError(f"{name} of {bag.path} is of {bag.topics[name].type}; {option} needs {kinds}")
         return name
-    preferred = [name for name in fitting if bag.topics[name] == types[0]] or fitting
+    preferred = [name for name in fitting if bag.topics[name].type == types[0]] or fitting
     if len(preferred) != 1:
         what = f"several topics of {kinds} ({', '.join(preferred)}); choose one with {option}"
         none = f"no topic of {kinds}, from which the motion of a body could be read"
@@ -53,11 +53,11 @@ def chosen(bag: AnyBag, topic: str | None, types: tuple[str, ...], option: str) 
     return preferred[0]
 
 
-def all_messages(bag: AnyBag, topic: str) -> list[Any]:
+def all_messages(bag: Bag, topic: str) -> list[Any]:
     """The messages of a topic; BagError where there is none, or a stamp lies far before those
     recorded earlier.
     """
-    messages = list(bag.read(topic))
+    messages = [message for _, message in bag.decoded(topic)]
     if not messages:
         raise BagError(f"{topic} of {bag.path} holds no message")
     _refuse_early_stamp(numpy.array([stamp(message) for message in messages], dtype=numpy.int64), topic)

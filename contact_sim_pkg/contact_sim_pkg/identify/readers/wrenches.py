@@ -15,8 +15,8 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from contact_sim_pkg.bag.encoding import SECOND
 from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.identify.motion.states import BodyStates
-from contact_sim_pkg.identify.readers.any_bag import AnyBag, use_bag
 from contact_sim_pkg.identify.readers.axes import Axes, Subject, reading_of_frames
 from contact_sim_pkg.identify.readers.body_states import RecordedStates
 from contact_sim_pkg.identify.readers.stamped import (
@@ -53,10 +53,10 @@ def read_wrench(path: Path, topic: str, recorded: RecordedStates, axes: Axes = "
         BagError: no such topic, no message, stamps that do not fit, or a wrench in body axes at no
         time of the poses.
     """
-    return use_bag(path, lambda bag: _read(bag, topic, recorded, axes))
+    return _read(open_bag(path, skip_bad=True), topic, recorded, axes)
 
 
-def _read(bag: AnyBag, topic: str, recorded: RecordedStates, axes: Axes) -> RecordedWrench:
+def _read(bag: Bag, topic: str, recorded: RecordedStates, axes: Axes) -> RecordedWrench:
     name = chosen(bag, topic, (WRENCH,), "--force-topic")
     messages = sorted(all_messages(bag, name), key=stamp)
     time = (numpy.array([stamp(message) for message in messages], dtype=numpy.int64) - recorded.origin) / SECOND

@@ -1,0 +1,1 @@
+"""The files that a bag consists of: found, unpacked, and each read by what knows its format."""
