@@ -116,7 +116,7 @@ def test_the_memory_that_a_recording_takes_stays_below_the_estimate(tmp_path, mo
     names = ["z", "x", "y", *(f"c{k}" for k in range(9))][:columns]
     row = ",".join(["9.8", "0.1", "0.2", *["1"] * 9][:columns])
     path.write_text(",".join(names) + "\n" + f"{row}\n{row}1\n" * 20_000)
-    estimate = recorded_csv.memory_needed(path)
+    estimate = recorded_csv.memory_of_text(path)
     tracemalloc.start()
     RecordedVibration(path, 1000.0, high_pass=1.0, sample_rate=500.0, unused="x")
     _, peak = tracemalloc.get_traced_memory()

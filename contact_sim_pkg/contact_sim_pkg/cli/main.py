@@ -27,6 +27,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "metrics": "bags.metrics",
     "compare": "bags.compare",
     "export": "bags.export",
+    "import": "bags.import_",
     "report": "report",
     "identify": "identify",
     "accuracy": "accuracy",

@@ -14,8 +14,11 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.recorded_csv import STANDARD_GRAVITY, RecordedTable, read_table
-from contact_sim_pkg.excitation.recorded_units import refuse_other_unit, signed_column
+from contact_sim_pkg.excitation.judge import UNEVEN, Cures, judge_acceleration, judge_stamps
+from contact_sim_pkg.excitation.recorded_csv import STANDARD_GRAVITY, RecordedTable
+from contact_sim_pkg.excitation.recorded_units import signed_column
+from contact_sim_pkg.excitation.table_files import read_recording
+from contact_sim_pkg.excitation.table_words import bare_name
 
 LARGEST_TIME = 1e11  # [s] a time column may count from 1970
 RATE_AGREEMENT = 0.01  # stated and found rate may differ by this part
@@ -24,6 +27,10 @@ SHORTEST_PLATEAU = 3  # equal extreme samples that no unclipped vibration gives 
 HALF_WIDTH = 32  # samples on each side of the interpolated instant
 BEYOND = ("refuse", "zero", "repeat")
 
+CURES = Cures(
+    "vibration.unit: {}, or in the header, such as z [g]", "vibration.vertical_column: {}",
+    "write vibration.time_unit: ms, us or ns where they are",
+)  # fmt: skip
 Array = NDArray[numpy.float64]
 
 
@@ -59,6 +66,8 @@ class RecordedVibration:
         sample_rate: float | None = None,
         unused: str = "",
         unit: str | None = None,
+        time_unit: str | None = None,
+        header_line: int | None = None,
     ) -> None:
         """Read, check and treat the recording.
 
@@ -88,6 +97,9 @@ class RecordedVibration:
             unit: of the accelerations, m/s^2, g or mg, for columns whose unit the header does not
             name. None: m/s^2; a
                 recording whose mean or rms says otherwise is refused.
+            time_unit: of the time column, s, ms, us or ns; None: as the file says, else s. Where its stamps scatter, the
+                samples are taken at them.
+            header_line: line that names the columns, from 1; None: the first that is no comment.
 
         Raises:
             ExcitationError: bad file (with line), values beyond 1e5 m/s^2, no rate, stated and
@@ -102,17 +114,20 @@ class RecordedVibration:
         self.path, self.tilt, self.beyond, self.high_pass, self.start = Path(path), tilt, beyond, high_pass, start
         self.sample_rate = sample_rate
         self._notes: list[str] = []
+        self._uneven = False
         # Columns, rate and units.
-        table = read_table(self.path)
-        self.rate = self._settle_rate(table, rate, table.time(time))
+        table = read_recording(self.path, header_line)
+        stamps, said = table.time(time, time_unit)
+        self._notes += [*table.notes, *([said] if said else [])]
+        self.rate = self._settle_rate(table, rate, stamps)
         self.remove_bias = remove_bias
         names = _columns(table, {"x": forward, "y": lateral, "z": vertical}, needed=tilt == "correct", unused=unused)
         raw = {axis: signed_column(table, name, unit, axis) for axis, name in names.items()}
         self._unit_assumed = unit is None and not all(
-            name.removeprefix("-").lower() in table.with_unit for name in names.values()
+            bare_name(name.removeprefix("-")) in table.with_unit for name in names.values()
         )
-        if self._unit_assumed:
-            refuse_other_unit(table.file, raw)
+        self._judge(table, raw, names, unit)
+        raw = self._at_stamps(raw, stamps)
         # Section that is used.
         self.samples = len(table.lines)
         self.duration = self.samples / self.rate
@@ -124,6 +139,31 @@ class RecordedVibration:
         self.clipping = {axis: _find_clipping(table, raw[axis], full_scale) for axis in ("x", "z") if axis in raw}
         self._report_clipping(names, clipped)
         self._remove_gravity(raw, names)
+
+    def _judge(self, table: RecordedTable, raw: dict[str, Array], names: dict[str, str], unit: str | None) -> None:
+        """Refuse values in another unit, and gravity on another axis than the vertical column."""
+        stated = None if self._unit_assumed else unit or "m/s^2"
+        judged = judge_acceleration(raw, self.rate, table.file, CURES, unit=None if stated is None else "m/s^2")
+        axis = judged.up.removeprefix("-")
+        if axis not in ("", "z") and judged.up:
+            sign = "-" if judged.up.startswith("-") is not names[axis].startswith("-") else ""
+            column = f"{sign}{names[axis].removeprefix('-')}"
+            raise ExcitationError(
+                f"{table.file}: gravity lies on {names[axis]} (mean {raw[axis].mean():.4g} m/s^2), not on {names.get('z', 'z')}; "
+                f"name the axis that points up ({CURES.up.format(column)})"
+            )
+        self._notes += [f"WARNING: {said}." for said in judged.faults if said.startswith("the sensor turns")]
+
+    def _at_stamps(self, raw: dict[str, Array], stamps: Array | None) -> dict[str, Array]:
+        """Evenly spaced samples of what was sampled at stamps that scatter, by a spline of degree 5 through them."""
+        if stamps is None or not self._uneven:
+            return raw
+        from scipy.interpolate import make_interp_spline  # takes 0.2 s
+
+        even = stamps[0] + numpy.arange(len(stamps)) * ((stamps[-1] - stamps[0]) / (len(stamps) - 1))
+        return {
+            axis: make_interp_spline(stamps, values, k=min(5, len(stamps) - 1))(even) for axis, values in raw.items()
+        }
 
     def _settle_rate(self, table: RecordedTable, stated: float | None, time: Array | None) -> float:
         if stated is not None and not 1e-3 <= stated <= 1e6:
@@ -143,7 +183,10 @@ class RecordedVibration:
             )
             return stated
         # Two statements of the rate must agree
-        found = _found_rate(table, time)
+        found, scatter = _found_rate(table, time)
+        self._uneven = scatter > UNEVEN
+        if self._uneven:
+            self._notes.append(f"The stamps scatter by {100.0 * scatter:.2g} % of the step: resampled by them.")
         if table.nominal_rate is not None:
             self._compare(table.nominal_rate, table, found, "the time column", "a comment states")
         if stated is None:
@@ -315,11 +358,12 @@ def _columns(table: RecordedTable, names: dict[str, str | None], needed: bool, u
     named = {axis: name for axis, name in names.items() if name is not None}
     if needed:
         return named
-    absent = {axis for axis, name in named.items() if name.removeprefix("-").lower() not in table.columns}
+    absent = {axis for axis, name in named.items() if bare_name(name.removeprefix("-")) not in table.columns}
     return {axis: name for axis, name in named.items() if axis not in absent or axis not in f"y{unused}"}
 
 
-def _found_rate(table: RecordedTable, time: Array) -> float:
+def _found_rate(table: RecordedTable, time: Array) -> tuple[float, float]:
+    """Rate [Hz] of a time column, and the share of the step by which its stamps scatter."""
     far = numpy.flatnonzero(numpy.abs(time) > LARGEST_TIME)
     if far.size:
         raise ExcitationError(
@@ -335,7 +379,8 @@ def _found_rate(table: RecordedTable, time: Array) -> float:
             f"{table.file}, line {table.lines[index]}: time goes on by {steps[index - 1]:g} s, the mean step is "
             f"{mean:g} s; samples must be evenly spaced, without gaps"
         )
-    return 1.0 / mean
+    stamps = judge_stamps(time, table.file, CURES.time)
+    return stamps.rate, stamps.scatter
 
 
 def _find_clipping(table: RecordedTable, values: Array, full_scale: float | None) -> Clipping:

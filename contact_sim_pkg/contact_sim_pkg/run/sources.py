@@ -139,6 +139,8 @@ def _signal(scene: ResolvedScene, vibration: Vibration) -> Signal:
             time=vibration.time_column, tilt="correct" if vibration.correct_tilt else "keep", beyond=vibration.beyond,
             start=vibration.start, sample_rate=vibration.sample_rate,
             unused=rigs()[scene.rig].unused_axes(scene.data["effects"]), unit=vibration.unit,
+            lateral=vibration.lateral_column, time_unit=vibration.time_unit,
+            header_line=vibration.header_line,
         )  # fmt: skip
         recording.refuse_longer_run(scene.duration)
         return recording

@@ -69,10 +69,10 @@ def file_memory(where: str, path: Path) -> int:
     """Memory in [bytes] that reading an input file takes, as its reader counts it; the reader is
     imported when there is a file.
     """
-    from contact_sim_pkg.excitation import recorded_csv
+    from contact_sim_pkg.excitation import table_files
     from contact_sim_pkg.excitation.opencrg import road as opencrg
 
-    needed = opencrg.memory_needed(path) if where == "road.file" else recorded_csv.memory_needed(path)
+    needed = opencrg.memory_needed(path) if where == "road.file" else table_files.memory_needed(path)
     return int(needed)
 
 

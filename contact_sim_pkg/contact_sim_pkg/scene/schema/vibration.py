@@ -89,6 +89,7 @@ class HalfSineSection(Section):
     sample_rate: float = _sample_rate()
 
 
+TimeUnit: TypeAlias = Literal["s", "ms", "us", "ns"]
 AccelerationUnit: TypeAlias = Literal["m/s^2", "g", "mg"]
 
 
@@ -108,9 +109,20 @@ class RecordedSection(Section):
     )
     sha256: str | None = text("checksum of the file; other content is refused", default=None, pattern="^[0-9a-f]{64}$")
     rate: float | None = number(1.0, 1e6, "Hz", "sampling rate of the file; never guessed", default=None)
-    time_column: str | None = text("column of time in seconds", default=None, longest=100)
+    time_column: str | None = text(
+        "column of time; a column of dates and one of times of day: DATE+TIME", default=None, longest=200
+    )
+    time_unit: TimeUnit | None = choice(
+        "unit of the time column; null: as the file says, times since 1970 by their size, else s", default=None
+    )
+    header_line: int | None = number(
+        1, 10_000, "1", "line of the column names; null: the first that is no comment", default=None
+    )
     vertical_column: str = text("column of the upward acceleration in m/s²", default="z", longest=100)
     forward_column: str = text("column of the forward acceleration in m/s²", default="x", longest=100)
+    lateral_column: str = text(
+        "column of the acceleration to the left; needed to correct a tilt", default="y", longest=100
+    )
     unit: AccelerationUnit | None = choice(
         "unit of the accelerations where the header has none; null: m/s^2, refused if gravity contradicts it",
         default=None,
