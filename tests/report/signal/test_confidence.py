@@ -14,7 +14,6 @@ NOISE = np.random.default_rng(7).normal(size=round(60 * RATE))
 def test_a_long_fast_even_signal_breaks_nothing():
     assert confidence.short(NOISE.size, RATE) == ()
     assert confidence.slow(RATE) == ()
-    assert confidence.tilted(0.3) == ()
     assert confidence.peaky(5.0) == ()
     assert confidence.clipped(confidence.clipped_share(NOISE)) == ()
 
@@ -22,7 +21,6 @@ def test_a_long_fast_even_signal_breaks_nothing():
 def test_each_broken_assumption_is_named_with_its_figure():
     assert confidence.short(round(3 * RATE), RATE) == ("too short: 3 s, 34 s needed",)
     assert confidence.slow(100.0)[0].startswith("wrong rate: 100 Hz carries nothing above 50 Hz")
-    assert confidence.tilted(9.81) == ("gravity inside: mean 9.81 m/s², removed",)
     assert confidence.peaky(22.9) == ("crest factor 22.9 above 9: read VDV and MTVV",)
     clipped = np.clip(NOISE, -1.5, 1.5)
     share = confidence.clipped_share(clipped)

@@ -25,19 +25,36 @@ from contact_sim_pkg.cli.output.tables import print_json
     "--axis", metavar="x|y|z|Wk|Wd|...", help="Of a bag without our topics: axis, or weighting, or both as y:Wd."
 )
 @click.option("--topic", metavar="NAME", help="Of a bag without our topics: the one to weight.")
+@click.option(
+    "--unit", type=click.Choice(["m/s^2", "g", "mg"]), help="Of a bag without our topics: unit of its accelerations."
+)
+@click.option(
+    "--up",
+    type=click.Choice(["x", "y", "z", "-x", "-y", "-z"]),
+    help="Of a bag without our topics: axis that points up; else by gravity.",
+)
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 def command(
-    bags: tuple[Path, ...], form: str | None, whole: bool, axis: str | None, topic: str | None, skip_bad: bool
+    bags: tuple[Path, ...],
+    form: str | None,
+    whole: bool,
+    axis: str | None,
+    topic: str | None,
+    unit: str | None,
+    up: str | None,
+    skip_bad: bool,
 ) -> None:
     """Print the metrics of BAG with their bands and verdicts.
 
     Of several bags, repeated runs of one scene, mean and spread; by ISO 10326-1 a SEAT needs runs within 5 % of
     their mean. `bench compare` has two seats side by side.
     """
+    from contact_sim_pkg.report.metrics.foreign import ForeignOptions
     from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags, suite_name
     from contact_sim_pkg.report.metrics.views import csv_of, junit_of, lines_of, rows_of, verdict_line
 
-    for_foreign = None if axis is None and topic is None else (axis, topic)
+    given = ForeignOptions(axis, topic, unit, up)
+    for_foreign = None if given == ForeignOptions() else given
     found = metrics_of_bags(bags, whole=whole, chosen=for_foreign, skip_bad=skip_bad)
     _notes(found.notes)
     rows = rows_of(found.metrics)

@@ -1,17 +1,21 @@
 """Vibration metrics of a bag of anybody: `Imu`, `AccelStamped`, `WrenchStamped`.
 
-Gravity is removed by the mean, and that is said: a sensor that turns in the run keeps some of it.
+What unit and axes of an acceleration are is judged by `excitation/judge.py`. Gravity is removed by the mean; an
+axis with an unknown sample has no value.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.metadata import RecordedTopic
+from contact_sim_pkg.bag.metadata import IMPORTED_FROM, RecordedTopic
 from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.excitation.judge import Cures, Judgement, judge_acceleration, judge_stamps, unknown_samples
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.report.metrics.exposure import Exposed, exposure_metrics
 from contact_sim_pkg.report.metrics.maker import Maker
@@ -20,7 +24,7 @@ from contact_sim_pkg.report.signal import confidence
 from contact_sim_pkg.report.signal.metrics import HORIZONTAL_FACTOR, RideMetrics, ride_metrics
 from contact_sim_pkg.report.signal.weighting import WD, WEIGHTINGS, WK, Weighting
 
-__all__ = ["foreign_metrics"]
+__all__ = ["ForeignOptions", "foreign_metrics"]
 
 ACCELERATIONS = {
     "sensor_msgs/msg/Imu": ("linear_acceleration", "angular_velocity"),
@@ -32,6 +36,26 @@ OF_AXIS = {"x": WD, "y": WD, "z": WK}
 ROTATIONS = dict.fromkeys(("rx", "ry", "rz"), WEIGHTINGS["We"])
 FEWEST = 16
 """samples"""
+COVARIANCE = {
+    "linear_acceleration": "linear_acceleration_covariance",
+    "angular_velocity": "angular_velocity_covariance",
+}
+"""By field of an Imu; -1 in its first place: not measured (REP 145)"""
+CURES = Cures("--unit {}", "--up {}", "the stamps of the messages must be seconds and nanoseconds")
+
+
+class ForeignOptions(NamedTuple):
+    """What is known of a bag of anybody."""
+
+    axis: str | None = None
+    """`x`, `y` or `z`, a rotation `rx`, `ry` or `rz`, a weighting as `Wc`, or both as `y:Wd`; None: the vertical axis with Wk, the
+    others with Wd"""
+    topic: str | None = None
+    """the one to take; None: all"""
+    unit: str | None = None
+    """of the accelerations; None: m/s^2, refused where gravity says otherwise"""
+    up: str | None = None
+    """axis that points up, `-y` where y points down; None: by gravity, else z"""
 
 
 class _Chosen(NamedTuple):
@@ -41,19 +65,15 @@ class _Chosen(NamedTuple):
     weighting: Weighting
 
 
-def foreign_metrics(bag: Bag, axis: str | None = None, topic: str | None = None) -> tuple[list[Metric], list[str]]:
+def foreign_metrics(bag: Bag, options: ForeignOptions = ForeignOptions()) -> tuple[list[Metric], list[str]]:  # noqa: B008 - immutable
     """Metrics of each topic that holds an acceleration or a force, and notes on them.
 
-    Args:
-        bag: of anybody.
-        axis: `x`, `y` or `z`, a rotation `rx`, `ry` or `rz`, a weighting as `Wc`, or both as `y:Wd`; None: x, y and
-            z with Wd, Wd, Wk.
-        topic: the one to take; None: all.
-
     Raises:
-        BagError: nothing to measure, no such topic, axis or weighting, too few samples.
+        BagError: nothing to measure, no such topic, axis or weighting, too few samples, or values in another unit than
+            m/s^2.
     """
-    known, wanted = (*ACCELERATIONS, WRENCH), _chosen(axis)
+    topic = options.topic
+    known, wanted = (*ACCELERATIONS, WRENCH), _chosen(options.axis)
     rows = [bag.topic(topic)] if topic is not None else [row for row in bag.topics.values() if row.type in known]
     rows = [row for row in rows if row.type in known and bag.count(row.name)]
     if not rows:
@@ -65,18 +85,18 @@ def foreign_metrics(bag: Bag, axis: str | None = None, topic: str | None = None)
         if row.type == WRENCH:
             found += _forces(bag, row.name)
             continue
-        metrics, said = _accelerations(bag, row, wanted)
+        metrics, said = _accelerations(bag, row, wanted, options)
         found += metrics
-        notes.append(said)
+        notes += said
     if len(rows) > 1:  # lists of equal names
         found = [each._replace(name=f"/{each.topic}: {each.name}") for each in found]
     return found, notes
 
 
 def _chosen(axis: str | None) -> list[_Chosen]:
-    """Axes and their weightings; BagError for what is neither."""
+    """Axes and their weightings, none where all three are to be taken; BagError for what is neither."""
     if axis is None:
-        return [_Chosen(name, weighting) for name, weighting in OF_AXIS.items()]
+        return []
     first, _, second = axis.partition(":")
     axes = OF_AXIS | ROTATIONS
     name, weighting = (first, second) if first in axes else ("z", first)
@@ -87,50 +107,105 @@ def _chosen(axis: str | None) -> list[_Chosen]:
     return [_Chosen(name, WEIGHTINGS[weighting])]
 
 
-def _accelerations(bag: Bag, row: RecordedTopic, chosen: list[_Chosen]) -> tuple[list[Metric], str]:
-    """Metrics of each axis chosen of a topic, those of all three together, and what was removed."""
-    names = [_field(row.type, each.axis) for each in chosen]
-    columns = bag.columns(row.name, ("time", *names))
+def _accelerations(
+    bag: Bag, row: RecordedTopic, wanted: list[_Chosen], options: ForeignOptions
+) -> tuple[list[Metric], list[str]]:
+    """Metrics of each axis chosen of a topic, those of all three together, and what was assumed and removed."""
+    name = f"{bag.path.name}, {row.name}"
+    linear = {axis: _field(row.type, axis) for axis in OF_AXIS}
+    turning = {each.axis: _field(row.type, each.axis) for each in wanted if each.axis in ROTATIONS}
+    fields = [*linear.values(), *turning.values()]
+    covariances = {COVARIANCE[field.partition(".")[0]] for field in fields if field.partition(".")[0] in COVARIANCE}
+    columns = bag.columns(row.name, ("stamp", *fields, *covariances))
     time, rate, faults = sampled(bag, row.name, columns)
-    key = row.name.strip("/").replace("/", "_")
-    window = float(time[0]), float(time[-1]) + 1.0 / rate
-    found: list[Metric] = []
-    health, means = [], []
-    for each, name in zip(chosen, names, strict=True):
-        values = np.asarray(columns[name], dtype=np.float64)
-        means.append(f"{each.axis} {values.mean():.3g}")
-        if name.startswith("angular_velocity"):
-            values = np.gradient(values, 1.0 / rate)
-        maker = Maker(f"{key}.{each.axis}" if len(chosen) > 1 else key, row.name.lstrip("/"), window)
-        metrics = ride_metrics(values, rate, each.weighting)
-        of_axis = _axis_metrics(maker, metrics, values, rate, faults, each, len(chosen) == 1)
-        found += (
-            [metric._replace(name=f"{each.axis}: {metric.name}") for metric in of_axis] if len(chosen) > 1 else of_axis
+    values = {axis: np.asarray(columns[field], dtype=np.float64) for axis, field in (linear | turning).items()}
+    absent = [axis for axis in OF_AXIS if np.isnan(values[axis]).all()]  # an axis of NaN alone was not recorded
+    present = {axis: values[axis] for axis in OF_AXIS if axis not in absent}
+    if not present or any(each.axis in absent for each in wanted):
+        raise BagError(f"{name}: of {', '.join(absent)} every sample is NaN: not recorded")
+    stated = "m/s^2" if IMPORTED_FROM in bag.metadata else None  # settled when it was imported
+    try:
+        judged = judge_acceleration(
+            {axis: values[axis] for axis in OF_AXIS}, rate, name, CURES, unit=options.unit or stated, up=options.up
         )
-        health.append((metrics.weighted_rms * _factor(each), each.axis))
-    if len(chosen) > 1:
-        found += _together(Maker(key, row.name.lstrip("/"), window), health, found)
-    removed = f"mean of each axis removed, gravity with it ({', '.join(means)})"
-    return found, f"{row.name}: {time.size} samples at {rate:.6g} Hz; {removed}"
+    except ExcitationError as error:
+        raise BagError(str(error)) from None
+    unknown = _not_measured(columns, linear | turning) or {
+        **judged.unknown, **{axis: said for axis in turning if (said := unknown_samples(values[axis]))}
+    }  # fmt: skip
+    vertical = judged.up.removeprefix("-") or "z"
+    chosen = wanted or [_Chosen(axis, WK if axis == vertical else WD) for axis in present]
+    key, topic = row.name.strip("/").replace("/", "_"), row.name.lstrip("/")
+    window = float(time[0]), float(time[-1]) + 1.0 / rate
+    alone = len(chosen) == 1
+    found: list[Metric] = []
+    health = []
+    all_faults = (*faults, *(() if alone and chosen[0].axis in ROTATIONS else judged.faults))
+    # A sample that is unknown in one axis is a doubt about the sensor, and so about all of them
+    all_faults += tuple(f"{axis}: {said}" for axis, said in unknown.items())
+    for each in chosen:
+        maker = Maker(key if alone else f"{key}.{each.axis}", topic, window)
+        if each.axis in unknown:
+            of_axis, a_w = [_without_value(maker, each, all_faults)], math.nan
+        else:
+            signal = _signal(values[each.axis], each.axis, rate, judged)
+            metrics = ride_metrics(signal, rate, each.weighting)
+            exposed = _Axis(each, each.axis == vertical and each.weighting is WK, _factor(each, vertical), alone)
+            of_axis, a_w = _axis_metrics(maker, metrics, signal, rate, all_faults, exposed), metrics.weighted_rms
+        found += of_axis if alone else [metric._replace(name=f"{each.axis}: {metric.name}") for metric in of_axis]
+        health.append((a_w * _factor(each, vertical), each.axis))
+    if not alone:
+        found += _together(Maker(key, topic, window), health, found, unknown)
+    means = ", ".join(f"{each.axis} {judged.factor * np.nanmean(values[each.axis]):.3g}" for each in chosen)
+    removed = f"mean of each axis removed, gravity with it ({means})"
+    assumed = [f"{row.name}: {said}" for said in judged.assumed]
+    assumed += [f"{row.name}: {', '.join(absent)} not recorded"] if absent else []
+    return found, [*assumed, f"{row.name}: {time.size} samples at {rate:.6g} Hz; {removed}"]
+
+
+def _not_measured(columns: dict[str, Any], fields: dict[str, str]) -> dict[str, str]:
+    """Axes that the publisher says are not measured (REP 145: the first covariance is -1), and why."""
+    found = {}
+    for axis, field in fields.items():
+        covariance = columns.get(COVARIANCE.get(field.partition(".")[0], ""))
+        if covariance is not None and bool((np.asarray(covariance)[:, 0] == -1.0).any()):
+            found[axis] = "not measured: its covariance begins with -1 (REP 145)"
+    return found
+
+
+def _signal(values: FloatArray, axis: str, rate: float, judged: Judgement) -> FloatArray:
+    """Acceleration of an axis [m/s^2], upwards where it is the vertical one, or angular acceleration [rad/s^2]."""
+    if axis in ROTATIONS:
+        return np.asarray(np.gradient(values, 1.0 / rate))
+    return values * (-judged.factor if judged.up == f"-{axis}" else judged.factor)
+
+
+class _Axis(NamedTuple):
+    """An axis as it is shown."""
+
+    chosen: _Chosen
+    vertical: bool
+    factor: float
+    """for health"""
+    alone: bool
+
+
+def _without_value(maker: Maker, chosen: _Chosen, faults: tuple[str, ...]) -> Metric:
+    unit = "rad/s²" if chosen.axis in ROTATIONS else "m/s²"
+    return maker.make("a_w", f"a_w, {chosen.weighting.name}", math.nan, unit, remark="no value", broken=faults)
 
 
 def _axis_metrics(
-    maker: Maker,
-    metrics: RideMetrics,
-    values: FloatArray,
-    rate: float,
-    faults: tuple[str, ...],
-    chosen: _Chosen,
-    alone: bool,
+    maker: Maker, metrics: RideMetrics, values: FloatArray, rate: float, faults: tuple[str, ...], axis: _Axis
 ) -> list[Metric]:
     """Metrics of one axis and what is doubtful about it."""
-    turns, vertical = chosen.axis in ROTATIONS, chosen.axis == "z" and chosen.weighting is WK
+    chosen = axis.chosen
     doubts = (
         *faults, *confidence.short(values.size, rate), *confidence.slow(rate),
-        *(() if turns else confidence.tilted(float(values.mean()))), *confidence.clipped(confidence.clipped_share(values)),
+        *confidence.clipped(confidence.clipped_share(values)),
     )  # fmt: skip
-    unit = "rad/s²" if turns else "m/s²"
-    exposed = Exposed(chosen.weighting.name, _factor(chosen), vertical, vertical and alone, unit)
+    unit = "rad/s²" if chosen.axis in ROTATIONS else "m/s²"
+    exposed = Exposed(chosen.weighting.name, axis.factor, axis.vertical, axis.vertical and axis.alone, unit)
     return exposure_metrics(maker.make, metrics, values, rate, doubts, exposed)
 
 
@@ -140,30 +215,39 @@ def _field(kind: str, axis: str) -> str:
     return f"{turning if axis in ROTATIONS else linear}.{axis[-1]}"
 
 
-def _factor(chosen: _Chosen) -> float:
-    return HORIZONTAL_FACTOR if chosen.axis in ("x", "y") and chosen.weighting is WD else 1.0
+def _factor(chosen: _Chosen, vertical: str) -> float:
+    horizontal = chosen.axis in OF_AXIS and chosen.axis != vertical
+    return HORIZONTAL_FACTOR if horizontal and chosen.weighting is WD else 1.0
 
 
-def _together(maker: Maker, health: list[tuple[float, str]], found: list[Metric]) -> list[Metric]:
-    """A(8) by the highest axis, 1.4, 1.4, 1; vector sum for comfort, 1, 1, 1."""
+def _together(
+    maker: Maker, health: list[tuple[float, str]], found: list[Metric], unknown: dict[str, str]
+) -> list[Metric]:
+    """A(8) by the highest axis, 1.4, 1.4, 1; vector sum for comfort, 1, 1, 1. Neither has a value where an axis has none."""
     worst, axis = max(health)
+    said = f"{axis} decides; eight hours of this, 1.4 horizontally, 1 upwards"
+    if unknown:
+        worst, said = math.nan, f"no value without {', '.join(unknown)}"
     doubts = tuple(dict.fromkeys(text for each in found for text in each.broken))
     total = float(np.sqrt(sum(each.value**2 for each in found if each.key.endswith(".a_w"))))
     return [
-        maker.make("a_8", "A(8), highest axis", worst, "m/s²", quantity="daily_exposure", broken=doubts,
-                   remark=f"{axis} decides; eight hours of this, 1.4 x, 1.4 y, z"),
+        maker.make("a_8", "A(8), highest axis", worst, "m/s²", quantity="daily_exposure", broken=doubts, remark=said),
         maker.make("a_v", "a_v, vector sum", total, "m/s²", quantity="weighted_rms", broken=doubts),
-    ]  # fmt: skip
+    ]
 
 
 def _forces(bag: Bag, topic: str) -> list[Metric]:
     """Mean, largest and smallest of the vertical force."""
-    columns = bag.columns(topic, ("time", "wrench.force.z"))
+    columns = bag.columns(topic, ("stamp", "wrench.force.z"))
     time, rate, faults = sampled(bag, topic, columns)
     force = np.asarray(columns["wrench.force.z"], dtype=np.float64)[: time.size]
     make = Maker(
         topic.strip("/").replace("/", "_"), topic.lstrip("/"), (float(time[0]), float(time[-1]) + 1.0 / rate)
     ).make
+    wrong = int((~np.isfinite(force)).sum())
+    if wrong:
+        doubts = (*faults, f"{wrong} of {force.size} samples unknown, the first {int(np.argmin(np.isfinite(force)))}")
+        return [make("force", "force z, mean", math.nan, "N", remark="no value", broken=doubts, count=force.size)]
     doubts = (*faults, *confidence.clipped(confidence.clipped_share(force) if force.min() < force.max() else 0.0))
     variation = float(force.std() / abs(force.mean())) if force.mean() else float("nan")
     return [
@@ -173,26 +257,18 @@ def _forces(bag: Bag, topic: str) -> list[Metric]:
     ]  # fmt: skip
 
 
-def sampled(bag: Bag, topic: str, columns: dict[str, object]) -> tuple[FloatArray, float, tuple[str, ...]]:
-    """Times [s] of a topic, its rate [Hz] by the median step, and what is wrong with its stamps.
+def sampled(bag: Bag, topic: str, columns: dict[str, Any]) -> tuple[FloatArray, float, tuple[str, ...]]:
+    """Times [s] of a topic, its rate [Hz] by the mean step, and what is wrong with its stamps.
 
-    Raises BagError for too few samples, or stamps that do not ascend.
+    Raises BagError for too few samples, stamps that do not ascend, or a rate that no vibration has.
     """
-    time = np.asarray(columns["time"], dtype=np.float64)
+    stamps = np.asarray(columns["stamp"], dtype=np.int64)
+    # Differences in whole nanoseconds: seconds since 1970 have 2e-7 s as numbers
+    time: FloatArray = (stamps - stamps[:1]).astype(np.float64) * 1e-9
     if time.size < FEWEST:
         raise BagError(f"{bag.path}: {topic} has {time.size} samples; at least {FEWEST} are needed to weight them")
-    steps = np.diff(time)
-    step = float(np.median(steps))
-    if step <= 0.0:
-        raise BagError(
-            f"{bag.path}: the stamps of {topic} do not ascend, so its rate is unknown and it cannot be weighted"
-        )
-    rate = (time.size - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / step
-    scatter = float(np.median(np.abs(steps - step))) / step
-    gaps = int((steps > 1.5 * step).sum())
-    faults = (
-        [f"wrong rate: stamps scatter by {100.0 * scatter:.2g} % of the step"] if scatter > confidence.UNEVEN else []
-    )
-    if gaps or steps.min() <= 0.0:
-        faults.append(f"wrong rate: {gaps} gaps in the stamps")
-    return time, rate, tuple(faults)
+    try:
+        judged = judge_stamps(time, f"{bag.path.name}, {topic}", CURES.time)
+    except ExcitationError as error:
+        raise BagError(str(error)) from None
+    return time + float(stamps[0]) * 1e-9, judged.rate, judged.faults

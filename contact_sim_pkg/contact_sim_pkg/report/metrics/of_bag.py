@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.records.metric import Metric
-from contact_sim_pkg.report.metrics.foreign import foreign_metrics
+from contact_sim_pkg.report.metrics.foreign import ForeignOptions, foreign_metrics
 from contact_sim_pkg.report.metrics.listing import all_metrics, metrics_of
 from contact_sim_pkg.report.metrics.repeated import repeated
 from contact_sim_pkg.report.reading import SERIES_TYPES, read_recording, scenes_fit
@@ -29,7 +29,7 @@ def metrics_of_bags(
     paths: Sequence[Path],
     *,
     whole: bool = False,
-    chosen: tuple[str | None, str | None] | None = None,
+    chosen: ForeignOptions | None = None,
     skip_bad: bool = False,
 ) -> FoundMetrics:
     """Metrics of one bag, or mean and spread of repeated runs.
@@ -37,7 +37,7 @@ def metrics_of_bags(
     Args:
         paths: of the bags, at least one.
         whole: whole lists of all contacts, and mats.
-        chosen: axis or weighting, and topic, of a bag of anybody; None: taken where the bag is none of ours.
+        chosen: what is known of a bag of anybody; None: taken so where the bag is none of ours.
         skip_bad: go on after damaged chunks.
 
     Raises:
@@ -49,7 +49,7 @@ def metrics_of_bags(
     scenes: list[dict[str, Any]] = []
     for bag in bags:
         if chosen is not None or not is_ours(bag):
-            found, said = foreign_metrics(bag, *(chosen or (None, None)))
+            found, said = foreign_metrics(bag, chosen or ForeignOptions())
             lists.append(found)
             notes += said
             scenes.append({})

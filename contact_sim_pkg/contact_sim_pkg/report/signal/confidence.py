@@ -19,10 +19,6 @@ CLIPPED_SHARE = 1e-3
 PLATEAU = 3
 """Equal extreme samples in succession that no vibration has but by clipping."""
 LARGEST_CREST = 9.0
-LARGEST_MEAN = 1.0
-"""[m/s^2] mean above which gravity or a tilted sensor is inside"""
-UNEVEN = 0.05
-"""Share of the sample period by which stamps may scatter (median of the deviations)."""
 
 
 def spread_of_mean(values: NDArray[np.float64], sample_rate: float) -> float:
@@ -76,11 +72,6 @@ def slow(sample_rate: float) -> tuple[str, ...]:
 def peaky(crest_factor: float) -> tuple[str, ...]:
     """That a crest factor is above 9."""
     return (f"crest factor {crest_factor:.3g} above 9: read VDV and MTVV",) if crest_factor > LARGEST_CREST else ()
-
-
-def tilted(mean: float) -> tuple[str, ...]:
-    """That gravity is inside a signal of a ``mean`` [m/s^2]."""
-    return (f"gravity inside: mean {mean:.3g} m/s², removed",) if abs(mean) > LARGEST_MEAN else ()
 
 
 def clipped_share(values: NDArray[np.float64]) -> float:
