@@ -101,7 +101,7 @@ def _denominator(scene: ResolvedScene, outputs: list[Output]) -> float:
     return least
 
 
-LEAP = guard.at_least("largest force over the first", 1.1)
+LEAP = guard.at_least("largest force over the first", 1.05)
 SLOW = "travel.speed=5"
 CASES = (
     AccuracyCase(

@@ -367,7 +367,7 @@ def test_the_time_acceleration_is_checked_against_every_turn_ridden():
             r"the static tilt is 0\.2143 rad, the roller tips over at 0\.2 rad",
         ),
         ("roller_flutter", ("roller.profile_radius=0",), "give profile_radius or shaft_profile_radius a value"),
-        ("roller_flutter", ("roller.inertia_product=2e-5",), "give one between -2e-05 and 2e-05"),
+        ("roller_flutter", ("roller.inertia_product=2e-5",), "give one from -1.99999e-05 to 1.99999e-05"),
         ("roller_flutter", ("effects.roller.normal_elastic.split=parallel",), "add shaft_bending, or take series"),
         (
             "roller_flutter",

@@ -13,6 +13,8 @@ from contact_sim_pkg.rigs.vehicle.seat.biodynamics import (
     matrices,
     natural_frequencies,
     rest_deflections,
+    ringing_cautions,
+    ringing_of,
     seat_to_head,
     seat_transmissibility,
 )
@@ -241,3 +243,19 @@ def test_an_occupant_of_ones_own():
     assert natural_frequencies(own) == pytest.approx(expected, rel=1e-12)
     # At w^2 = k/m the lower mass moves by 0 of the seat's, the upper by -1.
     assert cmath.isclose(seat_to_head(own, 20.0 / (2.0 * math.pi))[0], -1.0, rel_tol=1e-9)
+
+
+def test_a_link_that_rings_faster_than_samples_follow_is_named():
+    """Two masses on a spring: w² = k (1/m + 1/M), damped by c (1/m + 1/M) / (2 w)."""
+    share = 1.0 / 6.0 + 1.0 / 40.0
+    for damping in (0.0, 1e3):
+        model = OccupantModel((6.0, 40.0), (Link(0, 1, 1e8, damping),), 1, "own")
+        frequency, damped = ringing_of(model)
+        assert frequency == pytest.approx(math.sqrt(1e8 * share) / (2.0 * math.pi), rel=1e-9)
+        assert damped == pytest.approx(0.5 * damping * share / math.sqrt(1e8 * share), abs=1e-9)
+        (caution,) = ringing_cautions(model, 1000.0)
+        assert "rings at 697 Hz" in caution
+        assert ringing_cautions(model, 7000.0) == ()
+    assert ringing_cautions(OccupantModel((6.0, 40.0), (Link(0, 1, 1e8, 5e4),), 1, "own"), 1000.0) == ()
+    for model in OCCUPANTS.values():
+        assert ringing_cautions(model, 1000.0) == ()

@@ -184,7 +184,11 @@ CORNERS = {
     ),
     "a bump of few cells": (
         "{kind: bump, position: 3, height: 0.02, length: 0.029}",
-        "8 cells of effects.tire.contact_field are 30 mm; force and motion converge",
+        "8 cells of effects.tire.contact_field are 30 mm; force and motion may err there by 0.06 and 0.2",
+    ),
+    "a bar of few cells": (
+        "{kind: cleat, position: 3, height: 0.02, length: 0.012, edge: 0.002}",
+        "the obstacle is 12 mm long, 8 cells of effects.tire.contact_field are 30 mm",
     ),
     "a bump of nine cells": ("{kind: bump, position: 3, height: 0.02, length: 0.034}", ""),
     "a pebble": ("{kind: bump, position: 3, height: 5.0e-5, length: 0.01}", ""),

@@ -19,6 +19,7 @@ from contact_sim_pkg.rigs.vehicle.coupling.steps import Coupling
 from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive
 from contact_sim_pkg.rigs.vehicle.model import Model, build
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord, block_outputs
+from contact_sim_pkg.rigs.vehicle.seat.biodynamics import ringing_cautions
 from contact_sim_pkg.rigs.vehicle.seat.response import RunningResponse
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
 from contact_sim_pkg.rigs.vehicle.tire.static_stiffness import stiffness_cautions
@@ -50,10 +51,12 @@ class Simulation:
 
     def _cautions(self) -> tuple[str, ...]:
         """See `cautions_of`."""
-        rig, grids = self.model.rig, self.model.tire_field
+        rig, grids, occupant = self.model.rig, self.model.tire_field, self.model.occupant
+        ringing = () if occupant is None else ringing_cautions(occupant, self.scene.outputs.force_rate)
         if rig.tire_contact is None:
-            return ()
+            return ringing
         return (
+            *ringing,
             *stiffness_cautions(rig.tire_contact.elastic, rig.rigid_ring, self._coupling.bodies.weight()),
             *edge_cautions(self.scene, None if grids is None else grids.usual.settings),
             *request_cautions(self.scene, self.model.coupling, grids),

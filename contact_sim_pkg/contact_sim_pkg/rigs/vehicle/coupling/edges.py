@@ -41,6 +41,14 @@ PLACED = 3.5
 (a kerb of 30 mm at 5 m/s), half a cell at most.
 """
 
+PLACED_MOTION = 11.0
+"""[1/m] the same of the motion: bars of 20 mm height with flanks of 1 mm err by 0.02 to 0.04 on cells of 3.75 mm."""
+
+FEW_OF_FORCE, FEW_OF_MOTION = 0.06, 0.2
+"""Errors by an obstacle of `CELLS` to `CELLS_OF_PEAK` cells: 20 mm height and 12 to 28 mm length on cells of
+3.75 mm err by 0.02 to 0.06 and 0.04 to 0.16.
+"""
+
 OF_FORCE, OF_MOTION = 0.1, 0.3
 """Errors by an obstacle of fewer than `CELLS` cells, which may stand on one cell more or less: bars of
 20 mm height and 4 to 12 mm length on cells of 3.75 mm err by 0.03 to 0.09 and 0.10 to 0.28.
@@ -85,11 +93,9 @@ def sharp_edge(scene: ResolvedScene, field: FieldSettings | None) -> SharpEdge |
     turn, whole = height / max(flank, field.cell_x), math.inf if road.kind == "step" else road.length
     if turn < CORNER:
         return None
-    if whole < CELLS * field.cell_x:
-        return SharpEdge(whole, turn, is_short=True, is_obstacle=True)
-    if road.kind != "bump":
-        return SharpEdge(flank, turn, flank < CELLS * field.cell_x)
-    return SharpEdge(whole, turn, False, True) if whole < CELLS_OF_PEAK * field.cell_x else None
+    if whole < CELLS_OF_PEAK * field.cell_x:
+        return SharpEdge(whole, turn, whole < CELLS * field.cell_x, is_obstacle=True)
+    return None if road.kind == "bump" else SharpEdge(flank, turn, flank < CELLS * field.cell_x)
 
 
 def edge_cautions(scene: ResolvedScene, field: FieldSettings | None) -> tuple[str, ...]:
@@ -99,20 +105,20 @@ def edge_cautions(scene: ResolvedScene, field: FieldSettings | None) -> tuple[st
         return ()
     if edge.is_obstacle:
         cells = CELLS if edge.is_short else CELLS_OF_PEAK
+        force, motion = (OF_FORCE, OF_MOTION) if edge.is_short else (FEW_OF_FORCE, FEW_OF_MOTION)
         sentence = (
             "tire: its peak pressure on the obstacle of the road is not determined: the obstacle is "
             f"{1e3 * edge.length:g} mm long, {cells:g} cells of effects.tire.contact_field are "
-            f"{1e3 * cells * field.cell_x:.3g} mm; "
-        ) + (
-            f"force and motion may err there by {OF_FORCE:g} and {OF_MOTION:g} of the largest; take more rows, or a shorter field"
-            if edge.is_short else "force and motion converge"
-        )  # fmt: skip
+            f"{1e3 * cells * field.cell_x:.3g} mm; force and motion may err there by {force:g} and {motion:g} of the largest; "
+            "take more rows, or a shorter field"
+        )
     elif edge.is_short:
+        force, motion = PLACED * field.cell_x, PLACED_MOTION * field.cell_x
         sentence = (
             f"tire: its peak pressure on the edge of the road is not determined: the edge is {1e3 * edge.length:g} mm long, three "
             f"cells of effects.tire.contact_field are {1e3 * CELLS * field.cell_x:.3g} mm, and each finer grid finds a higher "
-            f"peak; force and motion err there by some {PLACED * field.cell_x:.1g} of the largest, since the cells place the "
-            "edge within half of one"
+            f"peak; force and motion err there by some {force:.1g} and up to {motion:.1g} of the largest, since the cells place "
+            "the edge within half of one"
         )
     else:
         sentence = (

@@ -27,6 +27,12 @@ Array: TypeAlias = NDArray[numpy.float64]
 Response: TypeAlias = NDArray[numpy.complex128]
 
 
+RINGING = 0.1
+"""of the rate of samples: ten in a period"""
+DIES_OUT = 0.1
+"""of the critical damping: a tenth is left after four periods"""
+
+
 class Matrices(NamedTuple):
     """Matrices [nodes, nodes] of a model that hangs in space."""
 
@@ -79,6 +85,37 @@ def natural_frequencies(model: OccupantModel) -> Array:
     mass, _damping, stiffness = matrices(model)
     squares = numpy.linalg.eigvals(numpy.linalg.solve(mass[1:, 1:], stiffness[1:, 1:]))
     return numpy.asarray(numpy.sort(numpy.sqrt(squares.real)) / (2.0 * numpy.pi))
+
+
+def ringing_of(model: OccupantModel) -> tuple[float, float]:
+    """Highest frequency [Hz] of a vibration of the masses that a seat leaves free, and its share of critical damping:
+    the poles ``w`` of ``det(w^2 M + w C + K) = 0``; 0 and 1 without any. A seat interface without mass stands still.
+    """
+    free = slice(0 if model.masses[0] > 0.0 else 1, None)
+    mass, damping, stiffness = (part[free, free] for part in matrices(model))
+    count = len(mass)
+    system = numpy.block(
+        [
+            [numpy.zeros((count, count)), numpy.eye(count)],
+            [-numpy.linalg.solve(mass, stiffness), -numpy.linalg.solve(mass, damping)],
+        ]
+    )
+    poles = [pole for pole in numpy.linalg.eigvals(system) if abs(pole.imag) > 1e-6 * abs(pole)]
+    worst = max(poles, key=abs, default=None)
+    return (0.0, 1.0) if worst is None else (float(abs(worst) / (2.0 * numpy.pi)), float(-worst.real / abs(worst)))
+
+
+def ringing_cautions(model: OccupantModel, sample_rate: float) -> tuple[str, ...]:
+    """A sentence where a link rings so fast and so long that samples at a rate [Hz] do not follow it."""
+    frequency, damped = ringing_of(model)
+    if frequency < RINGING * sample_rate or damped > DIES_OUT:
+        return ()
+    sentence = (
+        f"seat: a link of the occupant rings at {frequency:.3g} Hz with {damped:.2g} of its critical damping, and its motion and "
+        f"that of the seat frame are not determined at {sample_rate:g} samples a second: 0.1 of the largest acceleration may be "
+        "wrong; give it damping, or make it softer"
+    )
+    return (sentence,)
 
 
 def rest_deflections(model: OccupantModel, gravity: float, lifted: Mapping[int, float] | None = None) -> Array:
