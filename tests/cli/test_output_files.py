@@ -21,6 +21,7 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("paper", "output"): ["contact-area", "--figure", "5", "--output", "FILE"],
     ("report", "out"): ["BAG", "--out", "FILE"],
     ("export", "out"): ["BAG", "--csv", "--out", "FILE"],
+    ("import", "out"): ["RIDE", "--rate", "100", "--out", "FILE"],
     ("run", "out"): ["seat_ride", "--offline", "--out", "FILE"],
     ("recover", "target"): ["BAG", "FILE"],
 }
@@ -34,7 +35,8 @@ def bag(tmp_path_factory):
 
 def call(bag, folder, arguments, file):
     (folder / "impacts.csv").write_text(IMPACTS)
-    known_names = {"FILE": file, "BAG": bag.path.parent, "IMPACTS": folder / "impacts.csv"}
+    (folder / "ride.csv").write_text("z\n" + "9.8\n9.9\n" * 8)
+    known_names = {"FILE": file, "RIDE": folder / "ride.csv", "BAG": bag.path.parent, "IMPACTS": folder / "impacts.csv"}
     return main([str(known_names.get(argument, argument)) for argument in arguments])
 
 
@@ -78,7 +80,7 @@ def test_a_name_that_no_file_can_have_is_refused_before_anything_starts(bag, tmp
     assert said.splitlines()[-1].startswith("bench: ")  # a note on the bag may stand in front
     assert said.endswith(f"{reason}{' name' if 'another' in reason else ''}\n")
     assert "\x1b" not in said
-    assert [entry.name for entry in tmp_path.iterdir()] == ["impacts.csv"]
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["impacts.csv", "ride.csv"]
 
 
 def test_room_is_kept_for_the_file_in_the_directory_of_a_bag(tmp_path):

@@ -15,8 +15,8 @@ RECOVER, UNFINISHED, REPLAY = ("bag/test_recover",), ("bag/test_unfinished",), (
 SURVIVED_ONCE = (
     Mutant(
         "foreign._factor",
-        'HORIZONTAL_FACTOR if chosen.axis in ("x", "y") and chosen.weighting is WD',
-        'HORIZONTAL_FACTOR if chosen.axis in ("x", "y")',
+        "if horizontal and chosen.weighting is WD",
+        "if horizontal",
         ("metrics/test_of_bag::test_1_4_belongs_to_a_horizontal_axis_under_the_horizontal_weighting",),
     ),
     Mutant("seat/report/metrics.seat_metrics", "contact.normal <= 0.0", "contact.normal < 0.0", SEAT),
@@ -77,8 +77,8 @@ REPORT = (
     Mutant("signal/metrics.ride_metrics", "np.abs(weighted).max()", "weighted.max()", RIDE),
     Mutant(
         "metrics/foreign._accelerations",
-        "metrics.weighted_rms * _factor(each)",
-        "metrics.weighted_rms",
+        "a_w * _factor(each, vertical)",
+        "a_w",
         ("metrics/test_of_bag::test_the_highest_axis_decides_on_the_day_with_1_4_of_x_and_y",),
     ),
     Mutant(
@@ -88,9 +88,9 @@ REPORT = (
         ("metrics/test_of_bag::test_the_highest_axis_decides_on_the_day_with_1_4_of_x_and_y",),
     ),
     Mutant(
-        "metrics/foreign.sampled",
-        "(time.size - 1)",
-        "time.size",
+        "excitation/judge.judge_stamps",
+        "len(steps) / float",
+        "len(time) / float",
         ("metrics/test_of_bag::test_the_rate_is_that_of_the_steps_between_samples",),
     ),
     Mutant("seat/report/metrics.vibration_metrics", "floor.vibration_dose", "floor.weighted_rms", SEAT),
@@ -138,7 +138,7 @@ FILES = (
         ("export/test_export::test_rows_of_samples_equal_those_that_rosbags_reads",),
     ),
     Mutant(
-        "export/table.stamp_of",
+        "export/table.time_of",
         "message.header.stamp.nanosec) / 1e9",
         "0) / 1e9",
         ("export/test_export::test_scalars_of_a_message_are_a_row_with_its_stamp",),
@@ -156,9 +156,9 @@ FILES = (
         ("export/test_export::test_a_column_that_a_block_lacks_is_empty_there_and_full_beside_it",),
     ),
     Mutant(
-        "export/table._map",
-        "(field.shape[0], field.shape[1])",
-        "(field.shape[1], field.shape[0])",
+        "export/table.maps_of",
+        "(each.shape[0], each.shape[1])",
+        "(each.shape[1], each.shape[0])",
         ("export/test_export::test_a_map_lies_as_its_message_has_it",),
     ),
     Mutant(

@@ -61,7 +61,7 @@ class OtherSignals:
     def sum_up(self, scene: ResolvedScene, ended: RunEnd) -> dict[str, Any]:
         """The outcome of a run, for whose summary its recording is read, unless a signal says that nobody waits for it."""
         if ended.stopped and ended.bag is not None and not ended.failure:
-            print(f"bench: {ended.bag} is closed; its summary follows, another signal skips it", file=sys.stderr)
+            say(f"bench: {ended.bag} is closed; its summary follows, another signal skips it", err=True)
         try:
             self._sums_up = True
             with RunDisplay(1.0, "summing up"):
