@@ -144,7 +144,7 @@ def test_bad_input_ends_with_one_sentence(tmp_path, capsys):
     states = motions.states_of(motions.planar())
     bag = tmp_path / "bag"
     foreign_bag.write_odometry(bag, states)
-    assert "there is no bag" in refused(capsys, tmp_path / "nowhere", *BOX)
+    assert "cannot be opened: No such file" in refused(capsys, tmp_path / "nowhere", *BOX)
     assert "--box X Y Z" in refused(capsys, bag)
     assert "has no topic /other; of Odometry or PoseStamped it has /odom" in refused(
         capsys, bag, *BOX, "--topic", "/other"
@@ -159,9 +159,9 @@ def test_bad_input_ends_with_one_sentence(tmp_path, capsys):
     (tmp_path / "corners.csv").write_text("0, 0, 0\n1, two, 3\n")
     assert "line 2" in refused(capsys, bag, "--hull", tmp_path / "corners.csv")
     (tmp_path / "text.mcap").write_text("this is no bag")
-    assert "cannot be read" in refused(capsys, tmp_path / "text.mcap", *BOX)
+    assert "text.mcap is no bag" in refused(capsys, tmp_path / "text.mcap", *BOX)
     (tmp_path / "folder").mkdir()
-    assert "no metadata.yaml and 0 files" in refused(capsys, tmp_path / "folder", *BOX)
+    assert "holds no bag files" in refused(capsys, tmp_path / "folder", *BOX)
 
 
 @pytest.mark.parametrize(
