@@ -66,7 +66,7 @@ def test_every_system_that_runs_is_there_and_says_what_it_takes():
         ("tire-road", "profile", "r,height\n0,0\n1,1\n2,4\n", ("load=-1",), "load"),
         ("tire-road", "load", "rig: tire\n", (), "duration"),
         ("identifiability", "inertia", "sx\n1\n", (), "columns sx, sy, sz"),
-        ("identifiability", "axes", "", (), "cannot be read"),
+        ("identifiability", "axes", "", (), "is no bag"),
         ("identifiability", "moments", "", (), "unknown"),
     ],
 )
