@@ -130,6 +130,10 @@ def test_samples_at_stamps_that_scatter_are_taken_at_their_stamps(tmp_path):
     z = 1.5 * numpy.sin(2.0 * math.pi * 4.0 * scattered) + 0.8 * numpy.sin(2.0 * math.pi * 11.0 * scattered + 0.3) + G
     read = RecordedVibration(write(tmp_path / "a.csv", (scattered, numpy.zeros(TIME.size), z), "time,x,z"))
     assert any("resampled by them" in note for note in read.describe()["notes"])
+    cut = RecordedVibration(
+        write(tmp_path / "cut.csv", (scattered, numpy.zeros(TIME.size), numpy.minimum(z, 11.5)), "time,x,z")
+    )
+    assert cut.clipping["z"].samples == numpy.count_nonzero(z >= 11.5)  # looked for before
     inside = slice(100, -100)
     true = 1.5 * numpy.sin(2.0 * math.pi * 4.0 * TIME) + 0.8 * numpy.sin(2.0 * math.pi * 11.0 * TIME + 0.3)
     found = read.acceleration(TIME[inside])[1]

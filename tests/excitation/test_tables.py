@@ -81,8 +81,6 @@ def test_a_table_is_read(tmp_path, case):
 
 @pytest.mark.parametrize("form", ["{d}T{t:.3f}Z", "{d} {t:.3f}", "{d}T{t:.6f}+02:00"])
 def test_dates_and_times_become_seconds(tmp_path, form):
-    times = [form.format(d="2026-03-01", t=10) for _ in TIME]
-    del times
     written = [
         form.replace("{t:.3f}", "{t}").replace("{t:.6f}", "{t}").format(d="2026-03-01", t=_clock(t)) for t in TIME
     ]
@@ -91,7 +89,7 @@ def test_dates_and_times_become_seconds(tmp_path, form):
 
 
 def _clock(t):
-    """hh:mm:ss.mmm, two seconds before midnight at t = 0 in no case: a minute is crossed instead."""
+    """hh:mm:ss.mmm from two seconds before a full minute on."""
     seconds = 58.0 + t
     return f"10:{30 + int(seconds // 60):02}:{seconds % 60:06.3f}"
 

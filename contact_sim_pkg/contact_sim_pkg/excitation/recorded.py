@@ -126,8 +126,7 @@ class RecordedVibration:
         self._unit_assumed = unit is None and not all(
             bare_name(name.removeprefix("-")) in table.with_unit for name in names.values()
         )
-        self._judge(table, raw, names, unit)
-        raw = self._at_stamps(raw, stamps)
+        self._judge(table, raw, names)
         # Section that is used.
         self.samples = len(table.lines)
         self.duration = self.samples / self.rate
@@ -135,15 +134,14 @@ class RecordedVibration:
             raise ExcitationError(
                 f"{path}: start is {start} s; allowed: 0 to below the recording's {self.duration:g} s"
             )
-        # Clipping is looked for before gravity is removed.
+        # Clipping is looked for in the samples as recorded
         self.clipping = {axis: _find_clipping(table, raw[axis], full_scale) for axis in ("x", "z") if axis in raw}
         self._report_clipping(names, clipped)
-        self._remove_gravity(raw, names)
+        self._remove_gravity(self._at_stamps(raw, stamps), names)
 
-    def _judge(self, table: RecordedTable, raw: dict[str, Array], names: dict[str, str], unit: str | None) -> None:
+    def _judge(self, table: RecordedTable, raw: dict[str, Array], names: dict[str, str]) -> None:
         """Refuse values in another unit, and gravity on another axis than the vertical column."""
-        stated = None if self._unit_assumed else unit or "m/s^2"
-        judged = judge_acceleration(raw, self.rate, table.file, CURES, unit=None if stated is None else "m/s^2")
+        judged = judge_acceleration(raw, self.rate, table.file, CURES, unit=None if self._unit_assumed else "m/s^2")
         axis = judged.up.removeprefix("-")
         if axis not in ("", "z") and judged.up:
             sign = "-" if judged.up.startswith("-") is not names[axis].startswith("-") else ""

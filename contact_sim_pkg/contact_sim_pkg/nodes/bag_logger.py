@@ -111,7 +111,7 @@ class BagLoggerNode(LifecycleBenchNode):
         return super().on_shutdown(state)
 
     def _leave_without_bag(self, sentence: str) -> None:
-        """End a run that never began: its simulator is told that nothing is to be waited for."""
+        """End a run that never began: its simulator learns that it waits for nothing."""
         if self._recording is not None:
             self._answers.publish(self._recording.answer(closed=True, sentence=sentence))
             self._answers.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
