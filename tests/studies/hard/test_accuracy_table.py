@@ -128,3 +128,9 @@ def test_fifteen_scenes_are_accepted_with_their_values():
     assert len({case.name for case in CASES}) == 15
     for case in CASES:
         assert 0.0 < case.span <= load_resolved(case.scene, *case.values).duration
+
+
+def test_each_scene_is_hard():
+    """Whatever its errors are: what makes it hard is measured from its run."""
+    figures = {case.name: (case.is_hard, accuracy_table._figure(case, lambda _line: None)) for case in CASES}
+    assert {name: guard.says(figure) for name, (guard, figure) in figures.items() if not guard.met(figure)} == {}
