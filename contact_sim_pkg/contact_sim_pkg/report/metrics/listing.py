@@ -31,7 +31,10 @@ def metrics_of(recording: Recording) -> list[Metric]:
 
 def all_metrics(recording: Recording) -> list[Metric]:
     """The whole lists of all contacts, and the mat metrics of each pressure map."""
-    mats = [mat_metrics(name, field, recording.duration) for name, field in recording.fields.items()]
+    mats = [
+        [_doubted(metric, recording) for metric in mat_metrics(name, field, recording.duration)]
+        for name, field in recording.fields.items()
+    ]
     return [metric for each in _named([*_lists(recording), *mats]) for metric in each]
 
 
@@ -47,7 +50,13 @@ def _lists(recording: Recording) -> list[list[Metric]]:
     found: list[list[Metric]] = [load(each.metrics)(recording) for each in reports_of(recording) if each.metrics]
     listed = {metric.topic.partition("/")[0] for each in found for metric in each}
     rest = [load_metrics(name, contact) for name, contact in recording.contacts.items() if name not in listed]
-    return [each for each in (*found, *rest) if each]
+    return [[_doubted(metric, recording) for metric in each] for each in (*found, *rest) if each]
+
+
+def _doubted(metric: Metric, recording: Recording) -> Metric:
+    """The metric, in doubt where its topic holds what is no number."""
+    unknown = recording.unknown.get(metric.topic)
+    return metric if unknown is None else metric._replace(broken=(*metric.broken, f"{metric.topic}: {unknown}"))
 
 
 def load_metrics(name: str, contact: ContactSeries) -> list[Metric]:
