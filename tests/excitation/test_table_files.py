@@ -37,6 +37,15 @@ def test_a_mat_file_with_vectors_structures_and_a_matrix(tmp_path):
     check(tmp_path / "a.mat", m_1=X, m_2=Z)
 
 
+def test_a_damaged_mat_file_is_refused_before_its_reader_ends_the_process(tmp_path):
+    savemat(tmp_path / "a.mat", {"time": TIME, "z": Z})
+    content = bytearray((tmp_path / "a.mat").read_bytes())
+    content[176:180] = (57609).to_bytes(4, "little")  # type of the samples
+    (tmp_path / "a.mat").write_bytes(content)
+    with pytest.raises(ExcitationError, match=r"the element at byte [0-9]+ is damaged"):
+        read_recording(tmp_path / "a.mat")
+
+
 def test_a_wav_file_holds_shares_of_full_scale(tmp_path):
     full = 20.0
     samples = numpy.round(numpy.stack([X, Z], axis=1) / full * 2**15).astype(numpy.int16)

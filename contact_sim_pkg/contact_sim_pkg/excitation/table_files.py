@@ -5,6 +5,8 @@ Their libraries are imported on use; those of MDF4, TDMS, UFF58 and MATLAB 7.3 c
 
 from __future__ import annotations
 
+import struct
+import zlib
 from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path
@@ -19,6 +21,11 @@ from contact_sim_pkg.excitation.table_words import factor_of, si_unit, split_uni
 from contact_sim_pkg.files import open_regular_file
 
 __all__ = ["memory_needed", "read_recording"]
+
+MAT_HEADER, MAT_VERSION = 128, (b"\x00\x01", b"\x01\x00")
+MAT_KINDS = {*range(1, 8), 9, *range(12, 19)}
+"""Types of an element of a file of MATLAB 5"""
+MAT_MATRIX, MAT_COMPRESSED = 14, 15
 
 Array = NDArray[numpy.float64]
 Column = tuple[str, str | None, Array]
@@ -100,18 +107,37 @@ def _mat(path: Path) -> Iterator[Column]:
     """Vectors of numbers, those in structures too; a matrix gives a column each, NAME_1, NAME_2."""
     from scipy.io import loadmat  # takes 0.2 s
 
-    with open(path, "rb") as file:
-        is_hdf = b"MATLAB 7.3" in file.read(128)
-    if is_hdf:
-        with _library("h5py", path).File(path) as content:
+    content = path.read_bytes()
+    if b"MATLAB 7.3" in content[:MAT_HEADER]:
+        with _library("h5py", path).File(path) as stored:
             vectors: list[tuple[str, Any]] = []
-            content.visititems(
-                lambda name, item: vectors.append((name, item[()].T)) if hasattr(item, "dtype") else None
-            )
+            stored.visititems(lambda name, item: vectors.append((name, item[()].T)) if hasattr(item, "dtype") else None)
     else:
+        if content[124:126] in MAT_VERSION:
+            _refuse_broken_mat(content[MAT_HEADER:], "<" if content[126:128] == b"IM" else ">")
         vectors = [each for each in loadmat(path, simplify_cells=True).items() if not each[0].startswith("__")]
     for name, value in vectors:
         yield from _columns_of(name, value)
+
+
+def _refuse_broken_mat(elements: bytes, order: str) -> None:
+    """Walk through the elements of a file of MATLAB 5: of a damaged one scipy's reader ends the process."""
+    place = 0
+    while place < len(elements):
+        if len(elements) - place < 8:
+            raise ValueError("the last element is cut off")
+        kind, size = struct.unpack_from(f"{order}II", elements, place)
+        begin = place + 8
+        if kind >> 16:  # a short element: length and type in one number, the content in the other
+            kind, size, begin = kind & 0xFFFF, 4, place + 4
+        end = begin + size
+        if kind not in MAT_KINDS or end > len(elements):
+            raise ValueError(f"the element at byte {MAT_HEADER + place} is damaged or cut off")
+        if kind == MAT_COMPRESSED:
+            _refuse_broken_mat(zlib.decompress(elements[begin:end]), order)
+        elif kind == MAT_MATRIX:
+            _refuse_broken_mat(elements[begin:end], order)
+        place = end if kind == MAT_COMPRESSED else end + -(end - place) % 8  # padded to 8 bytes
 
 
 def _columns_of(name: str, value: Any) -> Iterator[Column]:
