@@ -1,4 +1,4 @@
-"""Recordings in the files of data loggers, as the table that a text file gives: `.mat`, `.wav`, MDF4, TDMS, UFF58.
+"""Recordings in the files of data loggers, as the table that a text file gives: `.mat`, `.wav`, MDF4, TDMS, UFF58, bags.
 
 Their libraries are imported on use; those of MDF4, TDMS, UFF58 and MATLAB 7.3 come with the extra `daq`.
 """
@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.recorded_csv import LARGEST_FILE, RecordedTable, memory_of_text, read_table
 from contact_sim_pkg.excitation.table_words import factor_of, si_unit, split_unit
-from contact_sim_pkg.files import open_regular_file
+from contact_sim_pkg.files import BAG_ENDINGS, RefusedError, open_regular_file
+from contact_sim_pkg.records.rig import load
 
 __all__ = ["memory_needed", "read_recording"]
 
@@ -52,7 +53,7 @@ def read_recording(path: Path, header_line: int | None = None) -> RecordedTable:
         raise ExcitationError(f"{path}: the file has {size} bytes, at most {LARGEST_FILE} are read; cut the recording")
     try:
         found = list(reader(Path(path)))
-    except ExcitationError:
+    except RefusedError:
         raise
     except Exception as error:  # noqa: BLE001 - the parsers of damaged files raise errors of many kinds
         reason = " ".join(str(error).split()) or type(error).__name__
@@ -213,7 +214,13 @@ def _as_list(value: Any) -> list[Any]:
     return value if isinstance(value, list) else [value]
 
 
+def _bag(path: Path) -> Iterator[Column]:
+    """The acceleration of a bag. Bags lie above this package, so their reader is found by its name."""
+    yield from load("contact_sim_pkg.bag.recorded_imu:columns")(path)
+
+
 READERS: dict[str, Callable[[Path], Iterator[Column]]] = {
     ".mat": _mat, ".wav": _wav, ".mf4": _mdf, ".mdf": _mdf, ".tdms": _tdms, ".uff": _uff, ".unv": _uff,
+    **dict.fromkeys(BAG_ENDINGS, _bag),
 }  # fmt: skip
 """By the end of a file's name."""
