@@ -3,6 +3,7 @@
 import ast
 
 import pytest
+from tests.house.closures import folder_circles
 from tests.house.source import LABORATORY, PACKAGE, circles, imports, modules
 
 ORDER = (
@@ -109,6 +110,23 @@ def test_a_name_that_is_bound_twice_is_seen():
 
 def test_no_modules_import_each_other(edges):
     assert circles(edges) == []
+
+
+CIRCLES = [  # of neighbours, one of them a folder: a list that only gets shorter
+    {"identify.contact", "identify.diagnostics", "identify.geometry", "identify.motion", "identify.problem",
+     "identify.sweep"},
+    {"rigid.body", "rigid.body_state", "rigid.contact", "rigid.forces", "rigid.geometry", "rigid.impact",
+     "rigid.motion", "rigid.problem"},
+    {"rigs.vehicle.bodies", "rigs.vehicle.contact_field", "rigs.vehicle.coupling", "rigs.vehicle.drive",
+     "rigs.vehicle.entries", "rigs.vehicle.field_driver", "rigs.vehicle.lattice", "rigs.vehicle.model",
+     "rigs.vehicle.outputs", "rigs.vehicle.tire"},
+]  # fmt: skip
+
+
+def test_folders_import_their_neighbours_one_way(edges):
+    found = [set(circle) for circle in folder_circles(edges)]
+    assert [circle for circle in found if not any(circle <= known for known in CIRCLES)] == []
+    assert len(CIRCLES) == len(found), "shorten the list"
 
 
 def test_nothing_of_the_product_imports_the_laboratory():

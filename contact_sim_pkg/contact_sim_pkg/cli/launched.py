@@ -17,8 +17,8 @@ import click
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.unfinished import leave_metadata
+from contact_sim_pkg.nodes.misspelt import misspelt
 from contact_sim_pkg.nodes.processes.children import how_ended
-from contact_sim_pkg.nodes.processes.misspelt import misspelt
 from contact_sim_pkg.nodes.processes.scene_file import read_reason, write_reason
 
 __all__ = ["Argument", "LaunchedRun", "arguments_of", "options_of", "refuse_misspelt"]

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 
-from contact_sim_pkg.nodes.processes.misspelt import misspelt
+from contact_sim_pkg.nodes.misspelt import misspelt
 from contact_sim_pkg.nodes.protocol.pacing import parse_pace
 from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, TypeVar
 
 from contact_sim_pkg.scene.schema.accuracy import FASTEST, level_of, requested
 from contact_sim_pkg.scene.schema.fields import Section, number
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
     from contact_sim_pkg.scene.schema.scene import Scene
 
 MOST_CELLS_A_SIDE = 65536
@@ -19,6 +18,16 @@ LOOSER = 3.0
 
 SOLVER_SHARE = 0.1
 """Of the request: tolerance of the solver at most."""
+
+
+Wanted = TypeVar("Wanted", bound=Section)
+
+
+class WithEffects(Protocol):
+    """A scene, resolved or not."""
+
+    def effect(self, contact: str, kind: type[Wanted], /) -> Wanted | None:
+        """The section of an effect; None without it."""
 
 
 class GridSection(NamedTuple):
@@ -58,7 +67,7 @@ class PressureFieldSection(Section):
     )  # fmt: skip
 
     @classmethod
-    def levels_of(cls, scene: Scene | ResolvedScene) -> tuple[GridSection, ...]:
+    def levels_of(cls, scene: WithEffects) -> tuple[GridSection, ...]:
         """The levels of the contact in a scene."""
         return cls.levels
 

@@ -11,10 +11,9 @@ from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import ring_stiffness
 from contact_sim_pkg.rigs.vehicle.tire.size import PATTERN, read_size
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers, text
 from contact_sim_pkg.scene.schema.laws import HuntCrossley
-from contact_sim_pkg.scene.schema.pressure_field import GridSection, PressureFieldSection
+from contact_sim_pkg.scene.schema.pressure_field import GridSection, PressureFieldSection, WithEffects
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
     from contact_sim_pkg.scene.schema.scene import Scene
 
 RING_DAMPING = 0.045
@@ -128,7 +127,7 @@ class TireField(PressureFieldSection):
     )
 
     @classmethod
-    def levels_of(cls, scene: Scene | ResolvedScene) -> tuple[GridSection, ...]:
+    def levels_of(cls, scene: WithEffects) -> tuple[GridSection, ...]:
         return cls.half_space_levels if scene.effect("tire", Inflation) is None else cls.levels
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
