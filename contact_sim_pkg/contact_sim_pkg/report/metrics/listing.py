@@ -7,7 +7,7 @@ from itertools import zip_longest
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.metrics.maker import Maker
-from contact_sim_pkg.report.metrics.mat import mat_metrics
+from contact_sim_pkg.report.metrics.mat import LOADED, mat_metrics
 from contact_sim_pkg.report.rig_reports import reports_of
 from contact_sim_pkg.report.series import ContactSeries, Recording
 from contact_sim_pkg.report.signal.confidence import spread_of_mean
@@ -20,8 +20,10 @@ MOST = 14
 
 def metrics_of(recording: Recording) -> list[Metric]:
     """The list of a run, the most important first; where several contacts share it, the first ones of
-    each in turn.
+    each in turn. Of fields alone, as of a mat, their whole lists.
     """
+    if not recording.contacts and recording.motion is None:
+        return all_metrics(recording)
     lists = _named(_lists(recording))
     if sum(map(len, lists)) <= MOST:
         return [metric for each in lists for metric in each]
@@ -29,9 +31,9 @@ def metrics_of(recording: Recording) -> list[Metric]:
     return [metric for each in lists for metric in each if metric in chosen]
 
 
-def all_metrics(recording: Recording) -> list[Metric]:
-    """The whole lists of all contacts, and the mat metrics of each pressure map."""
-    mats = [mat_metrics(name, field, recording.duration) for name, field in recording.fields.items()]
+def all_metrics(recording: Recording, loaded: float = LOADED) -> list[Metric]:
+    """The whole lists of all contacts, and the mat metrics of each pressure map, of cells above ``loaded`` [Pa]."""
+    mats = [mat_metrics(name, field, recording.duration, loaded) for name, field in recording.fields.items()]
     return [metric for each in _named([*_lists(recording), *mats]) for metric in each]
 
 
