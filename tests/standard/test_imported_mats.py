@@ -277,3 +277,10 @@ def test_a_damaged_mat_is_read_whole_or_refused_by_name(tmp_path):
             assert any("frame" in note.lower() for note in mat.notes)
     assert all("mat.csv" in text and "\n" not in text for text in refused)
     assert min(read, len(refused)) > 20
+
+
+def test_a_table_whose_logger_counts_rows_and_columns_is_no_mat(tmp_path):
+    rows = "".join(f"{0.01 * k:.2f},{9.8 + 0.01 * (k % 7):.2f}\n" for k in range(50))
+    assert not is_mat(written(tmp_path / "a.csv", f"Rows: 50\nColumns: 2\ntime [s],z [m/s^2]\n{rows}"))
+    assert not is_mat(tmp_path)
+    assert not is_mat(tmp_path / "none.csv")

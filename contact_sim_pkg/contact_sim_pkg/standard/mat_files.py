@@ -18,6 +18,7 @@ from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.recorded_csv import fields_of, line_blocks
 from contact_sim_pkg.excitation.table_words import factor_of, is_number, number, seconds_of_text, si_unit
 from contact_sim_pkg.files import open_regular_file
+from contact_sim_pkg.memory import refuse_above_limit
 
 __all__ = ["PRESSURE_UNITS", "MatRecording", "is_mat", "read_mat"]
 
@@ -25,6 +26,8 @@ PRESSURE_UNITS = ("Pa", "kPa", "mmHg", "psi", "N/cm^2")
 """that an option may state"""
 HEAD = 1 << 14
 """[bytes] of a file in which rows and columns stand"""
+BYTES_OF_A_CELL = 20
+"""as read, all together, and in [Pa]"""
 MOST_CELLS = 1 << 20
 KEYS = {
     "rows": ("rows",), "cols": ("cols", "columns"), "frame": ("frame",), "time": ("time",), "sensor": ("sensor",),
@@ -35,6 +38,8 @@ KEYS = {
 }  # fmt: skip
 """What is taken of a file, by the makers' words."""
 MEANT = {word: key for key, words in KEYS.items() for word in words}
+OF_A_MAT = ("frame", "unit", "row_pitch", "pitch")
+"""beside rows and columns"""
 NOT_OF_THE_SENSOR = ("B", "b")
 """of a cell: Tekscan"""
 RAW = ("raw", "counts", "raw counts", "count", "digital", "adc", "")
@@ -67,14 +72,17 @@ class _Key(NamedTuple):
 
 
 def is_mat(path: Path) -> bool:
-    """Whether a file is the text export of a mat: its head states rows and columns, each on a line of its own."""
+    """Whether a file is the text export of a mat: its head states rows and columns, and frames, a unit or a pitch, each on a line
+    of its own.
+    """
     try:
         with open_regular_file(path) as file:
             head = file.read(HEAD).replace(b"\0", b"").decode("latin-1")
     except OSError:
         return False
-    found = {key.name for line in head.splitlines() if (key := _key(line)).value.isdigit()}
-    return {"rows", "cols"} <= found
+    keys = [_key(line) for line in head.splitlines()]
+    sizes = {key.name for key in keys if key.value.isdigit()}
+    return {"rows", "cols"} <= sizes and any(key.name in OF_A_MAT for key in keys)
 
 
 def read_mat(
@@ -209,6 +217,9 @@ class _Reading:
             self.numbers.append(self._number())
             self.clock.append(self._time)
             self._frames.append(numpy.array(self._rows))
+            refuse_above_limit(
+                BYTES_OF_A_CELL * rows * cols * len(self._frames), f"{self.path}: its first {len(self._frames)} frames"
+            )
             self._rows, self._named, self._time = [], None, None
 
     def _cell(self, line: int, field: str) -> float:
