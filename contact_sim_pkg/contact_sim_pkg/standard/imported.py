@@ -24,7 +24,6 @@ from contact_sim_pkg.excitation.recorded_csv import TIME_NAMES, RecordedTable
 from contact_sim_pkg.excitation.table_files import read_recording
 from contact_sim_pkg.excitation.table_words import UNITS, bare_name
 from contact_sim_pkg.records.messages import Series
-from contact_sim_pkg.standard.imported_mats import import_mat
 from contact_sim_pkg.standard.mat_files import PRESSURE_UNITS, is_mat
 from contact_sim_pkg.standard.messages import Quaternion, definition, encoded, header, type_hash, vector
 from contact_sim_pkg.standard.motion import NOT_GIVEN
@@ -85,6 +84,8 @@ def import_recording(source: Path, target: Path, choice: ImportChoice = ImportCh
     mat = is_mat(source)
     _refuse_unused(source, choice, mat)
     if mat:
+        from contact_sim_pkg.standard.imported_mats import import_mat  # computes boundaries by a compiled kernel
+
         return import_mat(source, target, **{name: getattr(choice, name) for name in OF_MATS})
     try:
         table = read_recording(source, choice.header_line)

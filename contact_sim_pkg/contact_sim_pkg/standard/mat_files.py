@@ -6,7 +6,7 @@ Both are lines of a key and its value, once or before each frame, and a line of 
 from __future__ import annotations
 
 import re
-from math import isfinite
+from math import inf, isfinite, isnan
 from pathlib import Path
 from typing import NamedTuple
 
@@ -212,7 +212,7 @@ class _Reading:
             fields.pop()
         if len(fields) != cols:
             raise BagError(f"{self.path}, line {line}: {len(fields)} cells in a row, {cols} columns are stated")
-        self._rows.append([self._cell(line, field) for field in fields])
+        self._rows.append(_plain(text, fields) or [self._cell(line, field) for field in fields])
         if len(self._rows) == rows:
             self.numbers.append(self._number())
             self.clock.append(self._time)
@@ -275,6 +275,15 @@ class _Reading:
         if gaps:
             found.append(f"Frames are missing at {gaps} places.")
         return found
+
+
+def _plain(text: str, fields: list[str]) -> list[float]:
+    """Cells of a row of plain numbers; none where one of them needs a closer look."""
+    try:
+        values = [float(field) for field in fields] if "_" not in text else []
+    except ValueError:
+        return []
+    return values if values and min(values) >= 0.0 and max(values) < inf and not any(map(isnan, values)) else []
 
 
 def _factor(path: Path, key: _Key | None, unit: str | None) -> tuple[float, str]:

@@ -75,6 +75,9 @@ def test_what_cannot_lie_on_each_other_is_refused(tmp_path, capsys):
     assert main(["compare", str(run), str(run), "--plot", str(tmp_path / "a.png")]) == 2
     assert "--plot draws the maps of a mat and a run" in capsys.readouterr().err
     assert not (tmp_path / "a.png").exists()
+    (tmp_path / "bare.csv").write_text(mat.read_text().replace("UNITS Pa\n", ""))
+    assert main(["compare", str(tmp_path / "bare.csv"), str(run)]) == 2
+    assert "state it by --unit Pa|kPa|mmHg|psi|N/cm^2 (options of `bench import`" in capsys.readouterr().err
     turned = mat_file(tmp_path / "turned.csv", grid(0.01, 48, 48, math.pi))
     assert main(["compare", str(turned), str(run)]) == 0
     assert "`bench import --front` turns it" in capsys.readouterr().out

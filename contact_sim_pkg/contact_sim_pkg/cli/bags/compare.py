@@ -122,13 +122,17 @@ def _runs(
 
 def _bag_of(path: Path, kept: ExitStack) -> Path:
     """The bag of a mat's file, made for the time of the command; any other path as it is."""
+    from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.standard.imported_mats import import_mat
     from contact_sim_pkg.standard.mat_files import is_mat
 
     if not is_mat(path):
         return path
     folder = Path(kept.enter_context(TemporaryDirectory())) / path.stem
-    _, notes = import_mat(path, folder)
+    try:
+        _, notes = import_mat(path, folder)
+    except BagError as error:
+        raise BagError(f"{error} (options of `bench import`, whose bag is taken too)") from None
     for note in notes:
         say(f"{path.name}: {note}", err=True)
     return folder
