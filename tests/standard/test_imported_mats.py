@@ -160,13 +160,17 @@ def test_what_the_cells_hold_beside_pressures_is_said(tmp_path):
         tekscan(head="SATURATION_PRESSURE 23.9 kPa").replace("\n0.0000,", "\nB,", 2).replace("\n0.0000,", "\n-0.1,", 2)
     )
     text = text.replace("Frame 3", "Frame 5").replace("END_FRAME 3", "END_FRAME 9").replace("161.29", "100.0")
-    notes = " ".join(read_mat(written(tmp_path / "mat.csv", text)).notes)
+    source = written(tmp_path / "mat.csv", text)
+    notes = " ".join(read_mat(source).notes)
     assert "none of the sensor (B): taken as unloaded" in notes
     assert "2 values lie below 0" in notes
     assert "announces frames up to 9, the last one is 5" in notes
     assert "missing at 1 places" in notes
     assert "1 values are saturated (23.9 kPa): load and peak are larger" in notes
     assert "A cell has 100.0 mm2, its pitch says 161.3 mm²" in notes
+    import_mat(source, tmp_path / "bag")
+    for metric in metrics_of_bags([tmp_path / "bag"]).metrics:
+        assert [text[:6] for text in metric.broken] == ["A cell", "1 valu"], metric.key
 
 
 REFUSED = {

@@ -59,6 +59,8 @@ class MatRecording(NamedTuple):
     col_pitch: float
     notes: tuple[str, ...]
     """what was found and assumed, a sentence each"""
+    doubts: tuple[str, ...]
+    """those of them that make load or peak doubtful"""
 
 
 class _Key(NamedTuple):
@@ -114,13 +116,14 @@ def read_mat(
         _pitch(path, reading.values.get(key) or reading.values.get("pitch"), pitch, key)
         for key in ("row_pitch", "col_pitch")
     )
-    notes += _doubts(reading.values, frames, by_rows * by_cols)
+    doubts = _doubts(reading.values, frames, by_rows * by_cols)
+    notes += doubts
     times, by = _times(path, reading, rate)
     count, rows, cols = frames.shape
     notes.append(
         f"{count} frames of {rows} by {cols} cells of {1e3 * by_rows:.4g} by {1e3 * by_cols:.4g} mm, {said}{by}."
     )
-    return MatRecording(times, (frames * factor).astype(numpy.float32), by_rows, by_cols, tuple(notes))
+    return MatRecording(times, (frames * factor).astype(numpy.float32), by_rows, by_cols, tuple(notes), tuple(doubts))
 
 
 def _key(text: str) -> _Key:

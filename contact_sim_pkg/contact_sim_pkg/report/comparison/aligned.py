@@ -13,7 +13,8 @@ from scipy.signal import fftconvolve
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.records.metric import Metric
-from contact_sim_pkg.report.metrics.mat import centre, mat_metrics
+from contact_sim_pkg.report.metrics.listing import of_field
+from contact_sim_pkg.report.metrics.mat import centre
 from contact_sim_pkg.report.series import FloatArray, PressureMap, Recording
 
 __all__ = ["Alignment", "MapPair", "align", "compare_maps", "is_mat", "laid_over"]
@@ -154,9 +155,7 @@ def compare_maps(names: Sequence[str], recordings: Sequence[Recording], loaded: 
                 "one, or say what the mat lies on by `bench import --contact`"
             )
     whole = [field for field in fields if field is not None]
-    metrics = [
-        mat_metrics(contact, field, each.duration, loaded) for field, each in zip(whole, recordings, strict=True)
-    ]
+    metrics = [of_field(each, contact, loaded) for each in recordings]
     fixed, other = whole[1 - moved].average, whole[moved].average
     alignment = align(fixed, other)
     maps = [fixed, fixed]

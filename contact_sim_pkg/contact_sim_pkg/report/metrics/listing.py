@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import zip_longest
 
+from contact_sim_pkg.bag.metadata import DOUBTS
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.metrics.maker import Maker
@@ -12,7 +13,7 @@ from contact_sim_pkg.report.rig_reports import reports_of
 from contact_sim_pkg.report.series import ContactSeries, Recording
 from contact_sim_pkg.report.signal.confidence import spread_of_mean
 
-__all__ = ["MOST", "all_metrics", "metrics_of"]
+__all__ = ["MOST", "all_metrics", "metrics_of", "of_field"]
 
 MOST = 14
 """Metrics in the list of a run."""
@@ -33,8 +34,15 @@ def metrics_of(recording: Recording) -> list[Metric]:
 
 def all_metrics(recording: Recording, loaded: float = LOADED) -> list[Metric]:
     """The whole lists of all contacts, and the mat metrics of each pressure map, of cells above ``loaded`` [Pa]."""
-    mats = [mat_metrics(name, field, recording.duration, loaded) for name, field in recording.fields.items()]
+    mats = [of_field(recording, name, loaded) for name in recording.fields]
     return [metric for each in _named([*_lists(recording), *mats]) for metric in each]
+
+
+def of_field(recording: Recording, contact: str, loaded: float) -> list[Metric]:
+    """The mat metrics of the field of a contact, marked with what is doubtful about a mat that was imported."""
+    doubts = tuple(filter(None, recording.metadata.get(DOUBTS, "").splitlines()))
+    metrics = mat_metrics(contact, recording.fields[contact], recording.duration, loaded)
+    return [each._replace(broken=doubts) for each in metrics]
 
 
 def _named(lists: list[list[Metric]]) -> list[list[Metric]]:
