@@ -9,10 +9,12 @@ from contact_sim_pkg.bag.names import new_directory
 from contact_sim_pkg.cli.main import COMMANDS, LABORATORY, bench, main
 
 IMPACTS = "m,R,V0,tau,k\n0.02,0.01,1,0.001,0.5\n0.02,0.01,1,0.001,0.51\n"
+MAT = "ROWS 1\nCOLS 2\nROW_SPACING 10 mm\nCOL_SPACING 10 mm\nUNITS kPa\nFrame 1\n1,2\n"
 OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("material", "table"): ["IMPACTS", "--csv", "FILE"],
     ("material", "plot"): ["IMPACTS", "--plot", "FILE"],
     ("identify", "plot"): ["BAG", "--box", "1", "1", "1", "--plot", "FILE"],
+    ("compare", "plot"): ["MAT", "MAT", "--plot", "FILE"],
     ("accuracy", "plot"): ["seat_ride", "--plot", "FILE"],
     ("effects", "write"): ["seat_ride", "--write", "FILE"],
     ("validation", "page"): ["--page", "FILE"],
@@ -36,7 +38,14 @@ def bag(tmp_path_factory):
 def call(bag, folder, arguments, file):
     (folder / "impacts.csv").write_text(IMPACTS)
     (folder / "ride.csv").write_text("z\n" + "9.8\n9.9\n" * 8)
-    known_names = {"FILE": file, "RIDE": folder / "ride.csv", "BAG": bag.path.parent, "IMPACTS": folder / "impacts.csv"}
+    (folder / "mat.csv").write_text(MAT)
+    known_names = {
+        "FILE": file,
+        "MAT": folder / "mat.csv",
+        "RIDE": folder / "ride.csv",
+        "BAG": bag.path.parent,
+        "IMPACTS": folder / "impacts.csv",
+    }
     return main([str(known_names.get(argument, argument)) for argument in arguments])
 
 
@@ -80,7 +89,7 @@ def test_a_name_that_no_file_can_have_is_refused_before_anything_starts(bag, tmp
     assert said.splitlines()[-1].startswith("bench: ")  # a note on the bag may stand in front
     assert said.endswith(f"{reason}{' name' if 'another' in reason else ''}\n")
     assert "\x1b" not in said
-    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["impacts.csv", "ride.csv"]
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["impacts.csv", "mat.csv", "ride.csv"]
 
 
 def test_room_is_kept_for_the_file_in_the_directory_of_a_bag(tmp_path):

@@ -99,8 +99,8 @@ REPORT = (
     # Maps
     Mutant(
         "metrics/mat.mat_metrics",
-        '"centre of pressure, forward", 1e3 * centre_x',
-        '"centre of pressure, forward", 1e3 * centre_y',
+        '"centre of pressure, forward", round(1e3 * centre_x',
+        '"centre of pressure, forward", round(1e3 * centre_y',
         MAT,
     ),
     # Tire

@@ -28,7 +28,7 @@ from contact_sim_pkg.excitation.table_words import (
 )
 from contact_sim_pkg.files import open_regular_file
 
-__all__ = ["STANDARD_GRAVITY", "UNITS", "RecordedTable", "memory_of_text", "read_table"]
+__all__ = ["STANDARD_GRAVITY", "UNITS", "RecordedTable", "fields_of", "line_blocks", "memory_of_text", "read_table"]
 
 LARGEST_FILE = 1 << 28  # [bytes]
 TIME_NAMES = ("time", "t", "time_s", "time_ms", "time_us", "time_ns", "timestamp", "zeit")
@@ -131,7 +131,7 @@ def read_table(path: Path, header_line: int | None = None) -> RecordedTable:
             MiB.
     """
     notes: list[str] = []
-    blocks = _line_blocks(path, notes)
+    blocks = line_blocks(path, notes)
     comments: list[str] = []
     head: list[tuple[int, str]] = []
     # Comments, and words before a stated header
@@ -175,7 +175,7 @@ def memory_of_text(path: Path) -> int:
     """
     rows = fields = 0
     try:
-        for block in _line_blocks(path, [], text=False):
+        for block in line_blocks(path, [], text=False):
             rows += block.count(b"\n") + 1
             if not fields:
                 head = next(
@@ -188,7 +188,7 @@ def memory_of_text(path: Path) -> int:
     return rows * (8 * (fields + 1) + BYTES_PER_TREATED_ROW) + 4 * BLOCK
 
 
-def _line_blocks(path: Path, notes: list[str], *, text: bool = True) -> Iterator[Any]:
+def line_blocks(path: Path, notes: list[str], *, text: bool = True) -> Iterator[Any]:
     """Whole lines, numbered and stripped, those that are empty left out; or as they are, in
     bytes. ``notes`` takes what was assumed of the encoding.
     """

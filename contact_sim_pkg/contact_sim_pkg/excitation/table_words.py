@@ -26,7 +26,10 @@ _GROUPS: dict[str, dict[str, float]] = {
     "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0},
     "m": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254},
     "N": {"n": 1.0, "kn": 1e3, "lbf": 4.4482216152605},
-    "Pa": {"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "bar": 1e5, "psi": 6894.757293168},
+    "Pa": {
+        "pa": 1.0, "kpa": 1e3, "mpa": 1e6, "bar": 1e5, "psi": 6894.757293168, "mmhg": 133.322387415, "n/cm^2": 1e4,
+        "n/mm^2": 1e6, "n/m^2": 1.0, "kg/cm^2": 98066.5, "g/cm^2": 98.0665,
+    },
     "m/s": {"m/s": 1.0, "km/h": 1.0 / 3.6, "mm/s": 1e-3},
     "rad/s": {"rad/s": 1.0, "deg/s": 0.017453292519943295},
     "K": {"k": 1.0},
@@ -39,7 +42,9 @@ _SPELLINGS = {
     "sec": "s", "secs": "s", "second": "s", "seconds": "s", "sek": "s", "msec": "ms", "millisecond": "ms",
     "milliseconds": "ms", "usec": "us", "microseconds": "us", "nsec": "ns", "nanoseconds": "ns", "minutes": "min",
     "gn": "g", "g_n": "g", "g0": "g", "gs": "g", "milli-g": "mg", "m/s/s": "m/s^2", "mps2": "m/s^2", "meter": "m", "newton": "n",
-    "°/s": "deg/s", "dps": "deg/s", "lb": "lbf",
+    "°/s": "deg/s", "dps": "deg/s", "lb": "lbf", "n/cm2": "n/cm^2", "n/mm2": "n/mm^2", "n/m2": "n/m^2",
+    "kg/cm2": "kg/cm^2", "kgf/cm^2": "kg/cm^2", "kgf/cm2": "kg/cm^2", "g/cm2": "g/cm^2", "millimeters": "mm", "centimeters": "cm",
+    "inch": "in", "inches": "in", "lb/in^2": "psi", "lb/in2": "psi",
 }  # fmt: skip
 _UNIT = re.compile(r'"?\s*(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\))\s*"?')
 _SUFFIX = re.compile(r"(.+)_(s|ms|us|ns)")

@@ -1,4 +1,4 @@
-"""A recording of a data logger as a bag: accelerations as `Imu`, all else as `Series`, with where they came from."""
+"""A recording as a bag, with where it came from: accelerations as `Imu`, a pressure mat as `ContactPatch`, all else as `Series`."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from contact_sim_pkg.excitation.recorded_csv import TIME_NAMES, RecordedTable
 from contact_sim_pkg.excitation.table_files import read_recording
 from contact_sim_pkg.excitation.table_words import UNITS, bare_name
 from contact_sim_pkg.records.messages import Series
+from contact_sim_pkg.standard.mat_files import PRESSURE_UNITS, is_mat
 from contact_sim_pkg.standard.messages import Quaternion, definition, encoded, header, type_hash, vector
 from contact_sim_pkg.standard.motion import NOT_GIVEN
 
@@ -55,10 +56,20 @@ class ImportChoice(NamedTuple):
     axes: Mapping[str, str] = {}
     """`x`, `y`, `z` -> column of the acceleration, with a minus sign where it points the other way; else by usual names"""
     unit: str | None = None
-    """of accelerations whose unit the file does not state: m/s^2, g, mg"""
+    """of accelerations, or of a mat's pressures, whose unit the file does not state"""
     scale: float | None = None
     """[m/s^2] of full scale, of a `.wav`"""
     frame: str = "sensor"
+    pitch: float | None = None
+    """[m] from cell to cell of a mat whose file does not state it"""
+    front: str | None = None
+    """side of a mat's map that points forward, one of `FRONTS`; None: as usual on its contact"""
+    contact: str = "seat"
+    """that a mat lies on"""
+
+
+OF_MATS = ("rate", "unit", "pitch", "front", "contact")
+ONLY_OF_MATS = ("pitch", "front", "contact")
 
 
 def import_recording(source: Path, target: Path, choice: ImportChoice = ImportChoice()) -> tuple[BagSummary, list[str]]:  # noqa: B008
@@ -70,6 +81,12 @@ def import_recording(source: Path, target: Path, choice: ImportChoice = ImportCh
     Raises:
         BagError: the recording cannot be used, its rate or unit is not known, or the bag exists.
     """
+    mat = is_mat(source)
+    _refuse_unused(source, choice, mat)
+    if mat:
+        from contact_sim_pkg.standard.imported_mats import import_mat  # computes boundaries by a compiled kernel
+
+        return import_mat(source, target, **{name: getattr(choice, name) for name in OF_MATS})
     try:
         table = read_recording(source, choice.header_line)
         time, said = table.time(choice.time, choice.time_unit)
@@ -95,6 +112,18 @@ def import_recording(source: Path, target: Path, choice: ImportChoice = ImportCh
         for stamp, topic, data in _messages(axes, rest, stamps, table.units, choice.frame):
             writer.write(topic, stamp, data)
         return writer.close(), notes
+
+
+def _refuse_unused(source: Path, choice: ImportChoice, mat: bool) -> None:
+    """Raises BagError for an option that says nothing about a file of this kind."""
+    usual = ImportChoice()
+    given = [name for name in ImportChoice._fields if getattr(choice, name) != getattr(usual, name)]
+    unused = [name for name in given if (name not in OF_MATS if mat else name in ONLY_OF_MATS)]
+    kind = "a pressure mat" if mat else "no pressure mat"
+    if unused:
+        raise BagError(f"{source} is {kind}: --{unused[0].replace('_', '-')} does not apply to it; leave it out")
+    if choice.unit is not None and (choice.unit in PRESSURE_UNITS) != mat:
+        raise BagError(f"{source} is {kind}: --unit {choice.unit} is no unit of what it holds; state another or none")
 
 
 def _times(table: RecordedTable, time: Array | None, rate: float | None) -> tuple[Array, list[str]]:

@@ -80,6 +80,7 @@ def test_each_number_of_an_uneven_map_is_its_own_with_its_unit():
     middle = ndimage.center_of_mass(UNEVEN)
     steep = max(abs(np.diff(UNEVEN, axis=0)).max() / 0.01, abs(np.diff(UNEVEN, axis=1)).max() / 0.02)
     expected = {
+        "map_load": (2e-4 * loaded.sum(), "N"), "map_area": (2.0 * loaded.size, "cm²"),
         "map_mean": (1e-3 * loaded.mean(), "kPa"), "map_peak": (1e-3 * loaded.max(), "kPa"),
         "map_gradient": (1e-3 * steep / 100.0, "kPa/cm"), "map_spd": (25.0 * (loaded.std() / loaded.mean()) ** 2, "%"),
         "centre_x": (1e3 * (-0.05 + 0.01 * middle[0]), "mm"), "centre_y": (1e3 * (-0.03 + 0.02 * middle[1]), "mm"),

@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from contact_sim_pkg.cli.output.say import say
-from contact_sim_pkg.cli.output.tables import print_json, show_rows
+from contact_sim_pkg.cli.output.tables import overwrite_option, print_json, show_rows
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.bag.reader import Bag
+    from contact_sim_pkg.compare.side_by_side import Compared
+    from contact_sim_pkg.report.comparison.aligned import MapPair
 
 
 @click.command("compare")
@@ -19,43 +29,136 @@ from contact_sim_pkg.cli.output.tables import print_json, show_rows
 @click.option("--json", "form", flag_value="json", help="One JSON object on standard output.")
 @click.option("--csv", "form", flag_value="csv", help="A row a metric.")
 @click.option("--junit", "form", flag_value="junit", help="JUnit XML: a test case a tolerance.")
+@click.option(
+    "--plot", type=click.Path(path_type=Path), metavar="FILE", help="Of a mat and a run: their maps and the difference."
+)
+@click.option(
+    "--loaded",
+    type=click.FloatRange(min=0.0),
+    default=1.0,
+    show_default=True,
+    metavar="PA",
+    help="Of a mat and a run: pressure above which a cell counts.",
+)
+@overwrite_option
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
-def command(bags: tuple[Path, ...], tolerances: Path | None, form: str | None, skip_bad: bool) -> int:
+def command(
+    bags: tuple[Path, ...],
+    tolerances: Path | None,
+    form: str | None,
+    plot: Path | None,
+    loaded: float,
+    overwrite: bool,
+    skip_bad: bool,
+) -> int:
     """Print the metrics of bags of one rig side by side, what moved most first.
 
-    `bench report A B` draws the page. With tolerances a bag is a regression test of another.
+    `bench report A B` draws the page. With tolerances a bag is a regression test of another. A pressure mat (its
+    file, or the bag of `bench import`) and a run are laid over each other by shift and turn, which are printed.
     """
     from contact_sim_pkg.bag.errors import BagError
-    from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.compare.side_by_side import misses, read_tolerances, side_by_side
-    from contact_sim_pkg.report.comparison.curves import compared
     from contact_sim_pkg.report.comparison.rows import csv_text, junit_text_of, rows_of, table_rows
-    from contact_sim_pkg.report.comparison.runs import distinct_names
-    from contact_sim_pkg.report.metrics.of_bag import recording_of
-    from contact_sim_pkg.report.reading import refuse_other_rigs, rig_of_bag
+    from contact_sim_pkg.report.drawing import check_picture
 
     if form == "junit" and tolerances is None:
         raise click.UsageError("--junit needs --tolerances FILE: a test case is a tolerance.")
+    if plot is not None:
+        check_picture(plot, bags, overwrite=overwrite)
     wanted = [] if tolerances is None else read_tolerances(tolerances)
-    opened = [open_bag(each, skip_bad=skip_bad) for each in bags]
-    refuse_other_rigs([rig_of_bag(bag) for bag in opened])
-    recordings = [recording_of(bag) for bag in opened]
-    runs = [compared(name, each) for name, each in zip(distinct_names(recordings), recordings, strict=True)]
+    runs, pair = _runs(bags, loaded, skip_bad=skip_bad, drawn=plot is not None)
     names, sides, missed = [each.name for each in runs], side_by_side(runs), misses(runs, wanted)
     if not sides:
         raise BagError(f"{', '.join(names)} have no metrics: there is nothing to compare")
     failed = [miss for _, found in missed for miss in found]
     if form == "json":
-        print_json({"bags": [str(each) for each in bags], "metrics": rows_of(names, sides),
+        print_json({"bags": [str(each) for each in bags], "metrics": rows_of(names, sides), **_alignment(pair),
                     "misses": [miss._asdict() for miss in failed]})  # fmt: skip
     elif form == "csv":
         say(csv_text(names, sides), nl=False)
     elif form == "junit":
         say(junit_text_of(names, missed), nl=False)
     else:
+        for sentence in [] if pair is None else pair.sentences:
+            say(sentence)
         show_rows(table_rows(names, sides), as_json=False)
         for miss in failed:
             say(f"MISSED {miss.run}: {miss.sentence}")
         if wanted and not failed:
             say(f"all {len(wanted)} tolerances hold")
+    if pair is not None and plot is not None:
+        _draw(pair, plot, overwrite=overwrite)
     return 1 if failed else 0
+
+
+def _runs(
+    paths: Sequence[Path], loaded: float, *, skip_bad: bool, drawn: bool
+) -> tuple[list[Compared], MapPair | None]:
+    """The bags as they are compared; of a mat and a run their maps on each other."""
+    from contact_sim_pkg.bag.reader import open_bag
+    from contact_sim_pkg.compare.side_by_side import Compared
+    from contact_sim_pkg.report.comparison.aligned import compare_maps
+    from contact_sim_pkg.report.comparison.curves import compared
+    from contact_sim_pkg.report.comparison.runs import distinct_names
+    from contact_sim_pkg.report.metrics.of_bag import recording_of
+    from contact_sim_pkg.report.reading import refuse_other_rigs, rig_of_bag
+
+    with ExitStack() as kept:
+        opened = [open_bag(_bag_of(each, kept), skip_bad=skip_bad) for each in paths]
+        mats = any(_holds_only_fields(bag) for bag in opened)
+        if drawn and not mats:
+            raise click.UsageError(
+                "--plot draws the maps of a mat and a run; `bench report A B` draws the page of two runs."
+            )
+        if not mats:
+            refuse_other_rigs([rig_of_bag(bag) for bag in opened])
+        recordings = [recording_of(bag) for bag in opened]
+    names = distinct_names(recordings)
+    if not mats:
+        return [compared(name, each) for name, each in zip(names, recordings, strict=True)], None
+    pair = compare_maps(names, recordings, loaded)
+    return [Compared(name, each, {}) for name, each in zip(names, pair.metrics, strict=True)], pair
+
+
+def _bag_of(path: Path, kept: ExitStack) -> Path:
+    """The bag of a mat's file, made for the time of the command; any other path as it is."""
+    from contact_sim_pkg.bag.errors import BagError
+    from contact_sim_pkg.standard.imported_mats import import_mat
+    from contact_sim_pkg.standard.mat_files import is_mat
+
+    if not is_mat(path):
+        return path
+    folder = Path(kept.enter_context(TemporaryDirectory())) / path.stem
+    try:
+        _, notes = import_mat(path, folder)
+    except BagError as error:
+        raise BagError(f"{error} (options of `bench import`, whose bag is taken too)") from None
+    for note in notes:
+        say(f"{path.name}: {note}", err=True)
+    return folder
+
+
+def _holds_only_fields(bag: Bag) -> bool:
+    """Whether a bag is of a mat, before a message is read."""
+    from contact_sim_pkg.report.reading import PATCH, SERIES_TYPES
+
+    types = {row.type for row in bag.topics.values()}
+    return PATCH in types and not types & set(SERIES_TYPES)
+
+
+def _alignment(pair: MapPair | None) -> dict[str, Any]:
+    if pair is None:
+        return {}
+    by = pair.alignment
+    found = {"turn_deg": math.degrees(by.turn), "forward_mm": 1e3 * by.shift_x, "left_mm": 1e3 * by.shift_y,
+             "correlation": by.correlation, "moved": pair.names[pair.moved], "notes": "; ".join(pair.sentences[1:])}  # fmt: skip
+    return {"alignment": found}
+
+
+def _draw(pair: MapPair, path: Path, *, overwrite: bool) -> None:
+    from contact_sim_pkg.report.comparison.maps import figure_of_maps
+    from contact_sim_pkg.report.drawing import save_picture, style
+
+    with style():
+        figure, _ = figure_of_maps(pair.names, pair.maps, pair.difference)
+        save_picture(figure, path, overwrite=overwrite, dpi=150, facecolor="white")

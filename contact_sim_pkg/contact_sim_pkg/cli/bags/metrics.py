@@ -22,6 +22,12 @@ from contact_sim_pkg.cli.output.tables import print_json
     "--all", "whole", is_flag=True, help="Whole lists of all contacts, and the pressure mats with their zones."
 )
 @click.option(
+    "--loaded",
+    type=click.FloatRange(min=0.0),
+    metavar="PA",
+    help="Pressure above which a cell of a mat counts; with --all.  [default: 1]",
+)
+@click.option(
     "--axis", metavar="x|y|z|Wk|Wd|...", help="Of a bag without our topics: axis, or weighting, or both as y:Wd."
 )
 @click.option("--topic", metavar="NAME", help="Of a bag without our topics: the one to weight.")
@@ -38,6 +44,7 @@ def command(
     bags: tuple[Path, ...],
     form: str | None,
     whole: bool,
+    loaded: float | None,
     axis: str | None,
     topic: str | None,
     unit: str | None,
@@ -55,7 +62,7 @@ def command(
 
     given = ForeignOptions(axis, topic, unit, up)
     for_foreign = None if given == ForeignOptions() else given
-    found = metrics_of_bags(bags, whole=whole, chosen=for_foreign, skip_bad=skip_bad)
+    found = metrics_of_bags(bags, whole=whole, loaded=loaded, chosen=for_foreign, skip_bad=skip_bad)
     _notes(found.notes)
     rows = rows_of(found.metrics)
     if form == "json":

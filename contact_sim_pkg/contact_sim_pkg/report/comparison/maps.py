@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
 
 from contact_sim_pkg.report.comparison.figures import Run
 from contact_sim_pkg.report.drawing import MULTIPLES, PRESSURE_COLOURS, Picture, new_figure, picture
@@ -24,36 +27,47 @@ def map_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
     maps = [each.average for each in fields if each is not None]
     if len(maps) < len(fields) or not all((each.pressure > 0.0).any() for each in maps):
         return None
+    difference = on_grid(maps[1], maps[0]) - maps[0].pressure if len(runs) == 2 else None
+    figure, text = figure_of_maps([run.label for run in runs], maps, difference)
+    caption = f"Mean pressure of the {name} over each run, one scale.{text} {FROM_ABOVE.seen}"
+    return picture(f"{key}-maps", figure, f"Mean pressure maps of the {name} in every run", caption)
+
+
+def figure_of_maps(
+    labels: Sequence[str], maps: Sequence[PressureMap], difference: FloatArray | None
+) -> tuple[Figure, str]:
+    """Maps in a row on one scale, and a ``difference`` of the second one from the first [Pa], on the cells of the first;
+    with a sentence on it. Call inside `style()`.
+    """
     windows = [loaded_window(each) for each in maps]
     window = Window(
         *(choose(values) for choose, values in zip((min, max, min, max), zip(*windows, strict=True), strict=False))
     )
     shown = [each.pressure * 1e-3 for each in maps]
     top = max(float(each.max()) for each in shown)
-    pair = len(runs) == 2
+    pair = difference is not None
     width = (7.4 - 1.5) / (len(maps) + pair)
     height = float(np.clip(window.aspect * width, 1.0, 4.5)) + 1.1
     figure, axes = new_figure(height, 1, len(maps) + pair, ROOM, sharex=True, sharey=True)
     limits = Normalize(0.0, top)
-    for place, run, grid, values in zip(axes, runs, maps, shown, strict=False):
+    for place, label, grid, values in zip(axes, labels, maps, shown, strict=False):
         draw_map(place, grid, np.where(values > 0.0, values, np.nan), PRESSURE_COLOURS, limits)
-        place.set_title(run.label, fontsize=8.5)
+        place.set_title(label, fontsize=8.5)
         set_window(place, window)
     text = ""
-    if pair:
-        difference = on_grid(maps[1], maps[0]) * 1e-3 - shown[0]
+    if difference is not None:
+        kilo = difference * 1e-3
         signed = Normalize(-top, top)
-        draw_map(axes[-1], maps[0], np.where(difference != 0.0, difference, np.nan), DIFFERENCE_COLOURS, signed)
+        draw_map(axes[-1], maps[0], np.where(kilo != 0.0, kilo, np.nan), DIFFERENCE_COLOURS, signed)
         axes[-1].set_title("B − A", fontsize=8.5)
         set_window(axes[-1], window)
         figure.colorbar(ScalarMappable(signed, DIFFERENCE_COLOURS), cax=axes[-1].inset_axes((1.06, 0.0, 0.06, 0.47)))
-        text = f" B − A from {difference.min():.3g} to {difference.max():.3g} kPa, red where B presses more."
+        text = f" B − A from {kilo.min():.3g} to {kilo.max():.3g} kPa, red where B presses more."
     bar = axes[-1].inset_axes((1.06, 0.53 if pair else 0.0, 0.06, 0.47 if pair else 1.0))
     figure.colorbar(ScalarMappable(limits, PRESSURE_COLOURS), cax=bar, label="kPa")
     figure.supxlabel("← left, y, mm", fontsize=9)
     axes[0].set_ylabel("forward, x, mm →")
-    caption = f"Mean pressure of the {name} over each run, one scale.{text} {FROM_ABOVE.seen}"
-    return picture(f"{key}-maps", figure, f"Mean pressure maps of the {name} in every run", caption)
+    return figure, text
 
 
 def on_grid(source: PressureMap, target: PressureMap) -> FloatArray:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from itertools import zip_longest
 
+from contact_sim_pkg.bag.metadata import DOUBTS
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.metrics.maker import ENERGY, Maker, energy_residual
-from contact_sim_pkg.report.metrics.mat import mat_metrics
+from contact_sim_pkg.report.metrics.mat import LOADED, mat_metrics
 from contact_sim_pkg.report.rig_reports import reports_of
 from contact_sim_pkg.report.series import ContactSeries, Recording
 from contact_sim_pkg.report.signal.confidence import spread_of_mean
 
-__all__ = ["MOST", "all_metrics", "metrics_of"]
+__all__ = ["MOST", "all_metrics", "metrics_of", "of_field"]
 
 MOST = 14
 """Metrics in the list of a run."""
@@ -20,8 +21,10 @@ MOST = 14
 
 def metrics_of(recording: Recording) -> list[Metric]:
     """The list of a run, the most important first; where several contacts share it, the first ones of
-    each in turn.
+    each in turn. Of fields alone, as of a mat, their whole lists.
     """
+    if not recording.contacts and recording.motion is None:
+        return all_metrics(recording)
     lists = _named(_lists(recording))
     if sum(map(len, lists)) <= MOST:
         return [metric for each in lists for metric in each]
@@ -29,13 +32,17 @@ def metrics_of(recording: Recording) -> list[Metric]:
     return [metric for each in lists for metric in each if metric in chosen]
 
 
-def all_metrics(recording: Recording) -> list[Metric]:
-    """The whole lists of all contacts, and the mat metrics of each pressure map."""
-    mats = [
-        [_doubted(metric, recording) for metric in mat_metrics(name, field, recording.duration)]
-        for name, field in recording.fields.items()
-    ]
+def all_metrics(recording: Recording, loaded: float = LOADED) -> list[Metric]:
+    """The whole lists of all contacts, and the mat metrics of each pressure map, of cells above ``loaded`` [Pa]."""
+    mats = [of_field(recording, name, loaded) for name in recording.fields]
     return [metric for each in _named([*_lists(recording), *mats]) for metric in each]
+
+
+def of_field(recording: Recording, contact: str, loaded: float) -> list[Metric]:
+    """The mat metrics of the field of a contact, marked with what is doubtful about a mat that was imported."""
+    doubts = tuple(filter(None, recording.metadata.get(DOUBTS, "").splitlines()))
+    metrics = mat_metrics(contact, recording.fields[contact], recording.duration, loaded)
+    return [_doubted(each._replace(broken=(*each.broken, *doubts)), recording) for each in metrics]
 
 
 def _named(lists: list[list[Metric]]) -> list[list[Metric]]:

@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.metadata import IMPORTED_FROM
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.report.metrics.foreign import ForeignOptions, foreign_metrics
 from contact_sim_pkg.report.metrics.listing import all_metrics, metrics_of
 from contact_sim_pkg.report.metrics.repeated import repeated
-from contact_sim_pkg.report.reading import SERIES_TYPES, read_recording, scenes_fit
+from contact_sim_pkg.report.reading import PATCH, SERIES_TYPES, read_recording, scenes_fit
 from contact_sim_pkg.report.series import Recording
 
 __all__ = ["FoundMetrics", "metrics_of_bags", "suite_name"]
@@ -29,6 +30,7 @@ def metrics_of_bags(
     paths: Sequence[Path],
     *,
     whole: bool = False,
+    loaded: float | None = None,
     chosen: ForeignOptions | None = None,
     skip_bad: bool = False,
 ) -> FoundMetrics:
@@ -37,6 +39,7 @@ def metrics_of_bags(
     Args:
         paths: of the bags, at least one.
         whole: whole lists of all contacts, and mats.
+        loaded: [Pa] above which a cell of a mat counts; implies `whole`.
         chosen: what is known of a bag of anybody; None: taken so where the bag is none of ours.
         skip_bad: go on after damaged chunks.
 
@@ -55,7 +58,11 @@ def metrics_of_bags(
             scenes.append({})
         else:
             recording = recording_of(bag)
-            lists.append(all_metrics(recording) if whole else metrics_of(recording))
+            if loaded is not None:
+                lists.append(all_metrics(recording, loaded))
+            else:
+                lists.append(all_metrics(recording) if whole else metrics_of(recording))
+            notes += [f"{bag.path.name}: {bag.metadata['imported_as']}"] if IMPORTED_FROM in bag.metadata else []
             scenes.append(recording.scene)
     names = [suite_name([path]) for path in paths]
     if len(bags) == 1:
@@ -67,14 +74,14 @@ def recording_of(bag: Bag) -> Recording:
     """The recording of a bag. Raises BagError also where its scene is none that this version knows."""
     with scenes_fit([bag]):
         recording = read_recording(bag)
-    if not recording.contacts and recording.motion is None:
+    if not recording.contacts and not recording.fields and recording.motion is None:
         raise BagError(f"{bag.path} holds no force and no motion of the bench: there is nothing to measure")
     return recording
 
 
 def is_ours(bag: Bag) -> bool:
-    """Whether a bag holds series of the bench."""
-    return any(row.type in SERIES_TYPES for row in bag.topics.values())
+    """Whether a bag holds series or pressure fields of the bench."""
+    return any(row.type in (*SERIES_TYPES, PATCH) for row in bag.topics.values())
 
 
 def suite_name(paths: Sequence[Path]) -> str:

@@ -19,6 +19,8 @@ from contact_sim_pkg.rigs.impact.material.errors import MaterialError
 __all__ = ["Impacts", "read_impacts"]
 
 Vector = NDArray[numpy.float64]
+FORCE_NAMES = ("force", "f", "fz", "f_z", "force_z", "impact_force", "kraft")
+"""of a column of a force over time, in small letters"""
 LARGEST_FILE = 1 << 26  # [bytes]
 SEPARATORS = (";", "\t", ",")
 
@@ -151,8 +153,11 @@ def _header(path: Path, number: int, fields: list[str]) -> tuple[dict[str, tuple
     # Columns that every file has.
     missing = [name for name in COLUMNS if name not in found and name not in OPTIONAL]
     if missing:
+        over_time = any(each.lower() in FORCE_NAMES for each in unused)
+        cure = "; a force over time needs --mass KG and --speed M/S" if over_time else ""
         raise MaterialError(
-            f"{path}, line {number}: no column {', '.join(missing)}; the columns m, R, V0, tau, k and, where measured, T are read"
+            f"{path}, line {number}: no column {', '.join(missing)}; the columns m, R, V0, tau, k and, where measured, T are "
+            f"read{cure}"
         )
     return found, unused
 
