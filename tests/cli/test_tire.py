@@ -19,10 +19,10 @@ def run(*arguments):
 
 
 def test_names_of_sections_and_units_are_printed_without_their_control_characters(tmp_path, capsys):
-    file = write(tmp_path)
+    file = write(tmp_path, VERTICAL_STIFFNESS=None)
     text = file.read_text()
     file.write_text(text + "[\x1b[2JEVIL\x07]\n1 2 3\n")
-    assert main(["tire", str(file)]) == 0
+    assert main(["tire", str(file)]) == 1  # without a stiffness
     assert "tables skipped: \\x1b[2JEVIL\\x07" in capsys.readouterr().err
     file.write_text(text.replace("TIME = 'second'", "TIME = '\x1b[31m'"))
     assert main(["tire", str(file)]) == 2
@@ -41,26 +41,48 @@ road: {kind: bump, position: 10.0, height: 0.03, length: 0.6}
 
 
 def test_the_part_of_a_scene_is_one_that_loads(tmp_path):
-    shown = run(write(tmp_path, LONGITUDINAL_STIFFNESS=1e5, PCX1=1.5, PCY1=1.3))
+    shown = run(write(tmp_path, UNLOADED_RADIUS=0.32, LONGITUDINAL_STIFFNESS=1e5, PCX1=1.5, PCY1=1.3))
+    assert shown.exit_code == 0
     part = shown.stdout[shown.stdout.index("# from tire.tir") :]
     (tmp_path / "own.yaml").write_text(SCENE + part + "    contact_field: {}\n")
     inflation = load_scene(tmp_path / "own.yaml").effect("tire", Inflation)
-    assert inflation.size == "205/55 R16"
+    assert (inflation.size, inflation.radius) == ("205/55 R16", 0.32)
     assert 0.8 < inflation.sidewall_angle < 1.57
     assert "read, nothing uses it yet" in shown.stdout
     assert "2 keys not read: PCX1, PCY1" in shown.stderr
 
 
 def test_json_holds_keys_fit_and_effects(tmp_path):
-    found = json.loads(run(write(tmp_path, **{f"P{i}": i for i in range(20)}), "--json").stdout)
-    assert set(found) == {"file", "units", "keys", "not_read", "fit", "notes", "effects"}
+    shown = run(write(tmp_path, PROPERTY_FILE_FORMAT="'MF-Tyre'", **{f"P{i}": i for i in range(20)}), "--json")
+    found = json.loads(shown.stdout)
+    assert set(found) == {"file", "format", "units", "keys", "not_read", "fit", "notes", "usable", "effects"}
     assert found["keys"][0] == {
-        "key": "UNLOADED_RADIUS", "value": 0.316, "unit": "m", "line": 12, "becomes": "compared with the radius of the size",
+        "key": "UNLOADED_RADIUS", "value": 0.316, "unit": "m", "line": 12,
+        "becomes": "inflation.radius, unless it is that of the size",
     }  # fmt: skip
+    assert found["format"] == "MFTYRE"
     assert found["not_read"]["count"] == 20
     assert len(found["not_read"]["first"]) == 12
-    assert abs(found["fit"][0]["difference"]) < 1e-2
+    assert found["usable"] is True
+    assert [row["quantity"] for row in found["fit"][:3]] == ["radius", "stiffness", "deflection"]
+    assert all(abs(row["difference"]) <= 0.1 for row in found["fit"][:3])
     assert set(found["effects"]["tire"]) == {"inflation", "rigid_ring"}
+
+
+def test_a_tire_that_cannot_be_met_ends_with_1_and_the_three_figures(tmp_path, capsys):
+    """1 MN/m of a car tire: 4 kN deflect it by 4 mm."""
+    assert main(["tire", str(write(tmp_path, VERTICAL_STIFFNESS=1e6))]) == 1
+    said = capsys.readouterr()
+    assert "effects:" not in said.out
+    sentence = said.err.splitlines()[-1]
+    assert "no scene, as the nearest tire is not within 10 % of the file" in sentence
+    for figure in ("radius 0.316 m, fitted 0.31", "stiffness 1e+06 N/m, fitted ", "deflection 0.004 m, fitted "):
+        assert figure in sentence
+    assert sentence.count("(ratio ") == 3
+    assert main(["tire", str(write(tmp_path, VERTICAL_STIFFNESS=None)), "--json"]) == 1
+    said = capsys.readouterr()
+    assert json.loads(said.out)["effects"] is None
+    assert said.err.splitlines()[-1].endswith("add VERTICAL_STIFFNESS, best with FNOMIN")
 
 
 @pytest.mark.fault("A15")

@@ -20,11 +20,12 @@ NAMED = 12  # unread keys that are named
 @click.command("tire")
 @click.argument("file", type=click.Path(path_type=Path), metavar="FILE.tir")
 @json_option
-def command(file: Path, as_json: bool) -> None:
+def command(file: Path, as_json: bool) -> int:
     """Scene keys from a tire property file (.tir) of the Magic Formula or MF-Swift.
 
     Shows the keys that are read, in SI units, and what becomes of them; the fitted tire beside the
-    file; and a part of a scene, ready for its `effects`.
+    file; and a part of a scene, ready for its `effects`, where radius, stiffness and deflection of
+    the fitted tire are within 10 % of the file's. Ends with 1 where they are not.
     """
     from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import read_property_file
     from contact_sim_pkg.rigs.vehicle.tire.property_file.scene_keys import scene_tire
@@ -37,15 +38,39 @@ def command(file: Path, as_json: bool) -> None:
     if as_json:
         print_json({
             "file": tire.file, "units": tire.units, "keys": _rows(tire), "not_read": unread, "fit": comparisons,
-            "notes": notes, "effects": {"tire": found.effects},
+            "format": tire.format, "notes": notes, "usable": found.usable,
+            "effects": {"tire": found.effects} if found.usable else None,
         })  # fmt: skip
-        return
-    _show(tire, found, comparisons)
+    else:
+        _show(tire, found, comparisons)
+        _say_notes(tire, notes)
+    if not found.usable:
+        say(_no_scene(tire, found), err=True)
+    return 0 if found.usable else 1
+
+
+def _say_notes(tire: PropertyFile, notes: list[str]) -> None:
     if tire.unread:
         more = ", ..." if len(tire.unread) > NAMED else ""
         notes.append(f"{len(tire.unread)} keys not read: {', '.join(tire.unread[:NAMED])}{more}")
     for note in notes:
         say(note, err=True)
+
+
+def _no_scene(tire: PropertyFile, found: SceneTire) -> str:
+    """Why the file makes no scene, with the figures."""
+    from contact_sim_pkg.rigs.vehicle.tire.property_file.scene_keys import USABLE
+
+    if not found.judged:
+        return (
+            f"{tire.file}: no scene, as the file states no stiffness that one could meet; add VERTICAL_STIFFNESS, best with "
+            "FNOMIN"
+        )
+    figures = "; ".join(
+        f"{each.quantity} {each.file:.4g} {each.unit}, fitted {each.tire:.4g} (ratio {each.tire / each.file:.3g})"
+        for each in found.judged
+    )
+    return f"{tire.file}: no scene, as the nearest tire is not within {100 * USABLE:g} % of the file: {figures}"
 
 
 def _rows(tire: PropertyFile) -> list[dict[str, Any]]:
@@ -67,8 +92,10 @@ def _show(tire: PropertyFile, found: SceneTire, comparisons: list[dict[str, Any]
     ]
     sections = [Section("", keys)]
     if beside:
-        sections.append(Section("the fitted tire under FNOMIN, beside the file", beside))
+        sections.append(Section("the fitted tire under the nominal load, beside the file", beside))
     show_sections(sections)
+    if not found.usable:
+        return
     say(f"\n# from {Path(tire.file).name}\neffects:\n  tire:")
     for effect, values in found.effects.items():
         say(f"    {effect}:" if values else f"    {effect}: {{}}")

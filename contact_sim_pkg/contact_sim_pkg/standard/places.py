@@ -91,7 +91,7 @@ def _places_of(scene: Mapping[str, Any]) -> Places:
         return Places(travel=travel, edge=edge)
     inflation = effects.get("inflation")
     if inflation:
-        size = read_size(str(inflation["size"]))
+        size = read_size(str(inflation["size"]), inflation.get("radius"))
         return Places(size.radius, size.width, travel, edge)
     tire = scene.get("tire") or {}
     return Places(float(tire.get("radius_rolling", 0.3)), 0.2, travel, edge)

@@ -15,9 +15,10 @@ from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, e
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
 from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
-from contact_sim_pkg.rigs.vehicle.tire.body import body_of
+from contact_sim_pkg.rigs.vehicle.tire.body import body_of, tire_body
 from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import belt_share, inflated_influence, membrane_stiffness
+from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation
 from contact_sim_pkg.rigs.vehicle.tire.size import read_size
 
 RADIUS, TENSION, FOUNDATION = 0.316, 8756.0, 4.33e5
@@ -153,6 +154,21 @@ def test_size_and_inflation_move_what_they_should():
     assert read_size("205/55 R16").radius == pytest.approx(0.316, abs=5e-4)
     with pytest.raises(ValueError, match="205/55 R16 are needed"):
         read_size("205/55")
+
+
+def test_half_inches_of_a_rim_and_a_radius_that_is_not_of_the_size():
+    """315/80 R22.5: 0.28575 + 0.252 m. With a radius of its own the sidewalls are as much higher."""
+    truck = read_size("315/80 R22.5")
+    assert (truck.rim, truck.radius) == pytest.approx((0.5715, 0.53775), rel=1e-12)
+    higher = read_size("315/80 R22.5", 0.548)
+    assert higher.radius == pytest.approx(0.548, rel=1e-12)
+    assert higher.section_height == pytest.approx(0.252 + 0.01025, rel=1e-12)
+    assert higher.sidewall_chord / truck.sidewall_chord == pytest.approx(0.26225 / 0.252, rel=1e-12)
+    with pytest.raises(ValueError, match=r"needed"):
+        read_size("315/80 R22.3")
+    body = tire_body({"inflation": {**Inflation(radius=0.32).model_dump(), "sidewall_chord": 0.1, "belt_width": 0.14}})
+    assert body.form.radius_rolling == pytest.approx(0.32, rel=1e-12)
+    assert body.belt.radius == pytest.approx(0.32, rel=1e-12)
 
 
 def test_the_weights_are_even_and_lie_at_the_ends_of_the_footprint():

@@ -36,6 +36,11 @@ def test_values_of_an_effect_that_do_not_go_together_are_refused(maker, effects,
     assert sentence in fault
 
 
+def test_a_radius_on_the_rim_is_refused(maker):
+    (fault,) = maker.faults("tire", {"effects.tire": {"inflation": {"size": "205/55 R16", "radius": 0.22}}})
+    assert "inflation.radius: a radius of 0.22 m is less than 0.025 m above the rim of 205/55 R16, 0.2032 m" in fault
+
+
 @pytest.mark.parametrize(
     ("slip", "sentence"),
     [

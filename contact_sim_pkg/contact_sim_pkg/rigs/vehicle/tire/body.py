@@ -61,7 +61,7 @@ def tire_body(effects: dict[str, Any]) -> TireBody:
 
 def _inflated(keys: Inflation, has_ring: bool) -> TireBody:
     """``has_ring``: whether the rigid ring is a body of its own."""
-    size, chord, width = read_size(keys.size), keys.sidewall_chord, keys.belt_width
+    size, chord, width = read_size(keys.size, keys.radius), keys.sidewall_chord, keys.belt_width
     assert chord is not None  # a resolved scene leaves neither open
     assert width is not None
     belt = make_belt(

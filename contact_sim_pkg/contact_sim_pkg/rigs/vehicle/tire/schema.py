@@ -65,6 +65,7 @@ class Inflation(Section):
     size: str = text(
         "size on the sidewall: width in mm, height in per cent, rim in inches", default="205/55 R16", pattern=PATTERN
     )
+    radius: float | None = number(0.15, 0.8, "m", "free radius; that of the size by default", default=None)
     pressure: float = number(
         1e5, 4e5, "Pa", "inflation above the air outside; the model is for 120 to 300 kPa", default=220e3
     )
@@ -72,7 +73,7 @@ class Inflation(Section):
         0.8, 1.57, "rad", "half angle of the inflated sidewall's arc; the one fitted value of its shape", default=1.431
     )
     sidewall_chord: float | None = number(
-        0.02, 0.3, "m", "chord of that arc; 0.887 of the section height by default", default=None
+        0.02, 0.6, "m", "chord of that arc; 0.887 of the section height by default", default=None
     )
     belt_width: float | None = number(
         0.05, 0.4, "m", "belt under pressure; 0.683 of the section width by default", default=None
@@ -94,7 +95,7 @@ class Inflation(Section):
     )  # fmt: skip
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
-        size = read_size(self.size)
+        size = read_size(self.size, self.radius)
         return {"sidewall_chord": size.sidewall_chord, "belt_width": size.belt_width}
 
 
@@ -132,7 +133,7 @@ class TireField(PressureFieldSection):
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
         inflation = scene.effect("tire", Inflation)
-        length, width = (0.28, 0.44) if inflation is None else read_size(inflation.size).grid
+        length, width = (0.28, 0.44) if inflation is None else read_size(inflation.size, inflation.radius).grid
         return {**super().open_values(scene), "length": length, "width": width}
 
 

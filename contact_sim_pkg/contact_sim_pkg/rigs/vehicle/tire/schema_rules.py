@@ -8,12 +8,14 @@ from itertools import pairwise
 
 from contact_sim_pkg.rigs.vehicle.tire.schema import (
     BrushSection,
+    Inflation,
     RigidRingSection,
     SidewallComplianceSection,
     TireSection,
     TreadViscoelasticitySection,
     WheelSpinSection,
 )
+from contact_sim_pkg.rigs.vehicle.tire.size import read_size
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.scene import Scene
@@ -85,6 +87,12 @@ def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
             f"{show(rigid_ring.belt_mass)} kg is not below tire.wheel_mass ({show(wheel_mass)} kg), which holds it"
         )
         yield Breach(f"{where}.rigid_ring.belt_mass", sentence, ("tire.wheel_mass",))
+    inflation = scene.effect("tire", Inflation)
+    if inflation is not None and inflation.radius is not None:
+        try:
+            read_size(inflation.size, inflation.radius)
+        except ValueError as error:
+            yield Breach(f"{where}.inflation.radius", str(error), (f"{where}.inflation.size",))
     brush = scene.effect("tire", BrushSection)
     if brush is not None and brush.coefficient_kinetic > brush.coefficient_static:
         sentence = f"{show(brush.coefficient_kinetic)} is above coefficient_static ({show(brush.coefficient_static)})"

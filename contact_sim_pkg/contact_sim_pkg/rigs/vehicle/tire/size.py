@@ -1,4 +1,4 @@
-"""Size of a tire as on its sidewall, `205/55 R16`, and the lengths that follow from it."""
+"""Size of a tire as on its sidewall, `205/55 R16` or `315/80 R22.5`, and the lengths that follow from it."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 __all__ = ["PATTERN", "TireSize", "read_size"]
 
-PATTERN = r"^([1-9][0-9]{2})/([1-9][0-9]) ?Z?R ?([1-9][0-9])$"
+PATTERN = r"^([1-9][0-9]{2})/([1-9][0-9]) ?Z?R ?([1-9][0-9](?:\.5)?)$"
 INCH = 0.0254  # [m]
+LEAST_HEIGHT = 0.025  # [m] of a section
 CHORD = 0.887
 """Of the section height: chord of the sidewall's arc, 0.10 m for 205/55 R16; 0.08 to 0.11 m."""
 BELT = 0.683
@@ -51,13 +52,22 @@ class TireSize(NamedTuple):
         return round(0.855 * self.radius, 3), round(0.878 * self.width, 3)
 
 
-def read_size(text: str) -> TireSize:
-    """The size of a text such as `205/55 R16`: width in mm, height in per cent of it, rim in inches.
+def read_size(text: str, radius: float | None = None) -> TireSize:
+    """The size of a text such as `205/55 R16`: width in mm, height in per cent of it, rim in inches
+    or half of them.
 
-    Raises ValueError for any other text.
+    radius: free radius [m]; where given it sets the height in place of the text's.
+
+    Raises ValueError for any other text, and for a radius that leaves less than 25 mm of height.
     """
     found = re.match(PATTERN, text)
     if found is None:
         raise ValueError(f"size {text!r}: width in mm, height in per cent, rim in inches as in 205/55 R16 are needed")
-    width, aspect, rim = (int(part) for part in found.groups())
-    return TireSize(1e-3 * width, 1e-2 * aspect, INCH * rim)
+    width, aspect, rim = (float(part) for part in found.groups())
+    if radius is None:
+        return TireSize(1e-3 * width, 1e-2 * aspect, INCH * rim)
+    if not radius >= 0.5 * INCH * rim + LEAST_HEIGHT:
+        raise ValueError(
+            f"a radius of {radius:g} m is less than {LEAST_HEIGHT:g} m above the rim of {text}, {0.5 * INCH * rim:.4g} m"
+        )
+    return TireSize(1e-3 * width, (radius - 0.5 * INCH * rim) / (1e-3 * width), INCH * rim)

@@ -1,14 +1,16 @@
-"""Sidewall angle and tread modulus of an inflated tire fitted to stiffness and contact of a property
-file.
+"""Inflated tire fitted to stiffness, deflection and contact of a property file.
 
-Both enter stiffness and contact: inflation carries most of the load, so a contact 1 % shorter takes
-a modulus 6 % higher, and a stiffness 1 % higher an angle 0.06 rad smaller. The fit puts stiffness
-before contact; what the tire cannot be is left as a difference.
+Sidewall angle, tread modulus, structural stiffness, crown radius and rigid ring change; where the
+file has the ring this is held back, and the bending of the belt changes too. The tire is more progressive than files say: of
+stiffness times deflection over load it has 1.3 where they have 1.0 to 1.1. So stiffness and
+deflection count alike, before the contact, and what the tire cannot be is left as a difference.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
@@ -18,7 +20,11 @@ from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, PressureField
 from contact_sim_pkg.rigs.vehicle.tire.body import tire_body
 from contact_sim_pkg.rigs.vehicle.tire.force_table import COLS, ITERATIONS, ROWS, TOLERANCE, gap_over_level_road
-from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import StandingTire
+from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import (
+    USUAL_COEFFICIENTS,
+    StandingTire,
+    contact_of,
+)
 from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation
 from contact_sim_pkg.rigs.vehicle.tire.size import read_size
 from contact_sim_pkg.scene.schema.catalog import catalog
@@ -28,48 +34,83 @@ __all__ = ["allowed", "angles", "fitted", "standing_on_belt"]
 
 Field = NDArray[numpy.float64]
 LOAD_STEP = 0.02  # of the load, either way, for the stiffness
-CLOSENESS = numpy.array([5e-3, 0.05, 0.05])
-"""Relative standard deviations of the fit: stiffness, length and width of the contact."""
-WEAKLY = 1.0
-"""Standard deviation of the angle [rad] and of the logarithm of the modulus about their usual
-values, which decide where the file has no contact.
+CLOSE, CLOSE_CONTACT, USUAL_CONTACT = 0.0175, 0.05, 0.15
+"""Relative standard deviations of the fit: stiffness and deflection; length and width of the contact
+of the file; those of a usual contact where it has none.
 """
-MODULI = (5e5, 5e7)  # [Pa] of the fit
-STEPS = numpy.array([0.03, 0.05])
-"""Of angle [rad] and logarithm of the modulus for a derivative: the contact's edge moves by a part
-of a cell.
-"""
+
+
+class Unknown(NamedTuple):
+    """A key of the inflation that the fit changes, or its logarithm."""
+
+    key: str
+    low: float
+    high: float
+    step: float  # for a derivative: the contact's edge moves by a part of a cell
+    weakly: float = 1.0  # standard deviation about the usual value, which decides where the file has no contact
+    logarithm: bool = True
+
+
+UNKNOWNS = (
+    Unknown("tread_modulus", 5e5, 5e7, 0.05), Unknown("structure", 1e4, 2e6, 0.3, weakly=4.0),
+    Unknown("crown_radius", 0.1, 10.0, 0.2),
+)  # fmt: skip
+RING = Unknown("ring_stiffness", 1e5, 1e8, 0.05)
+BOUND_RING = RING._replace(weakly=0.15)
+"""The rigid ring, and that of a file that has one."""
+BENDING = Unknown("bending", 1.0, 10.0, 0.1)
 USUAL = Inflation()
+TINY = 1e-3  # [m] extent of a contact that is less than two cells
 FAR = 1e3  # residual of a tire that cannot be solved
 
 
-def fitted(inflation: Inflation, aim: StandingTire) -> Inflation:
-    """The tire whose stiffness, and contact where the file has one, are nearest to `aim`.
+def fitted(inflation: Inflation, aim: StandingTire, ring: bool) -> Inflation:
+    """The tire whose stiffness and deflection are nearest to `aim`, and the contact to its, or to a usual
+    one where it has none.
 
-    Only angle and modulus change. Raises FieldError where no such tire carries the load.
+    ring: whether the rigid ring is free; otherwise that of `inflation` is held back, as the file's.
+
+    Raises FieldError where no such tire carries the load.
     """
-    usual = numpy.array([USUAL.sidewall_angle, math.log(USUAL.tread_modulus)])
-    low, high = (numpy.array([angle, math.log(each)]) for angle, each in zip(angles(inflation), MODULI, strict=True))
+    angle = Unknown("sidewall_angle", *angles(inflation), step=0.03, logarithm=False)
+    unknowns = (angle, *UNKNOWNS, *((RING,) if ring else (BOUND_RING, BENDING)))
+    size = read_size(inflation.size, inflation.radius)
+    usual_contact = contact_of(USUAL_COEFFICIENTS, size.radius, size.width, aim.load / (aim.stiffness * size.radius))
+    extents = [own or max(TINY, usual) for own, usual in zip((aim.length, aim.width), usual_contact, strict=True)]
+    wanted = numpy.array([aim.stiffness, aim.deflection, *extents])
+    closeness = [CLOSE, CLOSE, *(CLOSE_CONTACT if each else USUAL_CONTACT for each in (aim.length, aim.width))]
+
+    def column(values: Iterable[float]) -> Field:
+        return numpy.array([math.log(v) if u.logarithm else v for u, v in zip(unknowns, values, strict=True)])
+
+    low, high = column(each.low for each in unknowns), column(each.high for each in unknowns)
+    usual = numpy.clip(
+        column(max(getattr(inflation, each.key), each.low) for each in unknowns), low + 1e-3, high - 1e-3
+    )
+    step, weakly = (numpy.array([getattr(each, name) for each in unknowns]) for name in ("step", "weakly"))
+
+    def tire(unknown: Field) -> Inflation:
+        values = {u.key: float(math.exp(v) if u.logarithm else v) for u, v in zip(unknowns, unknown, strict=True)}
+        return inflation.model_copy(update=values)
 
     def missed(unknown: Field) -> Field:
-        """Stiffness, length and width, then angle and modulus, in standard deviations."""
+        """Stiffness, deflection, length and width, then the unknowns, in standard deviations."""
         try:
-            found = standing_on_belt(_with(inflation, unknown), aim.load)
+            found = standing_on_belt(tire(unknown), aim.load)
         except FieldError:
-            return numpy.full(5, FAR)
-        pairs = zip((found.stiffness, found.length, found.width), (aim.stiffness, aim.length, aim.width), strict=True)
-        relative = [0.0 if not (have and wanted) else math.log(have / wanted) for have, wanted in pairs]
-        return numpy.array([*(numpy.array(relative) / CLOSENESS), *((unknown - usual) / WEAKLY)])
+            return numpy.full(len(wanted) + len(unknowns), FAR)
+        have = numpy.array([found.stiffness, found.deflection, found.length or TINY, found.width or TINY])
+        return numpy.array([*(numpy.log(have / wanted) / closeness), *((unknown - usual) / weakly)])
 
     solution = least_squares(
-        missed, usual, "3-point", (low, high), ftol=1e-4, xtol=1e-5, x_scale=(0.1, 0.3), diff_step=STEPS / usual
+        missed, usual, "2-point", (low, high), ftol=1e-4, xtol=1e-4, x_scale=6.0 * step, diff_step=step / abs(usual)
     )
-    return _with(inflation, solution.x)
+    return tire(solution.x)
 
 
 def angles(inflation: Inflation) -> tuple[float, float]:
     """Sidewall angles [rad] of the fit: those of a scene at which the belt carries a part of the inflation."""
-    size = read_size(inflation.size)
+    size = read_size(inflation.size, inflation.radius)
     low, high = allowed("sidewall_angle")
     return max(low, math.atan(size.sidewall_chord / size.belt_width) + 0.02), high
 
@@ -80,11 +121,6 @@ def allowed(key: str) -> tuple[float, float]:
     return given(entry.low), given(entry.high)
 
 
-def _with(inflation: Inflation, unknown: Field) -> Inflation:
-    angle, modulus = float(unknown[0]), math.exp(unknown[1])
-    return inflation.model_copy(update={"sidewall_angle": angle, "tread_modulus": modulus})
-
-
 def standing_on_belt(inflation: Inflation, load: float) -> StandingTire:
     """The inflated tire under a `load` [N] on a level road, on the cells of its force table.
 
@@ -92,7 +128,7 @@ def standing_on_belt(inflation: Inflation, load: float) -> StandingTire:
     square of the pressure, straight near an edge, comes to zero. Raises FieldError where the load
     is more than the tire carries.
     """
-    size = read_size(inflation.size)
+    size = read_size(inflation.size, inflation.radius)
     chord, width = inflation.sidewall_chord or size.sidewall_chord, inflation.belt_width or size.belt_width
     body = tire_body({"inflation": {**inflation.model_dump(), "sidewall_chord": chord, "belt_width": width}})
     assert body.extent is not None

@@ -3,7 +3,8 @@
     F_z = F_0 (1 + p_1 dp) (q_1 r / R_0 + q_2 (r / R_0)^2),  dp = p / p_0 - 1
     a = R_0 (q_ra1 sqrt(e) + q_ra2 e),  b = w (q_rb1 e^(1/3) + q_rb2 e),  e = F_z / (c_z R_0)
 
-with the deflection r, the half length a and half width b of the contact, ``c_z = c_z0 (1 + p_1 dp)``
+A table of load over deflection at p_0 replaces the first, with its loads times ``1 + p_1 dp``; with
+the deflection r, the half length a and half width b of the contact, ``c_z = c_z0 (1 + p_1 dp)``
 and the stiffness at the nominal load and pressure ``c_z0 = (F_0 / R_0) sqrt(q_1^2 + 4 q_2)``.
 
 Source: Besselink, Schmeitz, Pacejka, An improved Magic Formula/Swift tyre model that can handle
@@ -13,12 +14,15 @@ inflation pressure changes, Vehicle System Dynamics 48 (2010), eqs 4, 5, 9, 10.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileError
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
 
-__all__ = ["StandingTire", "standing_tire"]
+__all__ = ["USUAL_COEFFICIENTS", "StandingTire", "contact_of", "contradiction", "law_tire", "standing_tire"]
+
+CONTRADICTION = 0.1  # relative, of stiffness or deflection
 
 
 class StandingTire(NamedTuple):
@@ -31,15 +35,49 @@ class StandingTire(NamedTuple):
     width: float | None  # 2 b [m]
 
 
-def standing_tire(tire: PropertyFile, radius: float, pressure: float, nominal: float) -> StandingTire | None:
-    """The tire of a file at an inflation of `pressure` [Pa]; None without load or stiffness.
+def standing_tire(
+    tire: PropertyFile, radius: float, pressure: float, nominal: float, load: float | None = None
+) -> StandingTire | None:
+    """The tire of a file at an inflation of `pressure` [Pa], by its table of loads where that reaches
+    the load, else by its coefficients; None without load or stiffness.
 
-    radius: R_0 [m]; nominal: p_0 [Pa], at which the coefficients hold. The contact is that of a file
-    with Q_RA1 or Q_RA2, Q_RB1 or Q_RB2.
+    radius: R_0 [m]; nominal: p_0 [Pa], at which the coefficients hold; load [N] where the file has no
+    FNOMIN. The contact is that of a file with Q_RA1 or Q_RA2, Q_RB1 or Q_RB2.
 
     Raises PropertyFileError where the coefficients give no positive stiffness or contact.
     """
-    load, stiffness = tire.get("FNOMIN"), tire.get("VERTICAL_STIFFNESS")
+    load = tire.get("FNOMIN") or load
+    by_law = law_tire(tire, radius, pressure, nominal, load)
+    growth = 1.0 + (tire.get("PFZ1") or 0.0) * (pressure / nominal - 1.0)
+    by_curve = None if tire.curve is None or load is None or not growth > 0.0 else tire.curve.under(load / growth)
+    if load is None or by_curve is None:
+        return by_law
+    deflection, stiffness = by_curve[0], growth * by_curve[1]
+    if by_law is not None:
+        return by_law._replace(stiffness=stiffness, deflection=deflection)
+    return StandingTire(load, stiffness, deflection, None, None)
+
+
+def contradiction(tire: PropertyFile, by_law: StandingTire, standing: StandingTire) -> str | None:
+    """A sentence where table and coefficients of a file differ by more than 10 % under its load."""
+    assert tire.curve is not None
+    ratios = standing.stiffness / by_law.stiffness, standing.deflection / by_law.deflection
+    if all(abs(ratio - 1.0) <= CONTRADICTION for ratio in ratios):
+        return None
+    stated = "VERTICAL_STIFFNESS" if "VERTICAL_STIFFNESS" in tire.values else "Q_FZ1"
+    line = tire.values[stated].line
+    return (
+        f"the file contradicts itself: under {standing.load:g} N [DEFLECTION_LOAD_CURVE] (line {tire.curve.line}) has "
+        f"{standing.stiffness:.4g} N/m and {1e3 * standing.deflection:.3g} mm, {stated} (line {line}) {by_law.stiffness:.4g} "
+        f"N/m and {1e3 * by_law.deflection:.3g} mm; the table counts"
+    )
+
+
+def law_tire(
+    tire: PropertyFile, radius: float, pressure: float, nominal: float, load: float | None
+) -> StandingTire | None:
+    """The tire by the coefficients alone."""
+    stiffness = tire.get("VERTICAL_STIFFNESS")
     linear, square = tire.get("Q_FZ1"), tire.get("Q_FZ2") or 0.0
     if load is None or (stiffness is None and not linear):
         return None
@@ -60,19 +98,28 @@ def standing_tire(tire: PropertyFile, radius: float, pressure: float, nominal: f
     slope = math.sqrt(under_root + 4.0 * square / growth)
     deflection = radius * 2.0 / growth / (math.sqrt(under_root) + slope)
     relative = load / (stiffness * growth * radius)
-    length = _extent(tire, "Q_RA", radius, relative, 0.5)
-    width = _extent(tire, "Q_RB", tire.get("WIDTH") or 0.0, relative, 1.0 / 3.0)
-    return StandingTire(load, load / radius * growth * slope, deflection, length, width)
+    coefficients = [tire.get(f"Q_R{axis}{place}") or 0.0 for axis in "AB" for place in (1, 2)]
+    extents: list[float | None] = list(contact_of(coefficients, radius, tire.get("WIDTH") or 0.0, relative))
+    for axis, place in (("A", 0), ("B", 1)):
+        extent, (root, straight) = extents[place], coefficients[2 * place : 2 * place + 2]
+        if root == 0.0 == straight:
+            extents[place] = None
+        elif extent is None or not 1e-3 <= extent <= 1.0:
+            raise PropertyFileError(
+                f"{tire.file}: Q_R{axis}1 {root:g} and Q_R{axis}2 {straight:g} give a contact of {extent:.4g} m; 1e-3 to 1 m "
+                "is allowed"
+            )
+    return StandingTire(load, load / radius * growth * slope, deflection, extents[0], extents[1])
 
 
-def _extent(tire: PropertyFile, name: str, size: float, relative: float, exponent: float) -> float | None:
-    """Extent [m] of the contact of coefficients `name` 1 and 2."""
-    root, linear = tire.get(f"{name}1") or 0.0, tire.get(f"{name}2") or 0.0
-    if root == 0.0 == linear:
-        return None
-    extent = 2.0 * size * (root * relative**exponent + linear * relative)
-    if not 1e-3 <= extent <= 1.0:
-        raise PropertyFileError(
-            f"{tire.file}: {name}1 {root:g} and {name}2 {linear:g} give a contact of {extent:.4g} m; 1e-3 to 1 m is allowed"
-        )
-    return extent
+USUAL_COEFFICIENTS = (0.671, 0.733, 1.059, -1.1878)
+"""Q_RA1, Q_RA2, Q_RB1, Q_RB2 of the published 205/60 R15."""
+
+
+def contact_of(coefficients: Sequence[float], radius: float, width: float, relative: float) -> tuple[float, float]:
+    """Length and width [m] of the contact of Q_RA1, Q_RA2, Q_RB1 and Q_RB2 at e = ``relative``."""
+    root, straight, cube_root, linear = coefficients
+    return (
+        2.0 * radius * (root * math.sqrt(relative) + straight * relative),
+        2.0 * width * (cube_root * relative ** (1.0 / 3.0) + linear * relative),
+    )

@@ -34,8 +34,8 @@ class SlipKeys(NamedTuple):
 
 
 def slip_keys(tire: PropertyFile, contact: tuple[float, float] | None, notes: list[str]) -> SlipKeys:
-    """Keys from a file whose tire stands on a ``contact`` of a length and a width [m] under FNOMIN;
-    None where that is unknown.
+    """Keys from a file whose fitted tire stands on a ``contact`` of a length and a width [m] under FNOMIN;
+    None where the file has no contact.
     """
     stiffness, load = tire.get("PKX1"), tire.get("FNOMIN")
     compliance = _compliance(tire)
