@@ -56,7 +56,7 @@ bench:  ## measure start-up, real-time factor and error against their goals, and
 
 hard:  ## run the hard cases: value, expectation, margin, verdict; every number of the schema at and beside its bounds; random draws
 	@SECONDS=0; $(ENTER) && bench hard && export $(TEST_ENVIRONMENT) && \
-	CONTACT_BENCH_FUZZ=all python -m pytest -s tests/faults/test_schema_fuzz.py && python -m pytest tests --random $(PARALLEL); $(REPORT_TIME)
+	CONTACT_BENCH_FUZZ=all python -m pytest -s tests/faults/test_schema_fuzz.py tests/faults/test_input_fuzz.py && python -m pytest tests --random $(PARALLEL); $(REPORT_TIME)
 
 KERNEL_TESTS = $(addprefix tests/,compiled integrate laws pressure rigid papers rigs studies/hard)
 

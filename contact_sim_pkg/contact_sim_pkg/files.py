@@ -15,10 +15,12 @@ from pathlib import Path
 from typing import IO, Any, BinaryIO
 
 __all__ = [
-    "FileRefusedError", "RefusedError", "as_cell", "check_output", "new_file", "open_regular_file", "printable",
+    "BAG_ENDINGS", "FileRefusedError", "RefusedError", "as_cell", "check_output", "new_file", "open_regular_file", "printable",
     "printable_lines", "read_regular_file", "wrong_name",
 ]  # fmt: skip
 
+BAG_ENDINGS = (".mcap", ".db3", ".bag")
+"""Of the file of a bag."""
 FORMULA = ("=", "+", "-", "@", "\t", "\r")
 """A text that begins so is a formula to a spreadsheet."""
 LONGEST_COMPONENT = 255  # bytes between two slashes, on every usual file system

@@ -219,3 +219,31 @@ def ros1(path: Path) -> Path:
                 text = store.types[TEXT](f"note {number}")
                 writer.write(connections["/note"], time + 7, store.serialize_ros1(text, TEXT))
     return file
+
+
+def with_strangers(path: Path, *, json: bool = True) -> Path:
+    """The recording with topics that nobody here can read: events of a service, a text that is no definition, JSON."""
+    strangers = {  # type, definition, encoding, message
+        "/light/_service_event": ("std_srvs/srv/SetBool_Event", b"", "cdr", b"\0\1\0\0" + bytes(20)),
+        "/odd": ("odd_msgs/msg/Odd", b"this is: no definition\n", "cdr", b"\0\1\0\0abcd"),
+        "/json": ("odd", b"{}", "json", b'{"a": 1}'),
+    }
+    if not json:
+        del strangers["/json"]
+    file = path / "strangers.mcap"
+    with file.open("wb") as stream:
+        writer = Writer(stream)
+        writer.start(profile="ros2", library="foreign")
+        channels = {}
+        for topic, kind in TYPES.items():
+            schema = writer.register_schema(kind, "ros2msg", STORE.generate_msgdef(kind, ros_version=2)[0].encode())
+            channels[topic] = writer.register_channel(topic, "cdr", schema)
+        for topic, (kind, text, encoding, _) in strangers.items():
+            channels[topic] = writer.register_channel(topic, encoding, writer.register_schema(kind, "ros2msg", text))
+        for number, (topic, time, data) in enumerate(ROWS):
+            writer.add_message(channels[topic], time, data, time, number)
+            if number % 400 == 0:
+                for stranger, (*_, content) in strangers.items():
+                    writer.add_message(channels[stranger], time, content, time, number)
+        writer.finish()
+    return file

@@ -37,6 +37,15 @@ def test_a_mat_file_with_vectors_structures_and_a_matrix(tmp_path):
     check(tmp_path / "a.mat", m_1=X, m_2=Z)
 
 
+def test_a_damaged_mat_file_is_refused_before_its_reader_ends_the_process(tmp_path):
+    savemat(tmp_path / "a.mat", {"time": TIME, "z": Z})
+    content = bytearray((tmp_path / "a.mat").read_bytes())
+    content[176:180] = (57609).to_bytes(4, "little")  # type of the samples
+    (tmp_path / "a.mat").write_bytes(content)
+    with pytest.raises(ExcitationError, match=r"the element at byte [0-9]+ is damaged"):
+        read_recording(tmp_path / "a.mat")
+
+
 def test_a_wav_file_holds_shares_of_full_scale(tmp_path):
     full = 20.0
     samples = numpy.round(numpy.stack([X, Z], axis=1) / full * 2**15).astype(numpy.int16)
@@ -120,3 +129,28 @@ def test_what_is_absent_damaged_or_uneven_is_refused_in_a_sentence(tmp_path, mon
         ExcitationError, match=r"read by nptdms, which is not installed; pip install 'contact_sim_pkg\[daq\]'"
     ):
         read_recording(tmp_path / "a.tdms")
+
+
+def test_a_bag_drives_a_rig_as_its_table_does(tmp_path):
+    """√2 sin(2π 16 t) + g upwards at 100 Hz, in a folder of one file, by `--vibration` without a rate."""
+    from tests.bag import foreign
+
+    from contact_sim_pkg.scene.load import load_scene
+    from contact_sim_pkg.scene.overrides import set_vibration
+    from contact_sim_pkg.scene.resolve import resolve
+
+    folder = foreign.sqlite(tmp_path)
+    scene = resolve(load_scene("seat_ride", [set_vibration(folder)]))
+    assert scene.data["vibration"]["file"].endswith("sqlite.db3")
+    read = RecordedVibration(folder / "sqlite.db3")
+    time = numpy.arange(200, 1400) / 100.0
+    assert read.rate == pytest.approx(100.0)
+    assert read.acceleration(time)[1] == pytest.approx(
+        math.sqrt(2.0) * numpy.sin(2.0 * math.pi * 16.0 * time), abs=2e-3
+    )
+    from contact_sim_pkg.bag.errors import BagError
+
+    note = foreign.mcap([row for row in foreign.ROWS if row[0] == "/note"], {"/note": foreign.TEXT})
+    (tmp_path / "note.mcap").write_bytes(note)
+    with pytest.raises(BagError, match=r"holds no Imu and no AccelStamped; .*bench export"):
+        RecordedVibration(tmp_path / "note.mcap")

@@ -6,6 +6,7 @@ import time
 
 import pytest
 from tests.bench_process import LONGEST, Nodes, end, messages, needs_ros, resolved, start_bench
+from tests.nodes.services import connect
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.nodes.protocol.states import RunState
@@ -23,6 +24,7 @@ NUMBERS = {
     "destroy": 8,
     "on_configure_success": 10,
 }
+NO_TRANSITION = 99  # refused in every state
 BLOCK = 0.01  # [s]
 
 
@@ -39,7 +41,7 @@ def manager():
         def change(node: str, transition: str, *, by_name: bool = False) -> bool:
             if node not in clients:
                 clients[node] = one.node.create_client(ChangeState, f"{node}/change_state")
-                one.spin_until(clients[node].service_is_ready)
+                connect(one.spin_until, clients[node], ChangeState.Request(transition=Transition(id=NO_TRANSITION)))
             asked = Transition(label=transition) if by_name else Transition(id=NUMBERS[transition])
             answer = clients[node].call_async(ChangeState.Request(transition=asked))
             one.spin_until(answer.done)

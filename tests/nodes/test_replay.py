@@ -11,6 +11,7 @@ import termios
 import pytest
 from tests.bag.hand_made import seat_ride, write
 from tests.bench_process import ENVIRONMENT, LONGEST, Nodes, bench, needs_ros, resolved
+from tests.nodes.services import connect
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.python_process import python_command
@@ -116,7 +117,8 @@ def test_a_service_pauses_and_resumes_at_the_same_message(bag, replay, listener)
     forces = listener.hear("seat/force")
     client = listener.node.create_client(SetBool, "bag_replay/pause")
     nodes = replay(rate=0.25)
-    listener.spin_until(lambda: len(forces) >= 5 and client.service_is_ready())
+    listener.spin_until(lambda: len(forces) >= 5)
+    connect(listener.spin_until, client, SetBool.Request(data=True))
     answers = [client.call_async(SetBool.Request(data=True))]
     listener.spin_until(answers[0].done)
     assert listener.spin_until_quiet(forces) < 50

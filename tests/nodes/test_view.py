@@ -6,6 +6,7 @@ import time
 import numpy
 import pytest
 from tests.bench_process import Nodes, needs_ros, resolved
+from tests.nodes.services import connect
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.run.offline import run_offline
@@ -13,6 +14,7 @@ from contact_sim_pkg.run.offline import run_offline
 pytestmark = needs_ros
 
 G = 9.81  # [m/s^2]
+NO_TRANSITION = 99  # refused in every state
 VIEW = "bench_view"
 STAMP = 10_000_000  # [ns]
 OFFERED = {"/tf", "/view/markers", "/view/imu/seat", "/view/imu/floor", "/view/joints", "/view/seat/load"}
@@ -202,7 +204,7 @@ def test_it_pauses_and_goes_on_as_a_lifecycle_node(nodes, reader):
     heard, _ = reader.read("view/seat/load", "std_msgs/msg/Float64")
     reader.spin_until(lambda: len(heard) > 3)
     client = reader.node.create_client(ChangeState, f"{VIEW}/change_state")
-    reader.spin_until(client.service_is_ready)
+    connect(reader.spin_until, client, ChangeState.Request(transition=Transition(id=NO_TRANSITION)))
 
     def change(transition):
         answer = client.call_async(ChangeState.Request(transition=Transition(id=transition)))

@@ -49,6 +49,11 @@ def test_every_shipped_scene_shows_what_it_is_there_for(rows):
     assert regime_table.summary([*rows.values()]) == f"{len(rows)} of {len(rows)} scenes show what they are there for"
 
 
+def test_the_energy_of_every_shipped_scene_closes(rows):
+    """To a thousandth of what an energy that was forgotten would leave open."""
+    assert {name: row["residual"] for name, row in rows.items() if not 0.0 <= row["residual"] <= 1e-3} == {}
+
+
 def test_figures_are_those_of_closed_forms(rows):
     """Times of stopping and of infinitely many impacts; passages of two radii; load of the step that yields."""
     slope, friction, fall = math.radians(15.0), 0.3, math.sqrt(2.0 / G)

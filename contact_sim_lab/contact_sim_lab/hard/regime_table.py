@@ -1,7 +1,7 @@
 """`bench hard --regimes`: what each shipped scene is there to show, as its run measures it.
 
 Columns: `scene`, `regime`, `figure` (what the value is), `value`, `unit`, `low`, `high` (ends of the band, None where
-open), `remark`, `verdict` (`met`, `MISSED`, or `none` where a scene expects nothing).
+open), `residual` (of the energy), `remark`, `verdict` (`met`, `MISSED`, or `none` where a scene expects nothing).
 """
 
 from __future__ import annotations
@@ -14,9 +14,11 @@ from typing import Any
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.records.metric import OUTSIDE, Metric
 from contact_sim_pkg.records.registry import shipped_scenes
+from contact_sim_pkg.report.metrics.maker import energy_residual
 from contact_sim_pkg.report.metrics.regimes import expected
 from contact_sim_pkg.report.metrics.views import row_of, value_text
 from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.resolve import load_resolved
 
@@ -43,13 +45,15 @@ def row_of_scene(name: str, values: Iterable[str] = ()) -> dict[str, Any]:
     scene = load_resolved(name, *values)
     given = scene.data.get("expect") or {}
     row = {"scene": name, "regime": given.get("regime"), "figure": "", "value": None, "unit": "", "low": None, "high": None,
-           "remark": "", "verdict": MISSED if given else NONE}  # fmt: skip
+           "residual": None, "remark": "", "verdict": MISSED if given else NONE}  # fmt: skip
     with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
         outcome = run_offline(scene, Path(folder) / "bag")
         if outcome.failure:
             return row | {"remark": outcome.failure}
-        metric: Metric | None = expected(read_recording(open_bag(Path(folder) / "bag")))
-    if metric is None:
+        recording = read_recording(open_bag(Path(folder) / "bag"))
+    row |= _energy(recording)
+    metric: Metric | None = expected(recording)
+    if metric is None or row["remark"]:
         return row
     found = row_of(metric)
     kept = {key: found[key] for key in ("value", "unit", "low", "high", "remark")}
@@ -57,6 +61,14 @@ def row_of_scene(name: str, values: Iterable[str] = ()) -> dict[str, Any]:
         "figure": metric.name, "verdict": MISSED if metric.verdict == OUTSIDE else MET, "shown": value_text(metric),
         "band": "" if metric.band is None else metric.band.text,
     }  # fmt: skip
+
+
+def _energy(recording: Recording) -> dict[str, Any]:
+    """The energy residual of a run, and a remark where it is above its bound."""
+    assert recording.ledger is not None
+    energy = energy_residual(recording.ledger, recording.duration, recording.scene)
+    remark = f"{energy.name} {value_text(energy)}" if energy.verdict == OUTSIDE else ""
+    return {"residual": energy.value, "remark": remark}
 
 
 def failed(rows: Iterable[dict[str, Any]]) -> bool:

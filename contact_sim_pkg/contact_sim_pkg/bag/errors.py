@@ -11,6 +11,10 @@ class MessageError(BagError):
     """Bytes that are not the expected message, or values that do not fit it."""
 
 
+class UnreadableTypeError(BagError):
+    """Messages of a type that the bag does not define, or in an encoding that is not read."""
+
+
 class BagWriteError(BagError):
     """The operating system refused a write; what was written before stays readable."""
 

@@ -15,7 +15,7 @@ from rosbags.typesys.store import Typestore
 
 from contact_sim_pkg.bag.columns import Stack
 from contact_sim_pkg.bag.encoding import deserialize
-from contact_sim_pkg.bag.errors import BagError, CorruptChunkError
+from contact_sim_pkg.bag.errors import BagError, CorruptChunkError, UnreadableTypeError
 from contact_sim_pkg.bag.metadata import (
     CDR,
     LACKING,
@@ -48,6 +48,8 @@ class Bag:
         for part in parts:
             for row in part.topics.values():
                 add_topic(self.topics, row, part.path)
+        self.left_out: list[str] = []
+        """Lines on topics that a reader of all of them could not read and went on without."""
         self._stores: dict[str, Typestore] = {}
         self.metadata: dict[str, str] = {}
         """The texts kept at the start and at the end of the recording: scene, versions, how it
@@ -229,11 +231,14 @@ class Bag:
 
     def _types(self, row: RecordedTopic) -> Typestore:
         if row.encoding != CDR:
-            raise BagError(
+            raise UnreadableTypeError(
                 f"{self.path}: the messages of {row.name} are encoded as {row.encoding!r:.20}, and only {CDR} is read"
             )
         if row.type not in self._stores:
-            self._stores[row.type] = store_of_definition(row.type, row.definition)
+            try:
+                self._stores[row.type] = store_of_definition(row.type, row.definition)
+            except UnreadableTypeError as error:
+                raise UnreadableTypeError(f"{row.name}: {error}") from None
         return self._stores[row.type]
 
     def _skip_or_raise(self, error: CorruptChunkError) -> None:

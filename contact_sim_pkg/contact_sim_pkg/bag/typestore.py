@@ -13,7 +13,7 @@ from functools import cache
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
-from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.errors import UnreadableTypeError
 from contact_sim_pkg.records.definitions import PACKAGE, texts
 
 LONGEST_DEFINITION = 1 << 18  # characters of a definition with all that it contains
@@ -56,7 +56,7 @@ def store_of_definition(type_name: str, text: str) -> Typestore:
     """A store that knows one type, from its `ros2msg` text with dependencies, and nothing
     installed.
 
-    Raises BagError where the text is no definition, or one of its dependencies is missing.
+    Raises UnreadableTypeError where the text is no definition, or one of its dependencies is missing.
     """
     store = get_typestore(Stores.EMPTY)
     try:
@@ -67,7 +67,9 @@ def store_of_definition(type_name: str, text: str) -> Typestore:
     except Exception as error:  # noqa: BLE001 - the parser and the generator of foreign definitions raise errors of many kinds
         known = {KeyError: f"{error.args[0] if error.args else error} is missing", RecursionError: "it contains itself"}
         reason = " ".join(str(known.get(type(error), error)).split()) or type(error).__name__
-        raise BagError(f"the bag's definition of {type_name[:100]!r} cannot be used: {reason:.300}") from None
+        raise UnreadableTypeError(
+            f"the bag's definition of {type_name[:100]!r} cannot be used: {reason:.300}"
+        ) from None
     return store
 
 

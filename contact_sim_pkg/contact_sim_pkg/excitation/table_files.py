@@ -1,10 +1,12 @@
-"""Recordings in the files of data loggers, as the table that a text file gives: `.mat`, `.wav`, MDF4, TDMS, UFF58.
+"""Recordings in the files of data loggers, as the table that a text file gives: `.mat`, `.wav`, MDF4, TDMS, UFF58, bags.
 
 Their libraries are imported on use; those of MDF4, TDMS, UFF58 and MATLAB 7.3 come with the extra `daq`.
 """
 
 from __future__ import annotations
 
+import struct
+import zlib
 from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path
@@ -16,9 +18,15 @@ from numpy.typing import NDArray
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.recorded_csv import LARGEST_FILE, RecordedTable, memory_of_text, read_table
 from contact_sim_pkg.excitation.table_words import factor_of, si_unit, split_unit
-from contact_sim_pkg.files import open_regular_file
+from contact_sim_pkg.files import BAG_ENDINGS, RefusedError, open_regular_file
+from contact_sim_pkg.records.rig import load
 
 __all__ = ["memory_needed", "read_recording"]
+
+MAT_HEADER, MAT_VERSION = 128, (b"\x00\x01", b"\x01\x00")
+MAT_KINDS = {*range(1, 8), 9, *range(12, 19)}
+"""Types of an element of a file of MATLAB 5"""
+MAT_MATRIX, MAT_COMPRESSED = 14, 15
 
 Array = NDArray[numpy.float64]
 Column = tuple[str, str | None, Array]
@@ -47,7 +55,7 @@ def read_recording(
         raise ExcitationError(f"{path}: the file has {size} bytes, at most {LARGEST_FILE} are read; cut the recording")
     try:
         found = list(reader(Path(path)))
-    except ExcitationError:
+    except RefusedError:
         raise
     except Exception as error:  # noqa: BLE001 - the parsers of damaged files raise errors of many kinds
         reason = " ".join(str(error).split()) or type(error).__name__
@@ -102,18 +110,37 @@ def _mat(path: Path) -> Iterator[Column]:
     """Vectors of numbers, those in structures too; a matrix gives a column each, NAME_1, NAME_2."""
     from scipy.io import loadmat  # takes 0.2 s
 
-    with open(path, "rb") as file:
-        is_hdf = b"MATLAB 7.3" in file.read(128)
-    if is_hdf:
-        with _library("h5py", path).File(path) as content:
+    content = path.read_bytes()
+    if b"MATLAB 7.3" in content[:MAT_HEADER]:
+        with _library("h5py", path).File(path) as stored:
             vectors: list[tuple[str, Any]] = []
-            content.visititems(
-                lambda name, item: vectors.append((name, item[()].T)) if hasattr(item, "dtype") else None
-            )
+            stored.visititems(lambda name, item: vectors.append((name, item[()].T)) if hasattr(item, "dtype") else None)
     else:
+        if content[124:126] in MAT_VERSION:
+            _refuse_broken_mat(content[MAT_HEADER:], "<" if content[126:128] == b"IM" else ">")
         vectors = [each for each in loadmat(path, simplify_cells=True).items() if not each[0].startswith("__")]
     for name, value in vectors:
         yield from _columns_of(name, value)
+
+
+def _refuse_broken_mat(elements: bytes, order: str) -> None:
+    """Walk through the elements of a file of MATLAB 5: of a damaged one scipy's reader ends the process."""
+    place = 0
+    while place < len(elements):
+        if len(elements) - place < 8:
+            raise ValueError("the last element is cut off")
+        kind, size = struct.unpack_from(f"{order}II", elements, place)
+        begin = place + 8
+        if kind >> 16:  # a short element: length and type in one number, the content in the other
+            kind, size, begin = kind & 0xFFFF, 4, place + 4
+        end = begin + size
+        if kind not in MAT_KINDS or end > len(elements):
+            raise ValueError(f"the element at byte {MAT_HEADER + place} is damaged or cut off")
+        if kind == MAT_COMPRESSED:
+            _refuse_broken_mat(zlib.decompress(elements[begin:end]), order)
+        elif kind == MAT_MATRIX:
+            _refuse_broken_mat(elements[begin:end], order)
+        place = end if kind == MAT_COMPRESSED else end + -(end - place) % 8  # padded to 8 bytes
 
 
 def _columns_of(name: str, value: Any) -> Iterator[Column]:
@@ -189,7 +216,13 @@ def _as_list(value: Any) -> list[Any]:
     return value if isinstance(value, list) else [value]
 
 
+def _bag(path: Path) -> Iterator[Column]:
+    """The acceleration of a bag. Bags lie above this package, so their reader is found by its name."""
+    yield from load("contact_sim_pkg.bag.recorded_imu:columns")(path)
+
+
 READERS: dict[str, Callable[[Path], Iterator[Column]]] = {
     ".mat": _mat, ".wav": _wav, ".mf4": _mdf, ".mdf": _mdf, ".tdms": _tdms, ".uff": _uff, ".unv": _uff,
+    **dict.fromkeys(BAG_ENDINGS, _bag),
 }  # fmt: skip
 """By the end of a file's name."""

@@ -11,17 +11,17 @@ from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from std_srvs.srv import SetBool
 
-from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.clock import clock_message
 from contact_sim_pkg.nodes.parameters import declare
 from contact_sim_pkg.nodes.processes.audience import Audience
 from contact_sim_pkg.nodes.processes.keys import Keys
 from contact_sim_pkg.nodes.processes.process import run
-from contact_sim_pkg.nodes.protocol.endpoints import publisher, refuse_strangers
+from contact_sim_pkg.nodes.protocol.endpoints import message_type, publisher, refuse_strangers
 from contact_sim_pkg.nodes.protocol.player import Player, ReplayProgress, chosen_topics
 from contact_sim_pkg.nodes.protocol.recorded_publisher import recorded_publisher
-from contact_sim_pkg.nodes.protocol.states import DONE, REFUSED, NodeError
+from contact_sim_pkg.nodes.protocol.states import DONE, LOSS, REFUSED, NodeError
 
 CLOCK_RATE = 40.0  # [Hz] of the steady clock
 BATCH = 200  # messages between two looks at signals; what a volatile topic keeps for a subscriber that is behind
@@ -61,7 +61,7 @@ class BagReplayNode(LifecycleBenchNode):
         if not self._bag_name:
             raise NodeError("parameter bag is empty; give the directory of a bag", REFUSED)
         bag = open_bag(Path(self._bag_name))
-        names = chosen_topics(bag, self._chosen)
+        names = self._installed(bag, chosen_topics(bag, self._chosen))
         latched = {name for name in names if "transient_local" in bag.topics[name].offered_qos}
         self._player = Player(
             bag, names, latched,
@@ -72,6 +72,24 @@ class BagReplayNode(LifecycleBenchNode):
         self._publishers_by_topic = {name: recorded_publisher(self, bag.topics[name], BATCH) for name in names}
         self._clock_publisher = publisher(self, "/clock") if self._with_clock else None
         self._audience = Audience(self, self._publishers_by_topic, self._delay)
+
+    def _installed(self, bag: Bag, names: list[str]) -> list[str]:
+        """Those topics whose type is installed here.
+
+        Others, such as the events of a service, are named and left out, unless they were asked for, or nothing else is
+        there.
+        """
+        found = []
+        for number, name in enumerate(names, 1):
+            try:
+                message_type(bag.topics[name].type)
+                found.append(name)
+            except NodeError as error:
+                if self._chosen or (number == len(names) and not found):
+                    raise
+                self.get_logger().warning(f"{error}; {name} is left out ({bag.count(name)} messages)")
+        self._lacking = len(found) < len(names)
+        return found
 
     def tick(self, now: float) -> float:
         """Wait for the subscribers, then publish what is due."""
@@ -94,7 +112,7 @@ class BagReplayNode(LifecycleBenchNode):
         if player.done:
             for entry in self._publishers_by_topic.values():
                 entry.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
-            self.exit_status = DONE
+            self.exit_status = LOSS if self._lacking else DONE
         return player.wait(now)
 
     def _begin(self) -> None:

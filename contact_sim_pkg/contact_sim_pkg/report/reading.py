@@ -5,7 +5,7 @@ likes.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
@@ -69,12 +69,12 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
             not skipped.
         MemoryLimitError: the series are too large.
     """
-    stacks, fields, points, of_rigs = _decode(bag, on_read)
+    stacks, fields, points, of_rigs, unknown = _decode(bag, on_read)
     topics = {kind: [name for name in stacks if bag.topics[name].type == kind] for kind in SERIES_TYPES}
     contact_of = _contact_names(bag)
-    contacts = {contact_of[name]: _contact(stacks.pop(name).columns()) for name in topics[FORCE]}
-    motion = next((_motion(stacks[name].columns()) for name in topics[MOTION]), None)
-    ledger = next((LedgerSeries(**stacks[name].columns()) for name in topics[ENERGY]), None)
+    contacts = {contact_of[name]: _contact(_columns(stacks.pop(name), name, unknown)) for name in topics[FORCE]}
+    motion = next((_motion(_columns(stacks[name], name, unknown)) for name in topics[MOTION]), None)
+    ledger = next((LedgerSeries(**_columns(stacks[name], name, unknown)) for name in topics[ENERGY]), None)
     costs = next((stacks[name].columns() for name in topics[COST]), None)
     listed = [name for name, row in bag.topics.items() if row.type == EPISODES]
     episodes = next((_episodes(stacks.get(name)) for name in listed), None)
@@ -95,6 +95,7 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
         points=next((each.finish() for each in points.values()), None),
         series=_rig_series(of_rigs),
         estimates=[] if costs is None else _estimates(costs),
+        unknown={name: each.describe() for name, each in unknown.items()},
     )
 
 
@@ -168,6 +169,55 @@ class Decoded(NamedTuple):
     points: dict[str, PointReader]
     of_rigs: dict[tuple[str, str], Any]
     """readers by the name of their series and the namespace of their topics"""
+    unknown: dict[str, Unknown]
+    """what is no number in them, by the last two parts of the topic's name"""
+
+
+class Unknown(NamedTuple):
+    """Numbers of a topic that are none."""
+
+    messages: int
+    time: float
+    """[s] of the first message with one"""
+    field: str
+    value: float
+    """the first of them"""
+
+    def describe(self) -> str:
+        """As a doubt about what is made of the topic."""
+        more = f" and {self.messages - 1} more" if self.messages > 1 else ""
+        return f"unknown samples: {self.field} {self.value:g} in the message at {self.time:.6g} s{more}"
+
+
+def _note_unknown(found: dict[str, Unknown], topic: str, time: float, fields: Iterable[tuple[str, Any]]) -> None:
+    """Keep the first number of a message that is none, and how many messages have one."""
+    for name, value in fields:
+        if not isinstance(value, float) and getattr(getattr(value, "dtype", None), "kind", "") != "f":
+            continue
+        if not np.isfinite(value).all():
+            key = "/".join(topic.strip("/").split("/")[-2:])
+            first = float(np.ravel(value)[np.argmin(np.isfinite(np.ravel(value)))])
+            before = found.get(key, Unknown(0, time, name, first))
+            found[key] = before._replace(messages=before.messages + 1)
+            return
+
+
+def _columns(stack: Stack, topic: str, unknown: dict[str, Unknown]) -> dict[str, Any]:
+    """Columns of a topic; what is no number in them goes into ``unknown``."""
+    columns = stack.columns()
+    for name, rows in columns.items():
+        if len(rows) == 0 or _is_known(rows):
+            continue
+        for time, row in zip(columns["time"], rows, strict=True):
+            _note_unknown(unknown, topic, float(time), [(name, np.asarray(row))])
+    return columns
+
+
+def _is_known(rows: Any) -> bool:
+    """Whether all numbers of a column are."""
+    if isinstance(rows, list):
+        return all(getattr(row, "dtype", np.dtype("U")).kind != "f" or bool(np.isfinite(row).all()) for row in rows)
+    return rows.dtype.kind != "f" or bool(np.isfinite(rows).all())
 
 
 def _read_types() -> set[str]:
@@ -185,31 +235,35 @@ def _rig_series(readers: dict[tuple[str, str], Any]) -> dict[str, Any]:
 
 
 def _decode(bag: Bag, on_read: OnRead) -> Decoded:
-    decoded, readers = Decoded({}, {}, {}, {}), series_readers()
+    decoded, readers = Decoded({}, {}, {}, {}, {}), series_readers()
     total, kept = bag.count(), 0
     for number, message in enumerate(bag.messages(), start=1):
         if number % MESSAGES_BETWEEN_CALLS == 0:
             on_read(min(1.0, number / max(total, 1)))
         seconds = message.log_time * 1e-9
-        # Fields and points are reduced as they are read; they would not fit into memory
-        if message.type == PATCH:
-            decoded.fields.setdefault(message.topic, FieldReader()).add(seconds, bag.decode(message))
-            kept += SCALARS_BYTES
-        elif message.type == POINTS:
-            decoded.points.setdefault(message.topic, PointReader()).add(seconds, bag.decode(message))
-            kept += SCALARS_BYTES
-        elif message.type in readers:
-            reader = readers[message.type]
-            place = reader.name, message.topic.rpartition("/")[0]
-            if place not in decoded.of_rigs:
-                decoded.of_rigs[place] = load(reader.reader)()
-            decoded.of_rigs[place].add(seconds, message.type, bag.decode(message))
-            kept += SCALARS_BYTES if reader.reduces else 2 * len(message.data)
-        elif message.type in WANTED:
+        if message.type in WANTED:
             if message.topic not in decoded.series:
                 decoded.series[message.topic] = bag.stack(message.topic, WANTED[message.type])
             decoded.series[message.topic].add(message.log_time, message.data)
             continue
+        if message.type not in (PATCH, POINTS, *readers):
+            continue
+        content = bag.decode(message)
+        _note_unknown(decoded.unknown, message.topic, seconds, vars(content).items())
+        # Fields and points are reduced as they are read; they would not fit into memory
+        if message.type == PATCH:
+            decoded.fields.setdefault(message.topic, FieldReader()).add(seconds, content)
+            kept += SCALARS_BYTES
+        elif message.type == POINTS:
+            decoded.points.setdefault(message.topic, PointReader()).add(seconds, content)
+            kept += SCALARS_BYTES
+        else:
+            reader = readers[message.type]
+            place = reader.name, message.topic.rpartition("/")[0]
+            if place not in decoded.of_rigs:
+                decoded.of_rigs[place] = load(reader.reader)()
+            decoded.of_rigs[place].add(seconds, message.type, content)
+            kept += SCALARS_BYTES if reader.reduces else 2 * len(message.data)
         refuse_above_limit(kept, f"{bag.path}: the report of its first {number} messages")
     return decoded
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -81,7 +82,9 @@ def described_rows(value: Any, label: str = "") -> list[Row]:
 
 def number(value: float) -> str:
     """Text of a value (any unit, dimensionless too) in three digits; very small and large ones as
-    1.2·10⁻⁸."""
+    1.2·10⁻⁸; `–` for what is no number."""
+    if not math.isfinite(value):
+        return "–"
     if value != 0.0 and not 1e-3 <= abs(value) < 1e6:
         mantissa, exponent = f"{value:.1e}".split("e")
         return f"{mantissa}·10{str(int(exponent)).translate(SUPERSCRIPT)}"

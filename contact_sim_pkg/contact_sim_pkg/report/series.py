@@ -208,3 +208,5 @@ class Recording(NamedTuple):
     """
     estimates: Sequence[Estimate] = ()
     """numerical errors of outputs, the largest of the run"""
+    unknown: Mapping[str, str] = MappingProxyType({})
+    """what is no number in the messages of a topic such as `seat/force`; a topic without is absent"""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from contact_sim_pkg.files import FileRefusedError, open_regular_file
+from contact_sim_pkg.files import BAG_ENDINGS, FileRefusedError, open_regular_file
 from contact_sim_pkg.memory import GIBIBYTE
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.errors import Breach
@@ -94,6 +94,8 @@ def _file_fault(file: InputFile, folder: Path) -> str:
         looked = " or ".join(str(place) for place in candidates(file.name, folder))
         there = folder / file.name
         kind = "is a folder" if there.is_dir() else "is no regular file" if there.exists() else "is not there"
+        if any(each.suffix in BAG_ENDINGS for each in there.glob("*")):
+            kind += f" with a bag of several files, `bench recover {file.name} NEW` makes one of them"
         return f"the file {file.name!r} {kind}; looked for {looked}"
     largest = LARGEST_ROAD_FILE if file.where == "road.file" else LARGEST_SIGNAL_FILE
     try:

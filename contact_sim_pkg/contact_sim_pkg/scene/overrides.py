@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from contact_sim_pkg.files import BAG_ENDINGS
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.renamed_keys import sentence_of
 from contact_sim_pkg.scene.yaml.document import parse_value
@@ -109,7 +110,8 @@ def _option(name: str, path: tuple[str, ...], text: str | float) -> Override:
 
 def _file(name: str, section: str, file: str | Path) -> Override:
     option = f"{name} {file}"
-    absolute = str(Path(file).absolute())
+    parts = [each for each in sorted(Path(file).glob("*")) if each.suffix in BAG_ENDINGS]
+    absolute = str((parts[0] if len(parts) == 1 else Path(file)).absolute())  # of the folder of a bag its only file
     return Override(option, (section,), ScalarNode(Mark(option, 0, 0), absolute, absolute, quoted=True), section)
 
 

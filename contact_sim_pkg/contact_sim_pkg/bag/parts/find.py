@@ -16,12 +16,12 @@ from contact_sim_pkg.bag.mcap.layout import MAGIC
 from contact_sim_pkg.bag.metadata import files_of_bag
 from contact_sim_pkg.bag.parts.mcap_part import McapPart
 from contact_sim_pkg.bag.parts.part import ZSTD_MAGIC, Part
-from contact_sim_pkg.files import open_regular_file
+from contact_sim_pkg.files import BAG_ENDINGS, open_regular_file
 
 __all__ = ["files_of", "parts_of"]
 
 METADATA = "metadata.yaml"
-ENDINGS = (".mcap", ".db3", ".bag", ".zstd", ".zst")
+ENDINGS = (*BAG_ENDINGS, ".zstd", ".zst")
 SQLITE, ROS1 = b"SQLite format 3\0", b"#ROSBAG V"
 KEPT_FREE = 500_000_000
 """[bytes] of the disk that are not filled by unpacking a file"""

@@ -58,9 +58,9 @@ def command(
 
         for file in export(source, form, topics, out or source.path.parent / "export", overwrite=overwrite):
             say(str(file))
-    for note in source.notes:
+    for note in [*source.notes, *source.left_out]:
         say(note, err=True)
-    context.exit(status)
+    context.exit(3 if source.left_out else status)
 
 
 def _refuse_options_that_do_not_fit(

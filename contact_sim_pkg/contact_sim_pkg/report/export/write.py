@@ -14,7 +14,7 @@ from typing import IO, Any
 
 import numpy as np
 
-from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.errors import BagError, UnreadableTypeError
 from contact_sim_pkg.bag.names import safe_name
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.files import FileRefusedError, as_cell, check_output, new_file, wrong_name
@@ -39,7 +39,7 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
         bag: to read.
         form: `CSV` or `PARQUET`; maps are CSV in both.
         topics: all where it is empty, but those that have nothing for a table: `bag.notes` names them, and those
-            whose file has another name than theirs.
+            whose file has another name than theirs; `bag.left_out` those of a type that cannot be read.
         out: folder, made where it does not exist.
         overwrite: replace files that exist.
 
@@ -86,12 +86,16 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
 
 
 def _tables(bag: Bag, names: Sequence[str]) -> Iterator[TopicTable]:
-    """The tables of topics; a note in the bag says which ones have nothing for a table."""
+    """The tables of topics; a note in the bag says which ones have nothing for a table, `bag.left_out` which ones
+    cannot be read.
+    """
     for name in names:
         try:
             yield table_of(bag, name)
         except NoTableError as error:
             bag.notes.append(f"{error}; it is left out")
+        except UnreadableTypeError as error:
+            bag.left_out.append(f"{error}; {name} is left out ({bag.count(name)} messages)")
 
 
 def _files(bag: Bag, names: Sequence[str], form: str) -> dict[tuple[str, str], str]:

@@ -39,7 +39,7 @@ def energy_balance(ledger: LedgerSeries, scope: LedgerScope | None = None) -> Pi
     caption = (
         f"Energy since the start: {ledger.supplied[-1]:.4g} J supplied, {ledger.dissipated[-1]:.4g} J dissipated at "
         f"the end. The residual is at most {np.abs(ledger.residual).max():.2g} J, "
-        f"{relative_residual(ledger):.1e} of {named}: the error of the time integration."
+        f"{relative_residual(ledger):.1e} of {named}: what its entries leave open."
     )
     title = "Energy ledger over time and its residual"
     if scope is not None:

@@ -6,7 +6,7 @@ from itertools import zip_longest
 
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.records.rig import load
-from contact_sim_pkg.report.metrics.maker import Maker
+from contact_sim_pkg.report.metrics.maker import ENERGY, Maker, energy_residual
 from contact_sim_pkg.report.metrics.mat import mat_metrics
 from contact_sim_pkg.report.rig_reports import reports_of
 from contact_sim_pkg.report.series import ContactSeries, Recording
@@ -31,23 +31,39 @@ def metrics_of(recording: Recording) -> list[Metric]:
 
 def all_metrics(recording: Recording) -> list[Metric]:
     """The whole lists of all contacts, and the mat metrics of each pressure map."""
-    mats = [mat_metrics(name, field, recording.duration) for name, field in recording.fields.items()]
+    mats = [
+        [_doubted(metric, recording) for metric in mat_metrics(name, field, recording.duration)]
+        for name, field in recording.fields.items()
+    ]
     return [metric for each in _named([*_lists(recording), *mats]) for metric in each]
 
 
 def _named(lists: list[list[Metric]]) -> list[list[Metric]]:
     """The lists, with the contact before each name where there are several."""
-    contacts = {metric.key.partition(".")[0] for each in lists for metric in each}
+    contacts = {metric.key.partition(".")[0] for each in lists for metric in each} - {ENERGY}
     if len(contacts) < 2:
         return lists
-    return [[each._replace(name=f"{each.key.partition('.')[0]}: {each.name}") for each in metrics] for metrics in lists]
+    return [[_with_contact(each) for each in metrics] for metrics in lists]
+
+
+def _with_contact(metric: Metric) -> Metric:
+    contact = metric.key.partition(".")[0]
+    return metric if contact == ENERGY else metric._replace(name=f"{contact}: {metric.name}")
 
 
 def _lists(recording: Recording) -> list[list[Metric]]:
     found: list[list[Metric]] = [load(each.metrics)(recording) for each in reports_of(recording) if each.metrics]
     listed = {metric.topic.partition("/")[0] for each in found for metric in each}
     rest = [load_metrics(name, contact) for name, contact in recording.contacts.items() if name not in listed]
-    return [each for each in (*found, *rest) if each]
+    ledger = recording.ledger
+    energy = [] if ledger is None else [energy_residual(ledger, recording.duration, recording.scene)]
+    return [[_doubted(metric, recording) for metric in each] for each in (*found, *rest, energy) if each]
+
+
+def _doubted(metric: Metric, recording: Recording) -> Metric:
+    """The metric, in doubt where its topic holds what is no number."""
+    unknown = recording.unknown.get(metric.topic)
+    return metric if unknown is None else metric._replace(broken=(*metric.broken, f"{metric.topic}: {unknown}"))
 
 
 def load_metrics(name: str, contact: ContactSeries) -> list[Metric]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -12,7 +12,11 @@ from contact_sim_pkg.report.energy import relative_residual
 from contact_sim_pkg.report.metrics.bands import Conditions, band_of
 from contact_sim_pkg.report.series import LedgerSeries
 
-__all__ = ["Maker", "at_most", "conditions_of", "energy_residual", "near"]
+ENERGY = "energy"
+"""Prefix of the keys of what the frame adds to the metrics of every rig."""
+REALTIME_RESIDUAL = 0.01
+"""of a run whose accuracy is what real time leaves"""
+__all__ = ["ENERGY", "Maker", "at_most", "conditions_of", "energy_residual", "near"]
 
 
 class Maker(NamedTuple):
@@ -64,12 +68,17 @@ def at_most(value: float, source: str) -> Band:
     return Band(-math.inf, value, CLOSED_FORM, source)
 
 
-def energy_residual(make: Callable[..., Metric], ledger: LedgerSeries, scene: Mapping[str, object]) -> Metric:
-    """Largest residual of the energy over its throughput, which the requested accuracy bounds."""
+def energy_residual(ledger: LedgerSeries, duration: float, scene: Mapping[str, object]) -> Metric:
+    """Largest residual of the energy over its throughput.
+
+    What a step errs by is bounded by the requested accuracy; more is an energy that the ledger does not have.
+    """
     accuracy = scene.get("accuracy")
-    band = at_most(float(accuracy), "requested accuracy") if isinstance(accuracy, (int, float)) else None
-    return make("residual", "residual of the energy", relative_residual(ledger), "", band=band, topic="bench/energy",
-                count=ledger.time.size)  # fmt: skip
+    bound = float(accuracy) if isinstance(accuracy, (int, float)) else REALTIME_RESIDUAL
+    return Maker(ENERGY, "bench/energy", (0.0, duration)).make(
+        "residual", "energy residual", relative_residual(ledger), "", band=at_most(bound, "requested accuracy"),
+        count=ledger.time.size, remark="share of the largest entry that the entries leave open",
+    )  # fmt: skip
 
 
 def conditions_of(scene: Mapping[str, object]) -> dict[str, float | str]:

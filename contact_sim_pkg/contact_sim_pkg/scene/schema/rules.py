@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain, pairwise
 
+from contact_sim_pkg.files import BAG_ENDINGS
 from contact_sim_pkg.records.registry import refused_sections, rigs
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.errors import Breach
@@ -164,6 +165,8 @@ def _vibration(scene: Scene) -> Iterator[Breach]:
             )
             yield Breach("vibration.duration", sentence, ("vibration.sample_rate",))
     elif isinstance(vibration, RecordedSection) and vibration.rate is None and vibration.time_column is None:
+        if vibration.file.endswith(BAG_ENDINGS):  # whose messages have stamps
+            return
         sentence = (
             "is missing; give the file's sampling rate in Hz, or its time_column where it has one (nothing is guessed)"
         )

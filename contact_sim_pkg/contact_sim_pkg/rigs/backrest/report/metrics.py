@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from contact_sim_pkg.records.metric import LIMIT, Band, Metric
-from contact_sim_pkg.report.metrics.maker import Maker, at_most, energy_residual, near
+from contact_sim_pkg.report.metrics.maker import Maker, at_most, near
 from contact_sim_pkg.report.series import ContactSeries, FieldSeries, Recording
 from contact_sim_pkg.report.signal.confidence import TWO_SIDED
 from contact_sim_pkg.report.signal.episodes import durations, slaps_of
@@ -26,11 +26,10 @@ def backrest_metrics(recording: Recording) -> list[Metric]:
         return []
     window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
     make = Maker(BACKREST, f"{BACKREST}/force", window).make
-    ledger = recording.ledger
     found = [*_slaps(make, recording, contact), *_load(make, recording, contact)]
     field = recording.fields.get(BACKREST)
     found += [*_friction(make, recording, contact), *(_map(make, recording, field) if field is not None else ())]
-    return found if ledger is None else [*found, energy_residual(make, ledger, recording.scene)]
+    return found
 
 
 def _slaps(make: Any, recording: Recording, contact: ContactSeries) -> Iterator[Metric]:

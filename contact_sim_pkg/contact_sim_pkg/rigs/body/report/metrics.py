@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from contact_sim_pkg.records.metric import Metric
-from contact_sim_pkg.report.metrics.maker import Maker, at_most, energy_residual, near
+from contact_sim_pkg.report.metrics.maker import Maker, at_most, near
 from contact_sim_pkg.report.series import ContactSeries, LedgerSeries, MotionSeries, Recording
 from contact_sim_pkg.rigs.body.report.numbers import BLOCK, bursts, rest_from
 
@@ -68,7 +68,7 @@ def _friction(make: Any, recording: Recording, contact: ContactSeries) -> Iterat
 
 
 def _energy(make: Any, recording: Recording, rests: float | None) -> Iterator[Metric]:
-    """What it loses, which is all that it had where it rests, and the residual of the balance."""
+    """What it loses, which is all that it had where it rests."""
     ledger: LedgerSeries | None = recording.ledger
     if ledger is None:
         return
@@ -76,4 +76,3 @@ def _energy(make: Any, recording: Recording, rests: float | None) -> Iterator[Me
     fallen = -float(ledger.potential[-1] + ledger.kinetic[-1] + ledger.stored[-1] - ledger.supplied[-1])
     band = near(fallen, 0.01, "kinetic and potential energy given up") if fallen > 0.0 else None
     yield make("loss", "energy lost", lost, "J", band=band, topic=topic, count=ledger.time.size)
-    yield energy_residual(make, ledger, recording.scene)
