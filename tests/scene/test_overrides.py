@@ -132,3 +132,15 @@ def test_a_relative_file_counts_from_the_current_folder(maker, tmp_path, monkeyp
     (tmp_path / "road.crg").write_bytes(b"x")
     monkeypatch.chdir(tmp_path)
     assert maker.load("tire", overrides=[set_road("road.crg")]).road.file == str(tmp_path / "road.crg")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "kind"),
+    [
+        ("a.crg", "", "opencrg"), ("a.txt", "$CT\nroad\n$\n$ROAD_CRG\n", "opencrg"), ("a.csv", "x,z\n0,0\n", "profile"),
+        ("a.rdf", "$ words\n[UNITS]\n", "profile"), ("a.erd", "ERDFILEV2.00\n", "profile"),
+    ],
+)  # fmt: skip
+def test_the_kind_of_a_road_file_follows_from_its_name_and_content(maker, tmp_path, name, text, kind):
+    (tmp_path / name).write_text(text)
+    assert maker.load("tire", overrides=[set_road(tmp_path / name)]).road.kind == kind

@@ -84,7 +84,12 @@ def scene_options(function: Callable[..., Any]) -> Callable[..., Any]:
         ),
         click.option("--duration", metavar="S", help="Simulated time, in s."),
         click.option("--pace", metavar="realtime|max|FACTOR", help="How fast blocks are sent; acts on nodes."),
-        click.option("--road", type=_FILE, metavar="FILE", help="OpenCRG road in place of that of the scene."),
+        click.option(
+            "--road",
+            type=_FILE,
+            metavar="FILE",
+            help="Road in place of that of the scene: OpenCRG, x and z as a table, ERD, RDF.",
+        ),
         click.option(
             "--vibration", type=_FILE, metavar="FILE", help="CSV file in place of the vibration of the scene."
         ),

@@ -53,6 +53,10 @@ class Signal(Protocol):
         """
 
 
+AHEAD = 0.2
+"""[s] of the travel that block 0 shows at least: the mean slope over it decides how fast a rig begins to rise
+(decision 0034).
+"""
 SHORT_KINDS = ("bump", "cleat", "pothole")
 LEAST_NODES = 3.0
 """Cells along an obstacle below which a note is due."""
@@ -62,7 +66,7 @@ class RoadBlocks:
     """The strips of a surface that a rig passes, one a block.
 
     A strip covers the travel of its block, half_length before and after it, and at least one node
-    more on each side.
+    more on each side; that of block 0 the travel of `AHEAD`, where the road is there.
     """
 
     def __init__(
@@ -119,10 +123,9 @@ class RoadBlocks:
         height there.
         """
         start, end = block * self.block_length, (block + 1) * self.block_length
-        lowest, highest = self.travel.extent(start, end)
-        first_row = floor((lowest - self.half_length) / self.cell_x) - 1
-        last_row = ceil((highest + self.half_length) / self.cell_x) + 1
-        height = self._strip(first_row, last_row)
+        first_row, last_row = self._rows(start, end)
+        strip = self._strip_ahead if block == 0 and end < AHEAD else self._strip
+        height = strip(first_row, last_row)
         if not numpy.isfinite(height).all():
             row, col = numpy.argwhere(~numpy.isfinite(height))[0]
             raise ExcitationError(
@@ -134,6 +137,27 @@ class RoadBlocks:
             block=block, travel_start=self.travel.position(start), travel_end=self.travel.position(end),
             first_row=first_row, cell_x=self.cell_x, cell_y=self.cell_y, height=height,
         )  # fmt: skip
+
+    def _rows(self, start: float, end: float) -> tuple[int, int]:
+        """First and last row under the travel between two times in [s]."""
+        lowest, highest = self.travel.extent(start, end)
+        return floor((lowest - self.half_length) / self.cell_x) - 1, ceil(
+            (highest + self.half_length) / self.cell_x
+        ) + 1
+
+    def _strip_ahead(self, first_row: int, last_row: int) -> NDArray[numpy.float32]:
+        """The strip of block 0 with the travel of `AHEAD`; without it where the road ends before, or does not
+        fit into a block.
+        """
+        further = self._rows(0.0, AHEAD)[1]
+        if (further + 1 - first_row) * len(self._y) <= LARGEST_PATCH:
+            try:
+                height = self._strip(first_row, further)
+                if numpy.isfinite(height).all():
+                    return height
+            except ExcitationError:
+                pass
+        return self._strip(first_row, last_row)
 
     def _strip(self, first_row: int, last_row: int) -> NDArray[numpy.float32]:
         """Heights of these rows; a strip moves on by few rows, so that they are made for several at
@@ -153,6 +177,11 @@ class RoadBlocks:
             return self.surface.heights(x, self._y).astype(numpy.float32)
         except ExcitationError:
             return self.surface.heights(x[: end_row - first_row], self._y).astype(numpy.float32)
+
+    def refuse_short_road(self, duration: float) -> None:
+        """Raise ExcitationError where the surface has no height somewhere under a run of so long, [s]."""
+        first, last = self._rows(0.0, duration)
+        self.surface.heights(numpy.array([first, last]) * self.cell_x, self._y)
 
     def describe(self) -> dict[str, Any]:
         """What the surface says about itself, and what its lattice may miss."""

@@ -112,7 +112,9 @@ class RecordedTable(NamedTuple):
         return column * TIME_UNITS[unit or "s"], ""
 
 
-def read_table(path: Path, header_line: int | None = None) -> RecordedTable:
+def read_table(
+    path: Path, header_line: int | None = None, *, section: str = "vibration", bare: tuple[str, ...] = ()
+) -> RecordedTable:
     """Read the file, a block of lines at a time: beside the numbers only one block is held.
 
     The first line that is neither empty nor a comment (#, %), or the stated one, names the columns, with a unit
@@ -124,6 +126,8 @@ def read_table(path: Path, header_line: int | None = None) -> RecordedTable:
     Args:
         path: of the file.
         header_line: number of the line with the names, from 1.
+        section: of a scene, whose key `header_line` a refusal names.
+        bare: names of the columns of a file that begins with numbers; without them it is refused.
 
     Raises:
         ExcitationError: with the line, for no header, ragged lines and fields that are no numbers;
@@ -144,7 +148,7 @@ def read_table(path: Path, header_line: int | None = None) -> RecordedTable:
         raise _too_short(path, 0)
     # Names and units
     separator = next((mark for mark in SEPARATORS if mark in head[0][1]), None)
-    layout = _layout(path, head, separator)
+    layout = _layout(path, head, separator, section, bare)
     columns = [array("d") for _ in layout.names]
     numbers = array("q")
     # Numbers, a block of lines at a time
@@ -258,9 +262,12 @@ def _too_short(path: Path, samples: int) -> ExcitationError:
 class _Layout:
     """What the head of a file says of its columns."""
 
-    def __init__(self, separator: str | None, names: list[str], factors: dict[str, float], rows: int) -> None:
+    def __init__(
+        self, separator: str | None, names: list[str], factors: dict[str, float], rows: int, section: str
+    ) -> None:
         """Columns with their names, those with a unit with its factor to SI; ``rows`` lines are no samples."""
         self.separator, self.names, self.factors, self.rows = separator, names, factors, rows
+        self.section = section
         self.moments: frozenset[str] = frozenset()
         """columns of dates and times"""
         self.texts: frozenset[str] = frozenset()
@@ -302,7 +309,7 @@ class _Layout:
             cure = (
                 ""
                 if number_of_line > 3
-                else "; where words stand before the header, name its line (vibration.header_line)"
+                else f"; where words stand before the header, name its line ({self.section}.header_line)"
             )
             raise ExcitationError(
                 f"{path}, line {number_of_line}: {len(fields)} fields, expected {width} ({', '.join(self.names)}), separated "
@@ -346,12 +353,16 @@ def _is_moment(text: str) -> bool:
     return True
 
 
-def _layout(path: Path, head: list[tuple[int, str]], separator: str | None) -> _Layout:
+def _layout(
+    path: Path, head: list[tuple[int, str]], separator: str | None, section: str, bare: tuple[str, ...]
+) -> _Layout:
     """Names and units of the columns, from the header and a row of units below it."""
     (line, text), *below = head
     fields = fields_of(text, separator)
     while len(fields) > 1 and not fields[-1].strip():
         fields.pop()
+    if len(fields) <= len(bare) and all(map(is_number, fields)):
+        return _Layout(separator, list(bare[: len(fields)]), {}, 0, section)
     names: list[str] = []
     units: list[str | None] = []
     for field in fields:
@@ -359,7 +370,7 @@ def _layout(path: Path, head: list[tuple[int, str]], separator: str | None) -> _
         if not name or is_number(name) or re.search(r'[\[("]', name):
             raise ExcitationError(
                 f"{path}, line {line}: '{field.strip()[:40]}' is no column name; the first line must name the "
-                "columns, such as x y z, or name its line (vibration.header_line)"
+                f"columns, such as x y z, or name its line ({section}.header_line)"
             )
         names.append(name.lower())
         units.append(unit)
@@ -382,7 +393,7 @@ def _layout(path: Path, head: list[tuple[int, str]], separator: str | None) -> _
                 "one of these, or no unit"
             )
         factors[name], si_units[name] = factor, si_unit(unit)
-    layout = _Layout(separator, names, factors, rows)
+    layout = _Layout(separator, names, factors, rows, section)
     layout.units = si_units
     if len(head) > rows:
         layout.look(fields_of(head[rows][1], separator))

@@ -33,7 +33,9 @@ Column = tuple[str, str | None, Array]
 """name, unit, samples"""
 
 
-def read_recording(path: Path, header_line: int | None = None) -> RecordedTable:
+def read_recording(
+    path: Path, header_line: int | None = None, *, section: str = "vibration", bare: tuple[str, ...] = ()
+) -> RecordedTable:
     """The columns of a recording of any of the formats; a text file as `read_table` reads it.
 
     Columns of different lengths are refused; times of a channel become a column `time` [s].
@@ -43,7 +45,7 @@ def read_recording(path: Path, header_line: int | None = None) -> RecordedTable:
     """
     reader = READERS.get(Path(path).suffix.lower())
     if reader is None:
-        return read_table(path, header_line)
+        return read_table(path, header_line, section=section, bare=bare)
     try:
         with open_regular_file(path) as file:
             size = file.seek(0, 2)

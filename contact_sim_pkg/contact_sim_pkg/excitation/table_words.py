@@ -24,7 +24,7 @@ _GROUPS: dict[str, dict[str, float]] = {
         "mg": 1e-3 * STANDARD_GRAVITY, "gal": 1e-2,
     },
     "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0},
-    "m": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254},
+    "m": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "ft": 0.3048, "in": 0.0254, "km": 1e3},
     "N": {"n": 1.0, "kn": 1e3, "lbf": 4.4482216152605},
     "Pa": {
         "pa": 1.0, "kpa": 1e3, "mpa": 1e6, "bar": 1e5, "psi": 6894.757293168, "mmhg": 133.322387415, "n/cm^2": 1e4,
@@ -41,10 +41,12 @@ UNITS = {unit: factor for group in _GROUPS.values() for unit, factor in group.it
 _SPELLINGS = {
     "sec": "s", "secs": "s", "second": "s", "seconds": "s", "sek": "s", "msec": "ms", "millisecond": "ms",
     "milliseconds": "ms", "usec": "us", "microseconds": "us", "nsec": "ns", "nanoseconds": "ns", "minutes": "min",
-    "gn": "g", "g_n": "g", "g0": "g", "gs": "g", "milli-g": "mg", "m/s/s": "m/s^2", "mps2": "m/s^2", "meter": "m", "newton": "n",
-    "°/s": "deg/s", "dps": "deg/s", "lb": "lbf", "n/cm2": "n/cm^2", "n/mm2": "n/mm^2", "n/m2": "n/m^2",
-    "kg/cm2": "kg/cm^2", "kgf/cm^2": "kg/cm^2", "kgf/cm2": "kg/cm^2", "g/cm2": "g/cm^2", "millimeters": "mm", "centimeters": "cm",
-    "inch": "in", "inches": "in", "lb/in^2": "psi", "lb/in2": "psi",
+    "gn": "g", "g_n": "g", "g0": "g", "gs": "g", "milli-g": "mg", "m/s/s": "m/s^2", "mps2": "m/s^2", "meter": "m", "meters": "m",
+    "metre": "m", "metres": "m", "millimeter": "mm", "millimeters": "mm", "millimetre": "mm", "millimetres": "mm",
+    "centimeter": "cm", "centimeters": "cm", "centimetre": "cm", "inch": "in", "inches": "in", "foot": "ft", "feet": "ft",
+    "kilometer": "km", "kilometre": "km", "newton": "n", "°/s": "deg/s", "dps": "deg/s", "lb": "lbf", "n/cm2": "n/cm^2",
+    "n/mm2": "n/mm^2", "n/m2": "n/m^2", "kg/cm2": "kg/cm^2", "kgf/cm^2": "kg/cm^2", "kgf/cm2": "kg/cm^2", "g/cm2": "g/cm^2",
+    "lb/in^2": "psi", "lb/in2": "psi",
 }  # fmt: skip
 _UNIT = re.compile(r'"?\s*(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\))\s*"?')
 _SUFFIX = re.compile(r"(.+)_(s|ms|us|ns)")

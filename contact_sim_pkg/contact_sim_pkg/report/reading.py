@@ -50,6 +50,8 @@ WANTED: dict[str, tuple[str, ...] | None] = {
     FORCE: None, MOTION: MOTION_COLUMNS, ENERGY: LedgerSeries._fields, COST: None, EPISODES: EpisodeSeries._fields,
 }  # fmt: skip
 """Columns of each series that are read; None: all"""
+NOT_MEASURED = {(PATCH, "approach")}
+"""Fields that a pressure mat leaves open"""
 SCALARS_BYTES = 512
 """kept of a field or of contact points, beside a few whole ones"""
 
@@ -249,7 +251,8 @@ def _decode(bag: Bag, on_read: OnRead) -> Decoded:
         if message.type not in (PATCH, POINTS, *readers):
             continue
         content = bag.decode(message)
-        _note_unknown(decoded.unknown, message.topic, seconds, vars(content).items())
+        given = [(name, value) for name, value in vars(content).items() if (message.type, name) not in NOT_MEASURED]
+        _note_unknown(decoded.unknown, message.topic, seconds, given)
         # Fields and points are reduced as they are read; they would not fit into memory
         if message.type == PATCH:
             decoded.fields.setdefault(message.topic, FieldReader()).add(seconds, content)

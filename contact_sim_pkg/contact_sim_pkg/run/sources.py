@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy
 
 from contact_sim_pkg.excitation.blocks import RoadBlocks, RoadLattice, Signal, Surface, VibrationBlocks
+from contact_sim_pkg.excitation.borders import TurnedBeginning
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.records.registry import rigs
@@ -65,15 +66,15 @@ def make_road(scene: ResolvedScene) -> RoadBlocks:
     lattice = road_lattice(scene)
     half_length = (lattice.road_rows // 2 + 1) * lattice.cell_x
     surface = make_surface(scene, lattice.cell_x)
-    if scene.road is not None and scene.road.kind == "opencrg":
-        from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
-
-        if isinstance(surface, OpenCrgRoad):
-            half_width = 0.5 * (lattice.road_cols - 1) * lattice.cell_y
-            surface.refuse_steep_track(numpy.linspace(-half_width, half_width, lattice.road_cols, dtype=numpy.float64))
-    return RoadBlocks(
+    if isinstance(surface, TurnedBeginning):
+        half_width = 0.5 * (lattice.road_cols - 1) * lattice.cell_y
+        surface.refuse_steep_track(numpy.linspace(-half_width, half_width, lattice.road_cols, dtype=numpy.float64))
+    blocks = RoadBlocks(
         surface, make_travel(scene), scene.block_length, lattice.cell_x, lattice.cell_y, half_length, lattice.road_cols
     )
+    if isinstance(surface, TurnedBeginning):
+        blocks.refuse_short_road(scene.duration)
+    return blocks
 
 
 def road_lattice(scene: ResolvedScene) -> RoadLattice:
@@ -106,11 +107,20 @@ def make_surface(scene: ResolvedScene, cell: float) -> Surface:
     if road.kind == "opencrg":
         from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 
-        return OpenCrgRoad(
+        grid = OpenCrgRoad(
             scene.file_path("road.file"), start=road.start, lateral_offset=road.track_offset, missing=road.missing_cells,
             hole_depth=road.hole_depth, border_u=BORDER_NAMES[road.border_u], border_v=BORDER_NAMES[road.border_v],
             level="mean" if road.remove_mean else "origin", file_settings=road.file_settings,
         )  # fmt: skip
+        return TurnedBeginning(grid)
+    if road.kind == "profile":
+        from contact_sim_pkg.excitation.profile.road import ProfileRoad
+
+        profile = ProfileRoad(
+            scene.file_path("road.file"), start=road.start, track_offset=road.track_offset, track_width=road.track_width,
+            border_u=BORDER_NAMES[road.border_u], level="mean" if road.remove_mean else "origin", header_line=road.header_line,
+        )  # fmt: skip
+        return TurnedBeginning(profile)
     from contact_sim_pkg.excitation.obstacles import FlatRoad, Obstacle
 
     if road.kind == "flat":

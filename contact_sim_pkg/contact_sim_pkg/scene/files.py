@@ -7,7 +7,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from contact_sim_pkg.scene.schema.road import OpenCrgRoadSection
+from contact_sim_pkg.scene.schema.road import OpenCrgRoadSection, ProfileRoadSection
 from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.vibration import RecordedSection
 
@@ -29,7 +29,7 @@ class InputFile(NamedTuple):
 def input_files(scene: Scene) -> list[InputFile]:
     """The files that a scene names."""
     named = []
-    if isinstance(scene.road, OpenCrgRoadSection):
+    if isinstance(scene.road, OpenCrgRoadSection | ProfileRoadSection):
         named.append(InputFile("road.file", scene.road.file, scene.road.sha256))
     if isinstance(scene.vibration, RecordedSection):
         named.append(InputFile("vibration.file", scene.vibration.file, scene.vibration.sha256))

@@ -71,8 +71,10 @@ def file_memory(where: str, path: Path) -> int:
     """
     from contact_sim_pkg.excitation import table_files
     from contact_sim_pkg.excitation.opencrg import road as opencrg
+    from contact_sim_pkg.excitation.profile import formats as profile
 
-    needed = opencrg.memory_needed(path) if where == "road.file" else table_files.memory_needed(path)
+    is_grid = where == "road.file" and profile.is_opencrg(path)
+    needed = opencrg.memory_needed(path) if is_grid else table_files.memory_needed(path)
     return int(needed)
 
 

@@ -14,11 +14,10 @@ from contact_sim_pkg.scene.renamed_keys import sentence_of
 from contact_sim_pkg.scene.yaml.document import parse_value
 from contact_sim_pkg.scene.yaml.nodes import ListNode, MappingNode, Mark, Node, ScalarNode
 
-TIED_TO_FILE = {"road": ("start", "sha256"), "vibration": ("start", "sha256", "rate", "time_column")}
+TIED_TO_FILE = {"road": ("start", "sha256", "header_line"), "vibration": ("start", "sha256", "rate", "time_column")}
 """Keys that say something about one file and go when another file takes its place."""
 REMOVED = "null"
 """Value of `--set` that takes a key out of the scene, an effect for instance."""
-FILE_KINDS = {"road": "opencrg", "vibration": "recorded"}
 
 
 @dataclass(frozen=True)
@@ -66,8 +65,8 @@ def set_pace(text: str | float) -> Override:
 
 
 def set_road(file: str | Path) -> Override:
-    """`--road FILE`: an OpenCRG file in place of the scene's road; the name counts from the current
-    folder.
+    """`--road FILE`: a file in place of the scene's road, an OpenCRG grid or a profile by its name and content;
+    the name counts from the current folder.
     """
     return _file("--road", "road", file)
 
@@ -118,7 +117,7 @@ def _file(name: str, section: str, file: str | Path) -> Override:
 
 def _replace_file(root: MappingNode, section: str, file: Node, mark: Mark) -> str:
     """Let the file take the place of the section; there is no fault."""
-    kind = FILE_KINDS[section]
+    kind = "recorded" if section == "vibration" else _road_kind(file)
     entries = {"kind": ScalarNode(mark, kind, kind), "file": file}
     before = root.entries.get(section)
     kept = MappingNode(mark)
@@ -134,6 +133,13 @@ def _replace_file(root: MappingNode, section: str, file: Node, mark: Mark) -> st
     root.entries[section] = kept
     root.key_marks[section] = mark
     return ""
+
+
+def _road_kind(file: Node) -> str:
+    from contact_sim_pkg.excitation.profile.formats import is_opencrg
+
+    assert isinstance(file, ScalarNode)
+    return "opencrg" if is_opencrg(Path(file.raw)) else "profile"
 
 
 def _kind(section: MappingNode) -> str:

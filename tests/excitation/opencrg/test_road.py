@@ -7,6 +7,7 @@ import numpy
 import pytest
 from tests.excitation import crg_file
 
+from contact_sim_pkg.excitation.borders import TurnedBeginning
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 
@@ -233,6 +234,49 @@ def test_settings_that_leave_heights_alone_pass(tmp_path):
     plain = road(tmp_path).heights(x, y)
     assert plain.any()
     assert road(tmp_path, extra=extra).heights(x, y).tobytes() == plain.tobytes()
+
+
+def test_settings_that_change_nothing_on_this_road_are_taken_and_named(tmp_path):
+    extra = ["$ROAD_CRG_MODS", "GRID_NAN_MODE = 2", "SCALE_BANKING = 3", "SCALE_SLOPE = 3", "$",
+             "$ROAD_CRG_OPTS", "BORDER_MODE_U = 2", "BORDER_MODE_V = 3", "$"]  # fmt: skip
+    x, y = numpy.linspace(0.0, 1.0, 7), numpy.linspace(-0.1, 0.1, 3)
+    plain = road(tmp_path).heights(x, y)
+    for policy in ("refuse", "ignore", "apply"):
+        surface = road(tmp_path, extra=extra, file_settings=policy, border_v="constant")
+        assert surface.heights(x, y).tobytes() == plain.tobytes()
+        notes = " ".join(surface.describe()["notes"])
+        assert "change nothing here: BORDER_MODE_U = 2" in notes
+        assert "GRID_NAN_MODE = 2" in notes
+        assert "not applied, for border_u and border_v are chosen: BORDER_MODE_V = 3" in notes
+
+
+@pytest.mark.parametrize(
+    ("line", "changes"),
+    [
+        ("GRID_NAN_MODE = 2", {"numbers": "holes", "missing": "fill"}),
+        ("SCALE_SLOPE = 3", {"road": {"REFERENCE_LINE_START_S": 0.01}}),
+        ("SCALE_LENGTH = 2", {}),
+    ],
+)
+def test_settings_that_change_heights_still_wait_for_the_user(tmp_path, line, changes):
+    options = {**changes, **(HOLES if changes.get("numbers") else {})}
+    numbers = with_holes() if options.pop("numbers", None) else None
+    for policy, sentence in (("refuse", line), ("apply", "cannot be applied")):
+        with pytest.raises(ExcitationError, match=sentence):
+            road(tmp_path, numbers, extra=["$ROAD_CRG_MODS", line, "$"], file_settings=policy, **options)
+
+
+def test_before_its_beginning_a_road_is_turned_so_that_its_slope_goes_on(tmp_path):
+    x, y = numpy.array([-0.4, -0.1, 0.0, 0.3]), numpy.array([-0.3, 0.1])
+    for start in (0.0, 0.2):
+        plain = road(tmp_path, start=start, border_u="none")
+        turned = TurnedBeginning(plain)
+        begins, mirrored = plain.heights(numpy.array([-start]), y), plain.heights(numpy.abs(x + start) - start, y)
+        expected = numpy.where((x < -start)[:, None], 2.0 * begins - mirrored, mirrored)
+        numpy.testing.assert_allclose(turned.heights(x, y), expected, atol=1e-13)
+    # Where the start itself lies before the road the border decides.
+    before = TurnedBeginning(road(tmp_path, start=-1.0, border_u="zero"))
+    assert not before.heights(numpy.array([0.0, 0.9]), y).any()
 
 
 def test_large_roads_are_evaluated_without_their_table_to_the_same_bits(tmp_path, monkeypatch):

@@ -197,6 +197,26 @@ def test_a_wall_that_cannot_be_climbed_is_refused_before_the_start(wall):
         Simulation(resolved("tire_bump", f"road={road}"))
 
 
+def test_an_obstacle_of_a_file_that_the_field_does_not_see_is_refused_before_the_start(tmp_path):
+    """A half-round of ten inches: the tire touches it 0.263 m before its axle, where it is 0.141 m high."""
+    x, radius = numpy.arange(0.0, 8.0, 0.004), 0.254
+    for height in (radius, 0.4 * radius):
+        z = numpy.sqrt(numpy.maximum(0.0, height**2 - (x - 5.0) ** 2))
+        numpy.savetxt(
+            tmp_path / "x_z.csv", numpy.stack((x, z), axis=1), delimiter=",", header="x [m],z [m]", comments=""
+        )
+        sets = (f"road={{kind: profile, file: {tmp_path / 'x_z.csv'}}}", "travel.speed=6", "duration=1.2")
+        if height < radius:
+            Simulation(resolved("tire_bump", *sets))
+            continue
+        with pytest.raises(
+            SceneError, match=r"contact_field\.length: 4\.5\d+ m after its start .*; 0\.33 m are enough"
+        ):
+            Simulation(resolved("tire_bump", *sets))
+        Simulation(resolved("tire_bump", *sets, "effects.tire.contact_field.length=0.33"))
+        Simulation(resolved("tire_bump", *sets, "duration=0.5"))  # ends before it
+
+
 @pytest.mark.parametrize(
     "cured",
     [

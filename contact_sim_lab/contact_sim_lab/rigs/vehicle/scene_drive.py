@@ -24,6 +24,7 @@ from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.parameters import Contact, GeneralDissipative, NormalElastic, TabulatedElastic
 from contact_sim_pkg.laws.tabulated_elastic import FORCE
 from contact_sim_pkg.rigs.vehicle import entries
+from contact_sim_pkg.rigs.vehicle.drive import rate_at_start
 from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import event_count
 from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
@@ -78,7 +79,10 @@ def drive_of(scene: ResolvedScene, duration: float, builder: Callable[[ResolvedS
             index = numpy.arange(len(vibration.acceleration_z))
             a_x[part] = numpy.interp(at, index, vibration.acceleration_x)
             a_z[part] = numpy.interp(at, index, vibration.acceleration_z)
-    return SceneDrive(model, timing.segment_length, height, a_x, a_z, standing_state(model, float(height[0])))
+    rate = float(height[1] - height[0]) / timing.segment_length
+    if travel is not None:
+        rate = rate_at_start(model, travel, sources["road/patch"].block(0), rate, 0.0)
+    return SceneDrive(model, timing.segment_length, height, a_x, a_z, standing_state(model, float(height[0]), rate))
 
 
 def _fill_heights(model: Model, patch: Any, positions: Vector, out: Vector) -> None:

@@ -6,19 +6,19 @@ The road is used in the coordinates of its reference line: x = u - start of the 
 """
 
 import os
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.excitation.borders import BORDERS, bring_inside
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.opencrg.grid import ROWS_AT_ONCE, Grid, fill_missing, make_grid
 from contact_sim_pkg.excitation.opencrg.header import LONGEST_HEADER, Header, parse_header
 from contact_sim_pkg.excitation.opencrg.layout import make_layout
 from contact_sim_pkg.excitation.opencrg.payload import read_payload
-from contact_sim_pkg.excitation.opencrg.settings import BORDERS, FileSettings, read_settings
+from contact_sim_pkg.excitation.opencrg.settings import Circumstances, FileSettings, read_settings
 from contact_sim_pkg.files import open_regular_file, read_regular_file
 
 LARGEST_FILE = 1 << 30  # [bytes]
@@ -31,6 +31,7 @@ BYTES_PER_CELL = 26
 with marks of missing cells.
 """
 LARGEST_RISE = 0.6  # [m] across the track, about a wheel's radius: steeper, no wheel stands on it
+ROUNDING = 1e-9  # [m] of a level: less is not said
 LEVELS = ("origin", "mean", "raw")
 
 Array = NDArray[numpy.float64]
@@ -77,11 +78,16 @@ class OpenCrgRoad:
         self._check_choices(border_u, border_v)
         data = _read(self.path)
         header = parse_header(data, str(path))
-        self._settings = read_settings(header, file_settings)
         # The numbers of the file and the grid are large: each goes as soon as it is used
         layout = make_layout(header)
         values = read_payload(data, header, layout)
         del data
+        missing_cells = any(numpy.isnan(values[:, column]).any() for column in layout.section_columns)
+        along = {*layout.reference_columns} | {
+            name for name in ("slope", "banking") if f"reference_line_start_{name[0]}" in header.road
+        }
+        circumstances = Circumstances(missing_cells, along, (border_u, border_v))
+        self._settings = read_settings(header, file_settings, circumstances)
         grid = make_grid(header, layout, values, self._settings.scale_z)
         del values
         self._layout_notes = layout.notes
@@ -197,19 +203,7 @@ class OpenCrgRoad:
     def _inside(
         self, value: Array, low: float, high: float, border: str, name: str, requested: Array
     ) -> tuple[Array, Any]:
-        """Positions brought into [low, high] by the border mode, and where the height is 0
-        instead.
-        """
-        outside = (value < low - 1e-9) | (value > high + 1e-9)
-        if not outside.any():
-            return numpy.clip(value, low, high), None
-        if border == "none":
-            worst = float(requested[outside][0])
-            raise ExcitationError(
-                f"{self.path}: {name} = {worst:g} m lies outside of the road; shorten the run or say how the road "
-                f"goes on (road.border_{'u' if name == 'x' else 'v'}: zero, keep, repeat or reflect)"
-            )
-        return numpy.clip(_BRING_INSIDE[border](value, low, high), low, high), outside if border == "zero" else None
+        return bring_inside(str(self.path), value, low, high, border, name, requested)
 
     def describe(self) -> dict[str, Any]:
         """See blocks.Surface."""
@@ -236,7 +230,7 @@ class OpenCrgRoad:
             ]
             notes.append(f"{grid.missing} of {grid.height.size} cells have no measured height; {done}.")
         # Level.
-        if self.removed:
+        if abs(self.removed) > ROUNDING:
             what = {"origin": "the height on the reference line at the file's start", "mean": "the mean height"}[
                 self.level
             ]
@@ -267,23 +261,6 @@ def memory_needed(path: Path) -> int:
         return 0
     cells = size // BYTES_PER_NUMBER[form]
     return max(size + 8 * cells, BYTES_PER_CELL * cells)
-
-
-def _repeat(value: Array, low: float, high: float) -> Array:
-    return low + numpy.mod(value - low, high - low) if high > low else numpy.full_like(value, low)
-
-
-def _reflect(value: Array, low: float, high: float) -> Array:
-    return high - numpy.abs(_repeat(value, low, low + 2.0 * (high - low)) - high)
-
-
-def _keep(value: Array, low: float, high: float) -> Array:
-    return numpy.clip(value, low, high)
-
-
-_BRING_INSIDE: dict[str, Callable[[Array, float, float], Array]] = {
-    "zero": _keep, "constant": _keep, "repeat": _repeat, "reflect": _reflect
-}  # fmt: skip
 
 
 def _read(path: Path) -> bytes:

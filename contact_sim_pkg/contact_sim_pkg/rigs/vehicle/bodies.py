@@ -84,9 +84,11 @@ class Bodies:
             )
         )  # fmt: skip
 
-    def stand(self, smooth: float) -> None:
-        """Set the rig in equilibrium on a road of height ``smooth`` [m], by its contact laws."""
-        self.state[:] = standing_state(self.model, smooth)
+    def stand(self, smooth: float, rate: float) -> None:
+        """Set the rig in equilibrium on a road of height ``smooth`` [m] that rises at a ``rate`` [m/s], by
+        its contact laws.
+        """
+        self.state[:] = standing_state(self.model, smooth, rate)
 
     def lift(self, height: float) -> None:
         """Move the whole rig up by ``height`` [m]."""

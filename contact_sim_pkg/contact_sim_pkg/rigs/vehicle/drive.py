@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.excitation.blocks import AHEAD
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.tire.asperity_push import asperity_push
@@ -17,6 +18,8 @@ from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry
 from contact_sim_pkg.run.errors import RunError
 
 ROAD, VIBRATION = "road/patch", "platform/vibration"
+PLACES_AHEAD = 65
+"""Places on the way ahead through which the line of its mean slope is laid."""
 
 
 class BlockDrive(NamedTuple):
@@ -94,6 +97,29 @@ def _rolling(
         )
     push = None if model.asperities is None else asperity_push(model.asperities, geometry, road, places)
     return places, smooth, slopes * speeds, push
+
+
+def rate_at_start(model: Model, travel: Travel | None, road: Any, rate: float, time: float) -> float:
+    """Vertical speed [m/s] with which the whole rig begins at a ``time`` [s]: that of the road under the tire
+    as far as the road goes on so (decision 0034).
+
+    The smaller of ``rate`` [m/s], that of the height which a smooth tire sees, and the mean one: of the line
+    through those heights over the travel of `AHEAD`, by least squares. 0 where they differ in sign, and
+    where the ``road`` does not reach as far, as behind its first block.
+    """
+    geometry = model.tire_geometry
+    if geometry is None or travel is None or rate == 0.0:
+        return 0.0
+    start, end = travel.position(time), travel.position(time + AHEAD)
+    places = numpy.linspace(start, end, PLACES_AHEAD, dtype=numpy.float64)
+    heights, slopes = numpy.empty(PLACES_AHEAD), numpy.empty(PLACES_AHEAD)
+    if start == end or not effective_heights(
+        road.height, road.first_row, geometry.lattice.cell_x, geometry.weights, places, heights, slopes
+    ):
+        return 0.0
+    way = places - places.mean()
+    mean = float(way @ heights / (way @ way)) * travel.speed(time)
+    return max(0.0, min(rate, mean)) if rate > 0.0 else min(0.0, max(rate, mean))
 
 
 def _check_road(geometry: TireGeometry, block: int, road: Any) -> None:

@@ -336,9 +336,9 @@ def _bodies(rig: Vehicle) -> tuple[str, ...]:
     return tuple(names)
 
 
-def standing_state(model: Model, height: float) -> Vector:
-    """State [states] at rest, in [m] and [m/s], under gravity on a road of effective ``height``
-    [m].
+def standing_state(model: Model, height: float, rate: float = 0.0) -> Vector:
+    """State [states] in equilibrium, in [m] and [m/s], under gravity on a road of effective ``height``
+    [m] that rises at a ``rate`` [m/s] under the tire: every body rises with it (decision 0034).
     """
     rig = model.rig
     state = numpy.zeros(model.states)
@@ -353,7 +353,9 @@ def standing_state(model: Model, height: float) -> Vector:
         if rig.rigid_ring is not None:
             state[rig.rigid_ring.offset] = state[0]
             state[0] -= on_wheel / rig.rigid_ring.stiffness
+            state[rig.rigid_ring.offset + 1] = rate
         floor = state[1] = state[0] - carried / rig.tire.suspension_stiffness
+        state[2] = state[3] = rate
     # The occupant on the cushion, its masses on their springs.
     if rig.seat is not None and rig.seat_contact is not None:
         first, count = rig.seat.offset, len(rig.seat.masses)
@@ -361,4 +363,5 @@ def standing_state(model: Model, height: float) -> Vector:
         pose = pose_of(model.lean)
         rest = rest_of(model.occupant, pose, rig.gravity)
         state[first : first + count] = floor + interface_at_rest(rest, pose, rig.seat_contact) + rest.heights
+        state[first + count : first + 2 * count] = rate
     return state

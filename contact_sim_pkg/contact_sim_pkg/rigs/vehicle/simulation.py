@@ -16,7 +16,7 @@ from contact_sim_pkg.rigs.vehicle.coupling.check import KINDS
 from contact_sim_pkg.rigs.vehicle.coupling.edges import edge_cautions
 from contact_sim_pkg.rigs.vehicle.coupling.rule import request_cautions
 from contact_sim_pkg.rigs.vehicle.coupling.steps import Coupling
-from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive
+from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive, rate_at_start
 from contact_sim_pkg.rigs.vehicle.model import Model, build
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord, block_outputs
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import ringing_cautions
@@ -124,9 +124,10 @@ class Simulation:
         record = BlockRecord.empty(self.model, block)
         drive = block_drive(self.model, self._travel, block, inputs.get(ROAD), inputs.get(VIBRATION))
         coupling = self._coupling
-        # The run starts from the standing state.
+        # The run starts in equilibrium, rising with the road.
         if block == self._first_block:
-            coupling.start(drive)
+            time_now = block * self.model.timing.block_length
+            coupling.start(drive, rate_at_start(self.model, self._travel, drive.road, float(drive.rate[0]), time_now))
         coupling.bodies.work.counters[:] = 0.0
         for interval in range(self.model.timing.intervals):
             self._interval(block, interval, drive, record)

@@ -1,5 +1,5 @@
-"""Roads of a scene: flat, ISO 8608, self-affine, single obstacles, OpenCRG files; and the speed programme on
-them.
+"""Roads of a scene: flat, ISO 8608, self-affine, single obstacles, OpenCRG files, profiles; and the speed
+programme on them.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ FileSettings: TypeAlias = Literal["refuse", "apply", "ignore"]
 RoughnessClass: TypeAlias = Literal["A", "B", "C", "D", "E", "F", "G", "H"]
 
 POSITION_HELP = "middle of the obstacle along the road"
+BORDER_HELP = "after the end of the road, and before its beginning where start is negative"
 PERIOD_HELP = "distance to the next equal obstacle; without it there is one"
 
 
@@ -183,12 +184,36 @@ class OpenCrgRoadSection(Section):
         "cells without height: refuse the file, fill from their neighbours, or a hole", default="refuse"
     )
     hole_depth: float = number(0.0, 0.5, "m", "depth of a hole (missing_cells: hole)", default=0.05)
-    border_u: Border = choice("before the beginning and after the end of the road", default="refuse")
+    border_u: Border = choice(BORDER_HELP, default="refuse")
     border_v: Border = choice("beyond the left and right side of the road", default="keep")
     remove_mean: bool = choice("shift the mean height to 0, else the height at the start", default=True)
     file_settings: FileSettings = choice(
         "options and modifiers of the file: refuse the file, apply, or ignore", default="refuse"
     )
+
+
+class ProfileRoadSection(Section):
+    """A longitudinal profile: pairs of distance x and height z, or x, z_left, z_right; a table, UMTRI
+    ERD, or RDF.
+    """
+
+    kind: Literal["profile"]
+    file: str = text(
+        "file name, from the scene file's folder; straight between its points", longest=500, example="x_z.csv"
+    )
+    sha256: str | None = text("checksum of the file; other content is refused", default=None, pattern="^[0-9a-f]{64}$")
+    header_line: int | None = number(
+        1, 100000, "", "line that names the columns; without it the first that is no comment", default=None
+    )
+    track_width: float = number(
+        0.1, 10.0, "m", "distance of two tracks; straight across between them, level beyond", default=1.5
+    )
+    track_offset: float | None = number(
+        -100.0, 100.0, "m", "line of travel, to the left of the middle; without it the left of two tracks", default=None
+    )
+    start: float = number(-1e6, 1e6, "m", "start of the wheel, from the first point of the road", default=0.0)
+    border_u: Border = choice(BORDER_HELP, default="refuse")
+    remove_mean: bool = choice("shift the mean height to 0, else the height at the first point", default=True)
 
 
 Road: TypeAlias = Annotated[
@@ -199,6 +224,7 @@ Road: TypeAlias = Annotated[
     | CleatRoad
     | StepRoad
     | PotholeRoad
-    | OpenCrgRoadSection,
+    | OpenCrgRoadSection
+    | ProfileRoadSection,
     Field(discriminator="kind"),
 ]

@@ -1,14 +1,16 @@
 """Corners and walls of a road: where no grid determines the peak pressure is said once before the
-run, what no tire climbs is refused.
+run, what no tire climbs and what a tire touches beyond its grid is refused.
 """
 
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy
 
+from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import ElasticLaw
 from contact_sim_pkg.pressure.settings import FieldSettings
@@ -63,6 +65,9 @@ RIM, ROOM = 1.5, 2.0
 """Cells beyond the furthest place that the contact touches: needed, since its grid ends with free
 ones, and enough beyond the furthest that it may touch.
 """
+
+PLACES_AT_ONCE = 1 << 16
+"""Of the wheel on the road of a file."""
 
 SPACING, MOST_PLACES = 1e-3, 2000
 """[m] of the places that are looked at, and how many of them the wheel stands over."""
@@ -162,6 +167,10 @@ def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings
     linear spring without damping, sinks in by a, and touches as far as ``road - z > h - a``.
     """
     road = scene.road
+    if field is not None and road is not None and road.kind in ("opencrg", "profile") and "road.file" in scene.files:
+        # What is wrong with the file says the source of the road, which may also be a bag.
+        with suppress(ExcitationError):
+            _refuse_high_places(scene, form, field, landing)
     if field is None or road is None or road.kind not in ("bump", "cleat", "step") or road.height <= 0.0:
         return
     (rigid, reached, most), radius = _touched(scene, road, form, landing), form.radius_rolling
@@ -214,3 +223,41 @@ def _touched(
             touching = numpy.flatnonzero(over > lifted - depth)
             reached[each] = max(reached[each], float(x[touching[-1]]) if len(touching) else 0.0)
     return rigid, reached[0], reached[1]
+
+
+def _refuse_high_places(scene: ResolvedScene, form: TireForm, field: FieldSettings, landing: Landing) -> None:
+    """Raise SceneError where the tire, rolling along the middle of its track over the road of a file, would touch it
+    further before its axle than its field reaches.
+
+    The height of a rigid tire over the road is as in `refuse_high_walls`; the tire touches what lies less
+    deep below it than what touches at rest. Speed is left out: it presses the tire further in.
+    """
+    radius, cell = form.radius_rolling, field.cell_x
+    half = field.rows * cell  # of the wide grid
+    x = numpy.arange(0.0, radius, cell)
+    below = [height_along(form, float(each)) for each in x]
+    within = int(numpy.searchsorted(x, half - RIM * cell, side="right"))
+    depth = landing.touching(form, landing.approach)[0]
+    surface, line = make_surface(scene, cell), numpy.zeros(1)
+    start, end = make_travel(scene).extent(0.0, scene.duration)
+    for first in range(0, int((end - start) / cell) + 1, PLACES_AT_ONCE):
+        count = min(PLACES_AT_ONCE, int((end - start) / cell) + 1 - first)
+        nodes = start + numpy.arange(first, first + count + len(x) - 1, dtype=numpy.float64) * cell
+        height = surface.heights(nodes, line)[:, 0]
+        lifted, beyond = numpy.full(count, -numpy.inf), numpy.full(count, -numpy.inf)
+        for ahead, lower in enumerate(below):
+            over = height[ahead : ahead + count] - lower
+            numpy.maximum(lifted, over, out=lifted)
+            if ahead >= within:
+                numpy.maximum(beyond, over, out=beyond)
+        far = numpy.flatnonzero(beyond > lifted - depth)
+        if len(far):
+            seen = radius if form.circular else 2.0 * radius
+            needed = math.ceil(100.0 * (seen + ROOM * cell)) / 100.0
+            rise = float(height[far[0] : far[0] + len(x)].max() - height[far[0]])
+            sentence = (
+                f"{nodes[far[0]]:.4g} m after its start the tire stands before a rise of {rise:.3g} m, which it touches further "
+                f"before its axle than the {half:.3g} m that its field sees; {needed:g} m are enough, or travel and "
+                "duration that end before"
+            )
+            raise SceneError([Fault("scene", 0, 0, "effects.tire.contact_field.length", sentence)])

@@ -106,10 +106,12 @@ class Coupling:
         if self.shear is not None:
             self.shear.reset()
 
-    def start(self, drive: BlockDrive) -> None:
-        """Set the rig in equilibrium on the road at the start of a run, with its fields."""
+    def start(self, drive: BlockDrive, rate: float) -> None:
+        """Set the rig in equilibrium on the road at the start of a run, with its fields; it rises at a ``rate``
+        [m/s].
+        """
         first, bodies = drive.part(0, 1), self.bodies
-        bodies.stand(float(first.smooth[0]))
+        bodies.stand(float(first.smooth[0]), rate)
         if self.tire.grids is not None:
             self.tire.place(drive.road, float(drive.travel[0]))
             approach, rolled = self.tire.stand(bodies.weight()), self.tire.roll_in(bodies.weight(), drive.speed)

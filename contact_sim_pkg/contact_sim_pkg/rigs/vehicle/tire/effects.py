@@ -51,7 +51,7 @@ def _short(scene: ResolvedScene, limit: float, lengths: str) -> str:
     road, least = scene.road, NOTICED * requested(scene.accuracy) * APPROACH
     if road is None or road.kind == "flat" or not _way(scene):
         return ""
-    if road.kind == "opencrg":
+    if road.kind == "opencrg" or road.kind == "profile":  # which mypy follows
         return f"a measured road holds waves below {lengths}"
     if road.kind == "iso8608":
         shortest = road.shortest_wavelength if road.texture is None else road.texture.shortest_wavelength

@@ -73,7 +73,7 @@ def _conditions(recording: Recording) -> dict[str, float | str]:
         found["load_kN"] = 1e-3 * standing
     if effects.get("inflation"):
         found["inflation_kPa"] = 1e-3 * float(effects["inflation"]["pressure"])
-    found["ground"] = "stones" if found.get("road") == "opencrg" else "even"
+    found["ground"] = "stones" if found.get("road") in ("opencrg", "profile") else "even"
     found["ring"] = "yes" if effects.get("rigid_ring") is not None else "no"
     found["belt"] = "yes" if effects.get("sidewall_compliance") is not None else "no"
     if road is not None and recording.duration > 0.0:

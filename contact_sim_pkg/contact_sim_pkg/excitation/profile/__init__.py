@@ -1,0 +1,1 @@
+"""Longitudinal profiles of roads: heights over the distance, on one track or two."""
