@@ -15,6 +15,7 @@ from rosbags.rosbag2 import Writer as BagOfOthers
 from scipy.io import savemat, wavfile
 from tests.bag import foreign
 from tests.excitation import crg_file
+from tests.excitation.profile import test_road as roads
 from tests.identify import foreign_bag, motions
 from tests.report.sitting import grid, mat_file, run_bag
 from tests.rigs.vehicle.tire.property_file import tir_file
@@ -128,6 +129,9 @@ MADE = {
     "bench run seat_ride --vibration ride.mat --set vibration.time_column=time": Made(
         lambda at: write_mat(at / "ride.mat"), "simulated 0.02 s"
     ),
+    "bench run seat_ride --vibration ride.mcap": Made(
+        lambda at: foreign.chunked(at).rename(at / "ride.mcap"), "simulated 0.02 s"
+    ),
     "bench import phone.csv --axes z=up,x=ahead --unit g --out phone": Made(
         lambda at: table(at / "phone.csv", "time,ahead,up,heart rate", TIME, X / G, Z / G, 70.0 + X), "phone: 801 messages"
     ),
@@ -154,6 +158,15 @@ MADE = {
         lambda at: foreign_bag.write_odometry(at / "thrown", motions.states_of(motions.planar())), "mass"
     ),
     "bench run tire_belgian_block --road road.crg": Made(lambda at: stones(at / "road.crg"), "simulated 0.02 s"),
+    "bench run tire_belgian_block --road pairs.csv": Made(
+        lambda at: (at / "pairs.csv").write_text(roads.table(["x,z"], roads.X, roads.Z)), "simulated 0.02 s"
+    ),
+    "bench run tire_belgian_block --road road.rdf": Made(
+        lambda at: (at / "road.rdf").write_text(roads.rdf()), "simulated 0.02 s"
+    ),
+    "bench run tire_belgian_block --road road.erd": Made(
+        lambda at: (at / "road.erd").write_text(roads.erd()), "simulated 0.02 s"
+    ),
     "bench tire tire.tir": Made(tir_file.write, "size: 205/55 R16"),
     "bench import tekscan.csv --out mat": Made(lambda at: mat_file(at / "tekscan.csv", MAT), "mat: 1 messages"),
     "bench import xsensor.csv --unit mmHg --pitch 12.7 --out mat": Made(lambda at: xsensor(at / "xsensor.csv"), "mat: 1 messages"),

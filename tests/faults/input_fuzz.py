@@ -12,12 +12,15 @@ import scipy.io
 from scipy.io import wavfile
 from tests.bag import foreign
 from tests.excitation.crg_file import header
+from tests.excitation.profile import test_road
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
+from contact_sim_pkg.excitation.profile.road import ProfileRoad
 from contact_sim_pkg.excitation.recorded import RecordedVibration
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import read_property_file
 from contact_sim_pkg.standard.imported import ImportChoice, import_recording
+from contact_sim_pkg.standard.imported_mats import import_mat
 
 TIME = numpy.arange(400) / 200.0
 Z = 9.80665 + 1.5 * numpy.sin(25.0 * TIME)
@@ -55,6 +58,39 @@ def roads() -> Iterator[bytes]:
     """An OpenCRG road in text."""
     values = "\n".join("".join(f"{0.001 * (i + j):10.7f}" for j in range(4)) for i in range(5))
     yield (header("LRFI") + values + "\n").encode("latin-1")
+
+
+def profiles() -> Iterator[bytes]:
+    """Roads as pairs, in RDF and in ERD."""
+    yield from (text.encode() for _, text in test_road.KINDS.values())
+
+
+def mats() -> Iterator[bytes]:
+    """A pressure map of Tekscan and one of XSENSOR."""
+    yield MAT.encode()
+    yield b"FILE NAME:,ride\nROWS:,2\nCOLUMNS:,3\nUNITS:,kPa\nFrame:,1\nTime:,10:00:00.000\n1,2,3\n4,5,6\n"
+
+
+MAT = """\
+DATA_TYPE MOVIE
+ROWS 2
+COLS 3
+ROW_SPACING 10 mm
+COL_SPACING 10 mm
+SECONDS_PER_FRAME 0.01
+UNITS kPa
+START_FRAME 1
+END_FRAME 2
+ASCII_DATA @@
+Frame 1
+1,2,3
+4,5,6
+
+Frame 2
+1,2,3
+4,5,7
+@@
+"""
 
 
 def tires() -> Iterator[bytes]:
@@ -119,6 +155,8 @@ KINDS: dict[str, tuple[str, Callable[[], Iterator[bytes]], Callable[[Path, Path]
     "matlab": (".mat", matlab, _imported),
     "sound": (".wav", sounds, _imported),
     "road": (".crg", roads, lambda path, _: OpenCrgRoad(path)),
+    "profile": (".csv", profiles, lambda path, _: ProfileRoad(path)),
+    "mat": (".csv", mats, lambda path, folder: import_mat(path, folder / "bag", pitch=0.01)),
     "tire": (".tir", tires, lambda path, _: read_property_file(path)),
     "bag": (".mcap", bags, _of_bag),
 }

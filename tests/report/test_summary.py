@@ -105,7 +105,7 @@ def test_messages_are_counted_by_topic(summary):
 
 
 def test_what_a_scene_lacks_is_absent_from_its_summary(seat, bare):
-    assert {row["key"].partition(".")[0] for row in summarise(seat)["metrics"]} == {"seat"}
+    assert {row["key"].partition(".")[0] for row in summarise(seat)["metrics"]} == {"seat", "energy"}
     assert set(summarise(bare)) == {"scene", "rig", "simulated_s", "metrics", "messages"}
     assert summarise(bare)["scene"] is None
 
