@@ -5,7 +5,7 @@ Columns of a row: `quantity`, `part` (what is varied: integrator, coupling, fiel
 `level`, `grid`, `tolerance`, `error` (relative), `reference` (what the error is against, and
 whether it is own code), `ms_per_simulated_s`, and in a new process the time to the first answer:
 `first_call_s`, with nothing compiled, and `next_start_s`, with the kernels on disk. How to read it:
-`docs/accuracy.md`.
+`docs/accuracy_notebook.md`.
 """
 
 from __future__ import annotations

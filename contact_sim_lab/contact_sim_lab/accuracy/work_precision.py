@@ -6,7 +6,7 @@ Columns of a row: `rig`, `part` (the study), `case` (the input), `quantity`, `le
 `reference`), and where a grid is solved its two parts: `solver_error`, against the same grid to
 1e-10, and `grid_error`, of the converged grid against the reference; `ms_per_call` (processor time
 of one thread, median of many calls, compiled and warm, fields from nothing). How to read it:
-`docs/accuracy.md`.
+`docs/accuracy_notebook.md`.
 """
 
 from __future__ import annotations
