@@ -150,3 +150,41 @@ def test_a_tilt_is_corrected_by_a_lateral_column_of_any_name(tmp_path):
     read = RecordedVibration(path, RATE, vertical="a_z", forward="a_x", lateral="a_y", tilt="correct")
     inside = slice(100, -100)
     assert read.acceleration(TIME[inside])[1] == pytest.approx(SHAKEN["z"][inside] - SHAKEN["z"].mean(), abs=1e-3)
+
+
+def test_an_error_code_is_no_sample():
+    """-9999 among numbers below 20; as large as its neighbours it is a number."""
+    values = SHAKEN["z"].copy()
+    values[777 % values.size] = -9999.0
+    assert unknown_samples(values) == f"1 of {values.size} samples unknown: -9999 at sample {777 % values.size}"
+    assert unknown_samples(numpy.array([9000.0, 9999.0, 8000.0])) == ""
+
+
+def test_failed_reads_and_a_frozen_sensor_are_doubts():
+    shaken = {axis: values.copy() for axis, values in SHAKEN.items()}
+    assert not judge_acceleration(shaken, RATE, "a", CURES).faults
+    for values in shaken.values():
+        values[50::50] = 0.0
+    count = len(range(50, shaken["z"].size, 50))
+    assert (
+        f"failed reads: {count} samples are 0 in all axes, the first 50"
+        in judge_acceleration(shaken, RATE, "a", CURES).faults
+    )
+    frozen = {axis: values.copy() for axis, values in SHAKEN.items()}
+    begin = frozen["z"].size - round(1.5 * RATE)
+    for values in frozen.values():
+        values[begin:] = values[begin]
+    faults = judge_acceleration(frozen, RATE, "a", CURES).faults
+    assert f"frozen: {frozen['z'].size - begin} samples from {begin} on are equal in all axes" in faults
+
+
+@pytest.mark.parametrize("gravity", [0.85, 1.0, 1.2])
+def test_gravity_in_g_of_a_badly_calibrated_sensor_is_asked_about(gravity):
+    shaken = {axis: gravity * values / G for axis, values in SHAKEN.items()}
+    with pytest.raises(ExcitationError, match="gravity in g and not in"):
+        judge_acceleration(shaken, RATE, "a", CURES)
+
+
+def test_milliseconds_of_a_fast_logger_are_asked_about():
+    with pytest.raises(ExcitationError, match="are the times milliseconds"):
+        judge_stamps(numpy.arange(1000.0) / 2.0, "a", "")

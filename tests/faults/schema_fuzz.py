@@ -49,6 +49,7 @@ COARSE_ROLLER = (
     "effects.roller.damage.table_rows=2",
     "effects.roller.track_waves.cells=32",
 )
+PROFILE = Path(__file__).with_name("profile.csv")
 BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with changes; together they hold every number
     "tire": (
         ("tire_braking",),
@@ -59,6 +60,7 @@ BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with 
         ("tire_bump", "road={kind: step, position: 0.05, height: 0.01}"),
         ("tire_bump", "road={kind: pothole, position: 0.05, depth: 0.01, length: 0.2}"),
         ("tire_irregular_road",),
+        ("tire_bump", f"road={{kind: profile, file: {PROFILE}, header_line: 1}}"),
     ),
     "seat": (
         ("seat_ride",),

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.table_words import STANDARD_GRAVITY, UNITS
 
-__all__ = ["Cures", "Judgement", "Stamps", "judge_acceleration", "judge_stamps", "unknown_samples"]
+__all__ = ["Cures", "Judgement", "Stamps", "is_known", "judge_acceleration", "judge_stamps", "unknown_samples"]
 
 LARGEST_ACCELERATION = 1e5
 """[m/s^2] about 10 000 g, the end of the range of shock accelerometers"""
@@ -25,7 +25,15 @@ LARGEST_MEAN = 5.0 * STANDARD_GRAVITY
 LARGEST_RMS = 200.0
 """[m/s^2] about 20 g: seats and floors stay a factor 10 below"""
 GRAVITY_AGREEMENT = 0.1
-"""a mean this close to 1 or 1000 is gravity in g or mg"""
+"""of the mean with gravity"""
+UNIT_AGREEMENT = 0.25
+"""a mean this close to 1 or 1000 is gravity in g or mg, of a sensor however badly calibrated"""
+ERROR_CODES = (999.0, 9999.0, 99999.0, 32767.0, 32768.0, 65535.0)
+"""What loggers write for a sample that they do not have, with either sign"""
+CODE_STANDS_OUT = 10.0
+"""times the largest of the other samples: such a number is an error code"""
+FROZEN_TIME, FROZEN_SAMPLES = 1.0, 20
+"""[s] and samples for which no sensor under vibration repeats itself in all axes"""
 STILL = 1.0
 """[m/s^2] mean below which a recording holds no gravity"""
 UPRIGHT = radians(30.0)
@@ -34,8 +42,8 @@ TURNED = radians(5.0)
 """angle by which the mean of a part may lie beside that of the whole: 0.85 m/s^2 of gravity in a horizontal axis"""
 PART_TIME = 5.0
 """[s] of those parts"""
-LOWEST_RATE, HIGHEST_RATE = 1.0, 1e6
-"""[Hz] of a vibration, as a scene may state"""
+LOWEST_RATE, HIGHEST_RATE = 5.0, 1e6
+"""[Hz] of a vibration by its stamps: those of 1 to 4 kHz in milliseconds lie below"""
 UNEVEN = 0.05
 """share of the step by which stamps may scatter"""
 
@@ -128,14 +136,43 @@ def judge_stamps(time: Array, name: str, cure: str) -> Stamps:
     )
 
 
-def unknown_samples(values: Array) -> str:
-    """Samples that are no numbers, or beyond what can be measured, with the place of the first; empty without any."""
-    wrong = numpy.flatnonzero(~(numpy.abs(values) <= LARGEST_ACCELERATION))
+def is_known(values: Array, factor: float = 1.0) -> NDArray[numpy.bool_]:
+    """Whether each sample is one: a number, within what can be measured, and no error code of a logger.
+
+    values: [n] as recorded; factor: of them, to [m/s^2].
+    """
+    size = numpy.abs(values)
+    known: NDArray[numpy.bool_] = size <= LARGEST_ACCELERATION / factor
+    coded = numpy.isin(size, ERROR_CODES)
+    if coded.any():
+        others = size[known & ~coded]
+        known &= ~(coded & (size > CODE_STANDS_OUT * (others.max() if others.size else 0.0)))
+    return known
+
+
+def unknown_samples(values: Array, factor: float = 1.0) -> str:
+    """Samples that are none by `is_known`, with the place of the first; empty without any."""
+    wrong = numpy.flatnonzero(~is_known(values, factor))
     if not wrong.size:
         return ""
     first = values[wrong[0]]
     kind = "NaN" if numpy.isnan(first) else f"{first:g}"
     return f"{wrong.size} of {values.size} samples unknown: {kind} at sample {wrong[0]}"
+
+
+def _stood_still(axes: Mapping[str, Array], rate: float) -> list[str]:
+    """Failed reads, 0 in all axes beside gravity, and a sensor that repeats itself in all axes for a second."""
+    samples = numpy.stack(list(axes.values()))
+    found = []
+    empty = numpy.flatnonzero((samples == 0.0).all(axis=0))
+    if empty.size:
+        found.append(f"failed reads: {empty.size} samples are 0 in all axes, the first {empty[0]}")
+    moved = numpy.flatnonzero(numpy.concatenate([[True], (numpy.diff(samples) != 0.0).any(axis=0), [True]]))
+    runs = numpy.diff(moved)
+    longest = int(runs.argmax())
+    if runs[longest] > max(FROZEN_SAMPLES, FROZEN_TIME * rate):
+        found.append(f"frozen: {runs[longest]} samples from {moved[longest]} on are equal in all axes")
+    return found
 
 
 def judge_acceleration(
@@ -155,8 +192,8 @@ def judge_acceleration(
         ExcitationError: the values are in another unit, or the axis stated is not the one that gravity lies on.
     """
     factor = 1.0 if unit is None else UNITS[unit]
-    unknown = {axis: said for axis, values in axes.items() if (said := unknown_samples(values * factor))}
-    known = {axis: factor * values[numpy.abs(values) <= LARGEST_ACCELERATION / factor] for axis, values in axes.items()}
+    unknown = {axis: said for axis, values in axes.items() if (said := unknown_samples(values, factor))}
+    known = {axis: factor * values[is_known(values, factor)] for axis, values in axes.items()}
     known = {axis: values for axis, values in known.items() if values.size}
     means = {axis: float(values.mean()) for axis, values in known.items()}
     length = sqrt(sum(value**2 for value in means.values()))
@@ -176,6 +213,7 @@ def judge_acceleration(
         turn = _turn(known, means, rate)
         if turn > TURNED:
             faults.append(f"the sensor turns: gravity by {degrees(turn):.2g}° within the recording")
+        faults += _stood_still({axis: axes[axis] for axis in known}, rate)
     elif length > STILL:
         faults.append(f"the mean of {length:.3g} m/s² is neither gravity nor none")
     elif unit is None:
@@ -192,7 +230,7 @@ def refuse_other_unit(mean: float, rms: float, name: str, cures: Cures) -> None:
     """
     # A mean of 1 or 1000 is gravity in g or mg
     for unit, gravity in (("g", 1.0), ("mg", 1000.0)):
-        if abs(mean - gravity) <= GRAVITY_AGREEMENT * gravity:
+        if abs(mean - gravity) <= UNIT_AGREEMENT * gravity:
             raise ExcitationError(
                 f"{name}: the mean acceleration is {mean:.4g}, which is gravity in {unit} and not in m/s^2 "
                 f"({STANDARD_GRAVITY:.4g}); state the unit ({cures.unit.format(unit)})"

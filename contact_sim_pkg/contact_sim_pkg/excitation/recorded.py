@@ -150,7 +150,13 @@ class RecordedVibration:
                 f"{table.file}: gravity lies on {names[axis]} (mean {raw[axis].mean():.4g} m/s^2), not on {names.get('z', 'z')}; "
                 f"name the axis that points up ({CURES.up.format(column)})"
             )
-        self._notes += [f"WARNING: {said}." for said in judged.faults if said.startswith("the sensor turns")]
+        if judged.unknown:
+            axis, said = next(iter(judged.unknown.items()))
+            raise ExcitationError(
+                f"{table.file}: column {names[axis]!r}: {said}; fill the gap or cut the recording there"
+            )
+        doubts = ("the sensor turns", "failed reads", "frozen")
+        self._notes += [f"WARNING: {said}." for said in judged.faults if said.startswith(doubts)]
 
     def _at_stamps(self, raw: dict[str, Array], stamps: Array | None) -> dict[str, Array]:
         """Evenly spaced samples of what was sampled at stamps that scatter, by a spline of degree 5 through them."""

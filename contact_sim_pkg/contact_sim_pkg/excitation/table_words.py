@@ -78,7 +78,9 @@ def _one_spelling(unit: str) -> str:
 
 
 def split_unit(field: str) -> tuple[str, str | None]:
-    """Name of a column and the unit behind it in brackets, or in the name of a time (`time_ms`); None without one."""
+    """Name of a column and the unit behind it: in brackets, behind the name of a time (`time_ms`), or an acceleration's
+    behind any name (`az_ft/s2`); None without one.
+    """
     match = _UNIT.fullmatch(field.strip())
     if match and match.group(1):
         return match.group(1), next(each for each in match.groups()[1:] if each is not None)
@@ -86,6 +88,9 @@ def split_unit(field: str) -> tuple[str, str | None]:
     suffix = _SUFFIX.fullmatch(name.lower())
     if suffix and suffix.group(1) in ("time", "t", "timestamp", "stamp", "elapsed"):
         return name, suffix.group(2)
+    first, _, last = name.rpartition("_")
+    if first and _one_spelling(last) in _GROUPS["m/s^2"]:
+        return first, last
     return name, None
 
 

@@ -164,7 +164,7 @@ def _axes(table: RecordedTable, choice: ImportChoice, rate: float) -> tuple[dict
         factor = choice.scale or (1.0 if own or choice.unit is None else UNITS[choice.unit])
         values[axis] = (-column if name.startswith("-") else column) * factor
     if not values:
-        return {}, set(), []
+        return {}, set(), ["No column was taken as an acceleration; --axes z=COLUMN names it."]
     stated = all(bare_name(name.removeprefix("-")) in table.with_unit for name in found.values())
     known = "m/s^2" if stated or choice.unit or choice.scale else None
     judged = judge_acceleration(values, rate, table.file, CURES, unit=known)

@@ -111,8 +111,9 @@ class MapPair(NamedTuple):
         """How they lie on each other, and what is doubtful about it."""
         by, kilo = self.alignment, 1e-3 * self.difference
         rms, largest = math.sqrt(float((kilo**2).mean())), float(np.abs(kilo).max())
+        turn = round(math.degrees(by.turn), 1) + 0.0  # no minus before nought
         text = (
-            f"{self.names[self.moved]} lies on {self.names[1 - self.moved]} turned by {round(math.degrees(by.turn), 1) + 0.0:.1f}° to the left, "
+            f"{self.names[self.moved]} lies on {self.names[1 - self.moved]} turned by {turn:.1f}° to the left, "
             f"shifted by {1e3 * by.shift_x:.1f} mm forward and {1e3 * by.shift_y:.1f} mm to the left: correlation "
             f"{by.correlation:.3f}; difference: rms {rms:.3g} kPa, at most {largest:.3g} kPa"
         )
