@@ -160,7 +160,7 @@ def test_an_error_code_is_no_sample():
     assert unknown_samples(numpy.array([9000.0, 9999.0, 8000.0])) == ""
 
 
-def test_failed_reads_and_a_frozen_sensor_are_doubts():
+def test_failed_reads_and_a_frozen_sensor_are_named():
     shaken = {axis: values.copy() for axis, values in SHAKEN.items()}
     assert not judge_acceleration(shaken, RATE, "a", CURES).faults
     for values in shaken.values():

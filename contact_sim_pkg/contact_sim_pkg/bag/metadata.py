@@ -27,7 +27,7 @@ OUTCOME = f"{RECORD}_outcome"  # of the one at the end
 ROSBAG2 = "rosbag2"  # of the one that rosbag2 reads
 SCENE_KEY = "scene"
 WALL_TIME = "wall_time"  # key of the instant of simulated time 0, [ns] since 1970, in a bag in wall time
-DOUBTS = "imported_doubts"
+WARNINGS = "imported_warnings"
 """what makes the values of an imported recording doubtful, separated by a line break"""
 IMPORTED_FROM = "imported_from"  # key of the file that a bag was imported from, whose accelerations are in m/s^2
 RELATIVE_NAME = "relative_name"  # key of a channel's metadata

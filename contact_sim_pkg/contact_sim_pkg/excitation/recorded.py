@@ -155,8 +155,8 @@ class RecordedVibration:
             raise ExcitationError(
                 f"{table.file}: column {names[axis]!r}: {said}; fill the gap or cut the recording there"
             )
-        doubts = ("the sensor turns", "failed reads", "frozen")
-        self._notes += [f"WARNING: {said}." for said in judged.faults if said.startswith(doubts)]
+        warned = ("the sensor turns", "failed reads", "frozen")
+        self._notes += [f"WARNING: {said}." for said in judged.faults if said.startswith(warned)]
 
     def _at_stamps(self, raw: dict[str, Array], stamps: Array | None) -> dict[str, Array]:
         """Evenly spaced samples of what was sampled at stamps that scatter, by a spline of degree 5 through them."""

@@ -186,7 +186,7 @@ class Unknown(NamedTuple):
     """the first of them"""
 
     def describe(self) -> str:
-        """As a doubt about what is made of the topic."""
+        """As a warning about what is made of the topic."""
         more = f" and {self.messages - 1} more" if self.messages > 1 else ""
         return f"unknown samples: {self.field} {self.value:g} in the message at {self.time:.6g} s{more}"
 

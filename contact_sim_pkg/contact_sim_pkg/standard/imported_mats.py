@@ -10,7 +10,7 @@ import numpy
 from contact_sim_pkg.bag.encoding import LAST_STAMP, SECOND
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import encode
-from contact_sim_pkg.bag.metadata import DOUBTS, IMPORTED_FROM, RecordedTopic
+from contact_sim_pkg.bag.metadata import IMPORTED_FROM, WARNINGS, RecordedTopic
 from contact_sim_pkg.bag.typestore import definition, type_hash
 from contact_sim_pkg.bag.writer import BagSummary, BagWriter
 from contact_sim_pkg.run.contact_patch import contact_patch
@@ -58,7 +58,7 @@ def import_mat(
     notes = [*mat.notes, f"The {front} of the file's map, seen from the occupant's side, points {ahead} (--front)."]
     provenance = {
         IMPORTED_FROM: source.name, "imported_sha256": hashlib.sha256(source.read_bytes()).hexdigest(),
-        "imported_as": " ".join(notes), DOUBTS: "\n".join(mat.doubts),
+        "imported_as": " ".join(notes), WARNINGS: "\n".join(mat.warnings),
     }  # fmt: skip
     name = f"{contact}/patch"
     topic = RecordedTopic(name, f"/{name}", PATCH, definition(PATCH), type_hash(PATCH), "")

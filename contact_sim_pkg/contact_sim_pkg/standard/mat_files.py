@@ -59,7 +59,7 @@ class MatRecording(NamedTuple):
     col_pitch: float
     notes: tuple[str, ...]
     """what was found and assumed, a sentence each"""
-    doubts: tuple[str, ...]
+    warnings: tuple[str, ...]
     """those of them that make load or peak doubtful"""
 
 
@@ -116,14 +116,14 @@ def read_mat(
         _pitch(path, reading.values.get(key) or reading.values.get("pitch"), pitch, key)
         for key in ("row_pitch", "col_pitch")
     )
-    doubts = _doubts(reading.values, frames, by_rows * by_cols)
-    notes += doubts
+    warnings = _warnings_of(reading.values, frames, by_rows * by_cols)
+    notes += warnings
     times, by = _times(path, reading, rate)
     count, rows, cols = frames.shape
     notes.append(
         f"{count} frames of {rows} by {cols} cells of {1e3 * by_rows:.4g} by {1e3 * by_cols:.4g} mm, {said}{by}."
     )
-    return MatRecording(times, (frames * factor).astype(numpy.float32), by_rows, by_cols, tuple(notes), tuple(doubts))
+    return MatRecording(times, (frames * factor).astype(numpy.float32), by_rows, by_cols, tuple(notes), tuple(warnings))
 
 
 def _key(text: str) -> _Key:
@@ -336,7 +336,7 @@ def _pitch(path: Path, key: _Key | None, given: float | None, name: str) -> floa
     return found
 
 
-def _doubts(values: dict[str, _Key], frames: Array, cell: float) -> list[str]:
+def _warnings_of(values: dict[str, _Key], frames: Array, cell: float) -> list[str]:
     """What of the head does not fit the pressures."""
     found = []
     text, _, unit = values["area"].value.partition(" ") if "area" in values else ("", "", "")

@@ -1,4 +1,4 @@
-"""A number that is none, anywhere in a bag of the bench: every metric of its topic is in doubt, and the page is made."""
+"""A number that is none, anywhere in a bag of the bench: every metric of its topic is marked, and the page is made."""
 
 import math
 
@@ -47,7 +47,7 @@ def _with(record, field, value):
 
 @pytest.mark.fault("A16")
 @pytest.mark.parametrize("topic", FIELDS)
-def test_every_metric_of_the_topic_is_in_doubt(topic, tmp_path, monkeypatch):
+def test_every_metric_of_the_topic_is_marked(topic, tmp_path, monkeypatch):
     kind, fields = FIELDS[topic]
     clean = {each.key: each for each in all_metrics(read_recording(known.car_bag(tmp_path / "clean", BLOCKS)))}
     of_topic = {key for key, each in clean.items() if each.topic == topic}

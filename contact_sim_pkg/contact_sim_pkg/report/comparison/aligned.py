@@ -24,7 +24,7 @@ TURNS = np.radians(np.arange(-180.0, 180.0, 7.5))
 MOST_CELLS = 160
 """along a side of the grid that they are tried on"""
 AS_GOOD = 0.005
-"""of the correlation: turns that fit so much alike are told apart by their size alone"""
+"""of the correlation: of turns that fit so much alike the smaller one is taken"""
 OTHER = math.radians(30.0)
 """from the turn that was taken, beyond which one that fits as well is another answer"""
 

@@ -141,7 +141,7 @@ def _accelerations(
     found: list[Metric] = []
     health = []
     all_faults = (*faults, *(() if alone and chosen[0].axis in ROTATIONS else judged.faults))
-    # A sample that is unknown in one axis is a doubt about the sensor, and so about all of them
+    # A sample that is unknown in one axis is a warning about the sensor, and so about all of them
     all_faults += tuple(f"{axis}: {said}" for axis, said in unknown.items())
     for each in chosen:
         maker = Maker(key if alone else f"{key}.{each.axis}", topic, window)

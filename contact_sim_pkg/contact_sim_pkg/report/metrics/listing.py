@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import zip_longest
 
-from contact_sim_pkg.bag.metadata import DOUBTS
+from contact_sim_pkg.bag.metadata import WARNINGS
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.metrics.maker import ENERGY, Maker, energy_residual
@@ -39,10 +39,10 @@ def all_metrics(recording: Recording, loaded: float = LOADED) -> list[Metric]:
 
 
 def of_field(recording: Recording, contact: str, loaded: float) -> list[Metric]:
-    """The mat metrics of the field of a contact, marked with what is doubtful about a mat that was imported."""
-    doubts = tuple(filter(None, recording.metadata.get(DOUBTS, "").splitlines()))
+    """The mat metrics of the field of a contact, with the warnings about a mat that was imported."""
+    warnings = tuple(filter(None, recording.metadata.get(WARNINGS, "").splitlines()))
     metrics = mat_metrics(contact, recording.fields[contact], recording.duration, loaded)
-    return [_doubted(each._replace(broken=(*each.broken, *doubts)), recording) for each in metrics]
+    return [_with_warning(each._replace(broken=(*each.broken, *warnings)), recording) for each in metrics]
 
 
 def _named(lists: list[list[Metric]]) -> list[list[Metric]]:
@@ -64,11 +64,11 @@ def _lists(recording: Recording) -> list[list[Metric]]:
     rest = [load_metrics(name, contact) for name, contact in recording.contacts.items() if name not in listed]
     ledger = recording.ledger
     energy = [] if ledger is None else [energy_residual(ledger, recording.duration, recording.scene)]
-    return [[_doubted(metric, recording) for metric in each] for each in (*found, *rest, energy) if each]
+    return [[_with_warning(metric, recording) for metric in each] for each in (*found, *rest, energy) if each]
 
 
-def _doubted(metric: Metric, recording: Recording) -> Metric:
-    """The metric, in doubt where its topic holds what is no number."""
+def _with_warning(metric: Metric, recording: Recording) -> Metric:
+    """The metric, marked where its topic holds what is no number."""
     unknown = recording.unknown.get(metric.topic)
     return metric if unknown is None else metric._replace(broken=(*metric.broken, f"{metric.topic}: {unknown}"))
 
