@@ -52,6 +52,7 @@ def test_the_lock_holds_all_102_wheels_of_ros():
 
 def test_the_lock_holds_all_that_its_packages_ask_for():
     """Installers look for nothing beyond it; of pytest's plug-ins colcon needs none to build."""
+    pytest.importorskip("colcon_core", reason="only the environment of `make setup` has all that the lock names")
     asked = set()
     locked = {re.split(r"[\[=]", line)[0].lower().replace("_", "-") for line in pins()}
     for name in locked:
