@@ -71,6 +71,7 @@ class Start:
             "call_graph.py",
             "companion.py",
             "compiler.py",
+            "held.py",
             "jit.py",
             "kernel_cache.py",
             "linking.py",
