@@ -72,11 +72,13 @@ class Start:
             "companion.py",
             "compiler.py",
             "held.py",
+            "held_reference.py",
             "jit.py",
             "kernel_cache.py",
             "linking.py",
             "outside.py",
             "sources.py",
+            "tested.py",
         ):
             shutil.copy(PACKAGE / "compiled" / name, self.package / "compiled" / name)
         shutil.copy(PACKAGE / "python_process.py", self.package)
