@@ -1,5 +1,5 @@
 # The one entry: `make setup` makes what is missing, every other target calls it first.
-# PYTHON=/path/to/python3 chooses the interpreter (3.10 to 3.13) that the environment is made with.
+# PYTHON=/path/to/python3 chooses the interpreter (3.11 to 3.14) that the environment is made with.
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help

@@ -34,24 +34,10 @@ installed packages, and end at the first broken one.
 
 SEARCH_PATHS = ("PYTHONPATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH")
 
-_RUN_MODULE = """\
-import sys
-del sys.path[0]
-import runpy
-runpy.run_module(sys.argv.pop(1), run_name="__main__", alter_sys=True)
-"""
 
-
-def python_command(module: str, *arguments: str, version: tuple[int, ...] = sys.version_info[:2]) -> list[str]:
-    """Command that runs a module with this interpreter, the current folder not being searched.
-
-    Args:
-        module: full name of the module.
-        arguments: arguments of the module.
-        version: version of the interpreter; before 3.11 it has no option `-P`.
-    """
-    start = ["-P", "-m"] if version >= (3, 11) else ["-c", _RUN_MODULE]
-    return [sys.executable, *start, module, *arguments]
+def python_command(module: str, *arguments: str) -> list[str]:
+    """Command that runs a module, by its full name, with this interpreter, the current folder not being searched."""
+    return [sys.executable, "-P", "-m", module, *arguments]
 
 
 def drop_empty_entries() -> None:

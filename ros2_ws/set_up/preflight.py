@@ -13,8 +13,8 @@ from typing import NamedTuple
 from .layout import PROJECT, WORKSPACE
 from .underlay import Underlay
 
-PYTHON_OLDEST = (3, 10)
-PYTHON_NEWEST = (3, 13)
+PYTHON_OLDEST = (3, 11)
+PYTHON_NEWEST = (3, 14)
 GLIBC_OLDEST = (2, 28)
 DISK_NEEDED = 2.0e9  # [bytes]: the environment takes 1.1 GB, its download 0.4 GB
 
@@ -115,7 +115,7 @@ def _platform_faults(facts: Facts) -> list[str]:
 def _python_faults(facts: Facts) -> list[str]:
     name = "{}.{}".format(*facts.python_version)
     if not PYTHON_OLDEST <= facts.python_version <= PYTHON_NEWEST:
-        return [f"{facts.python} is Python {name}, and 3.10 to 3.13 are supported: name another with make PYTHON=…"]
+        return [f"{facts.python} is Python {name}, and 3.11 to 3.14 are supported: name another with make PYTHON=…"]
     found = []
     if not facts.has_venv:
         found.append(

@@ -74,13 +74,13 @@ def test_a_length_without_a_fast_transform_is_refused(length):
 def test_lanes_are_computed_one_by_one():
     numbers, out = numpy.arange(1.0, 12.0), numpy.zeros(10)
     weighed(3.0, numbers, out)
-    expected = 3.0 * numbers[2:10] + numbers[:8] - numbers[:8] * numbers[1:9]
-    assert out.tolist() == [0.0, *expected, 0.0]
+    first, next_, third = (numbers[start : start + WIDTH] for start in range(3))
+    assert out.tolist() == [0.0, *(3.0 * third + first - first * next_), *numpy.zeros(9 - WIDTH)]
 
 
 def test_a_tile_is_transposed_between_any_strides():
     source, target = numpy.arange(200.0), numpy.full(100, -1.0)
     transposed(source, 5, 20, target, 3, 10)
-    tile = source[5:165].reshape(8, 20)[:, :8]
-    assert target[3:83].reshape(8, 10)[:, :8].tolist() == tile.T.tolist()
-    assert (target == -1.0).sum() == 100 - 64
+    tile = source[5 : 5 + 20 * WIDTH].reshape(WIDTH, 20)[:, :WIDTH]
+    assert target[3 : 3 + 10 * WIDTH].reshape(WIDTH, 10)[:, :WIDTH].tolist() == tile.T.tolist()
+    assert (target == -1.0).sum() == 100 - WIDTH**2

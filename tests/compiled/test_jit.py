@@ -71,11 +71,14 @@ class Start:
             "call_graph.py",
             "companion.py",
             "compiler.py",
+            "held.py",
+            "held_reference.py",
             "jit.py",
             "kernel_cache.py",
             "linking.py",
             "outside.py",
             "sources.py",
+            "tested.py",
         ):
             shutil.copy(PACKAGE / "compiled" / name, self.package / "compiled" / name)
         shutil.copy(PACKAGE / "python_process.py", self.package)

@@ -51,16 +51,22 @@ def acted(effect, value):
 @entry
 def force(effect, value):
     return acted(effect, value)
+
+@entry
+def force_of_held(held, value):
+    return acted(held.value, value)
 """
 
 PROGRAM = """
 import json
 import numpy
 from contact_sim_pkg.laws.caller import total
-from contact_sim_pkg.laws.slot import force
+from contact_sim_pkg.compiled.held import hold
+from contact_sim_pkg.laws.slot import force, force_of_held
 from other.effect import Spring, own
 answer = {"ours": total(numpy.ones(3)), "own": own(2.0), "acted": force(Spring(1.0), 2.0)}
-hits = {"ours": total, "own": own, "acted": force}
+answer["held"] = force_of_held(hold(Spring(1.0)), 2.0)
+hits = {"ours": total, "own": own, "acted": force, "held": force_of_held}
 print(json.dumps({**answer, "hits": {name: sum(each.stats.cache_hits.values()) for name, each in hits.items()}}))
 """
 
@@ -99,12 +105,14 @@ def directories(start) -> set[Path]:
     ],
 )
 def test_an_edit_in_any_file_of_a_plug_in_is_seen_and_ours_stay_warm(plugin, file, before, after, own, acted):
-    """Its own kernels and ours that were compiled for its types; the expected numbers by hand."""
+    """Its own kernels and ours that were compiled for its types, held ones too; the expected numbers by hand."""
     folder, run, _ = plugin
-    assert run() == {"ours": 6.0, "own": 14.0, "acted": 15.0, "hits": {"ours": 0, "own": 0, "acted": 0}}
-    assert run()["hits"] == {"ours": 1, "own": 1, "acted": 1}
+    warm = {"ours": 1, "own": 1, "acted": 1, "held": 1}
+    assert run() == {"ours": 6.0, "own": 14.0, "acted": 15.0, "held": 15.0, "hits": dict.fromkeys(warm, 0)}
+    assert run()["hits"] == warm
     (folder / file).write_text((folder / file).read_text().replace(before, after))
-    assert run() == {"ours": 6.0, "own": own, "acted": acted, "hits": {"ours": 1, "own": 0, "acted": 0}}
+    edited = {"ours": 1, "own": 0, "acted": 0, "held": 0}
+    assert run() == {"ours": 6.0, "own": own, "acted": acted, "held": acted, "hits": edited}
 
 
 def test_old_directories_are_pruned_by_set(plugin):

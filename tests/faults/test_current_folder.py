@@ -109,9 +109,8 @@ def test_the_folder_of_these_tests_is_obeyed_by_who_does_not_take_care(hostile):
 
 
 @pytest.mark.fault("G8")
-@pytest.mark.parametrize("version", [(3, 10), sys.version_info[:2]])
-def test_a_module_that_is_started_imports_nothing_from_the_current_folder(hostile, monkeypatch, version):
-    command = python_command("contact_sim_pkg.cli.main", "run", "seat_ride", "--bad", version=version)
+def test_a_module_that_is_started_imports_nothing_from_the_current_folder(hostile, monkeypatch):
+    command = python_command("contact_sim_pkg.cli.main", "run", "seat_ride", "--bad")
     for name in ("PYTHONPATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH"):
         monkeypatch.setenv(name, os.pathsep.join(["", ENVIRONMENT.get(name, ""), ""]))
     drop_empty_entries()

@@ -17,11 +17,10 @@ HEAD = '''\
 """Written by `python -m tests.records.message_stub` from the `.msg` files; see `messages.py`."""
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy
 from numpy.typing import NDArray
-from typing_extensions import Self
 
 from .definitions import Definition
 

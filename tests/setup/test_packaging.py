@@ -9,11 +9,13 @@ import xml.etree.ElementTree as ElementTree
 from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, PathDistribution, requires
 from pathlib import Path
+from typing import Any
 
 import pytest
 from packaging.requirements import Requirement
 
 from contact_sim_pkg.nodes import start
+from set_up import preflight
 from set_up.environment import system_requirements
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -21,7 +23,7 @@ MESSAGES = PROJECT / "contact_msgs_defs"
 PACKAGE = PROJECT / "contact_sim_pkg"
 LOCK = PROJECT / "ros2_ws" / "requirements.txt"
 PIN = re.compile(
-    r"(?P<name>[A-Za-z0-9._-]+)(\[[a-z]+\])?==(?P<version>[0-9][0-9a-z.]*)(; python_version (==|>=) \"3\.\d+\")?"
+    r"(?P<name>[A-Za-z0-9._-]+)(\[[a-z]+\])?==(?P<version>[0-9][0-9a-z.]*)(; python_version (==|>=|<) \"3\.\d+\")?"
 )
 
 
@@ -50,6 +52,7 @@ def test_the_lock_holds_all_102_wheels_of_ros():
 
 def test_the_lock_holds_all_that_its_packages_ask_for():
     """Installers look for nothing beyond it; of pytest's plug-ins colcon needs none to build."""
+    pytest.importorskip("colcon_core", reason="only the environment of `make setup` has all that the lock names")
     asked = set()
     locked = {re.split(r"[\[=]", line)[0].lower().replace("_", "-") for line in pins()}
     for name in locked:
@@ -61,7 +64,7 @@ def test_the_lock_holds_all_that_its_packages_ask_for():
 
 
 def test_every_dependency_of_setup_py_is_locked():
-    declared = [re.split(r"[<>=]", text)[0] for text in setup_py_list("install_requires")]
+    declared = [re.split(r"[<>=]", text)[0] for text in setup_py_value("install_requires")]
     locked = {PIN.fullmatch(line)["name"].lower() for line in pins()}
     assert len(declared) > 10
     assert {name for name in declared if name not in locked} == set()
@@ -167,10 +170,43 @@ def test_the_page_of_the_wheel_is_complete(tmp_path):
     assert "bench run tire_bump --offline" in (page.get_payload() or page["Description"])
     assert [page.get_all("Project-URL"), page["Home-page"]] == [None, None]  # there is no site
     pythons = [text.rpartition(" ")[2] for text in page.get_all("Classifier") if "Python :: 3." in text]
-    assert pythons == ["3.10", "3.11", "3.12", "3.13"]
+    assert pythons == supported_pythons()
     assert page.get_all("License-File") == ["LICENSE"]
     assert set(page.get_all("Provides-Extra")) == {"daq", "parquet", "test"}
-    assert len([text for text in made.requires if "extra ==" not in text]) == len(setup_py_list("install_requires"))
+    assert len([text for text in made.requires if "extra ==" not in text]) == len(setup_py_value("install_requires"))
+
+
+def supported_pythons() -> list[str]:
+    """By `python_requires`."""
+    first, beyond = re.fullmatch(r">=3\.(\d+),<3\.(\d+)", setup_py_value("python_requires")).groups()
+    return [f"3.{minor}" for minor in range(int(first), int(beyond))]
+
+
+def test_every_place_states_the_same_versions_of_python():
+    oldest, *_, newest = pythons = supported_pythons()
+    words = f"{oldest} to {newest}"
+    places = {
+        "README.md": f"Python {words} ",
+        "CONTRIBUTING.md": f"| Python | {', '.join(pythons)} |",
+        "Makefile": f"({words})",
+        "contact_sim_pkg/README.md": f"Python {words}",
+        "contact_sim_pkg/QUALITY_DECLARATION.md": f"Python {words}",
+        "contact_sim_lab/setup.py": f'python_requires="{setup_py_value("python_requires")}"',
+        "docs/decisions/0002-dependencies-and-lock.md": f"CPython {words}",
+        "pyproject.toml": f'target-version = "py{oldest.replace(".", "")}"',
+        "ros2_ws/requirements.txt": f"CPython {words} ",
+        "ros2_ws/set_up.sh": " ".join(f"python{each}" for each in pythons[::-1]),
+        ".github/workflows/ubuntu-24.04-jazzy.yml": f'python: ["{oldest}", "{newest}"]',
+    }
+    texts = {path: " ".join((PROJECT / path).read_text().split()) for path in places}
+    assert [path for path, said in places.items() if said not in texts[path]] == []
+    assert [f"{major}.{minor}" for major, minor in (preflight.PYTHON_OLDEST, preflight.PYTHON_NEWEST)] == [
+        oldest,
+        newest,
+    ]
+    asked = f"{preflight.PYTHON_OLDEST} <= sys.version_info[:2] <= {preflight.PYTHON_NEWEST}"
+    assert asked in texts["ros2_ws/set_up.sh"]
+    assert f'python_version = "{oldest}"' in texts["pyproject.toml"]
 
 
 @pytest.mark.parametrize("package", ["contact_msgs_defs", "contact_sim_pkg", "contact_sim_lab"])
@@ -215,7 +251,7 @@ def top_level_imports(path: Path) -> set[str]:
     return names
 
 
-def setup_py_list(argument: str) -> list[str]:
+def setup_py_value(argument: str) -> Any:
     for node in ast.walk(ast.parse((PACKAGE / "setup.py").read_text())):
         if isinstance(node, ast.keyword) and node.arg == argument:
             return ast.literal_eval(node.value)

@@ -21,7 +21,7 @@ def whole(tmp_path: Path) -> preflight.Facts:
         machine="x86_64",
         glibc=(2, 28),
         python=Path("/somewhere/python3"),
-        python_version=(3, 10),
+        python_version=(3, 11),
         headers=tmp_path,
         has_venv=True,
         c_compiler="cc",
@@ -43,10 +43,10 @@ def test_a_whole_machine_has_no_faults(whole):
         ({"machine": "aarch64"}, ["aarch64", "x86-64 only", "apt"]),
         ({"glibc": (2, 27)}, ["glibc 2.27", "2.28", "distribution of 2019"]),
         ({"glibc": None}, ["another C library", "2.28"]),
-        ({"python_version": (3, 9)}, ["Python 3.9", "3.10 to 3.13", "PYTHON="]),
-        ({"python_version": (3, 14)}, ["Python 3.14", "3.10 to 3.13", "PYTHON="]),
-        ({"has_venv": False}, ["no venv module", "apt install python3.10-venv"]),
-        ({"headers": Path("/nowhere")}, ["no Python.h in /nowhere", "apt install python3.10-dev"]),
+        ({"python_version": (3, 10)}, ["Python 3.10", "3.11 to 3.14", "PYTHON="]),
+        ({"python_version": (3, 15)}, ["Python 3.15", "3.11 to 3.14", "PYTHON="]),
+        ({"has_venv": False}, ["no venv module", "apt install python3.11-venv"]),
+        ({"headers": Path("/nowhere")}, ["no Python.h in /nowhere", "apt install python3.11-dev"]),
         ({"c_compiler": None}, ["no C compiler", "cc, gcc, clang", "apt install gcc"]),
         ({"cxx_compiler": None}, ["no C++ compiler", "c++, g++, clang++", "apt install g++"]),
         ({"project": Path("/home/a b/bench")}, ["'/home/a b/bench'", "blank", "move the project"]),
@@ -83,7 +83,7 @@ def test_without_any_python_the_script_says_so_and_ends_with_2(tmp_path):
     for tool in ("dirname", "basename", "cat"):
         (tmp_path / tool).symlink_to(Path("/usr/bin") / tool)
     # A python3 that is too old, as the script sees it: its question is answered with no.
-    for name in ("python3", "python3.13", "python3.12", "python3.11", "python3.10"):
+    for name in ("python3", "python3.14", "python3.13", "python3.12", "python3.11"):
         (tmp_path / name).write_text("#!/bin/sh\nexit 1\n")
         (tmp_path / name).chmod(0o755)
     copy = tmp_path / "project" / "ros2_ws"
@@ -95,7 +95,7 @@ def test_without_any_python_the_script_says_so_and_ends_with_2(tmp_path):
     )
     assert result.returncode == 2
     assert result.stdout == ""
-    assert result.stderr.startswith("set-up: no Python of 3.10 to 3.13 found")
+    assert result.stderr.startswith("set-up: no Python of 3.11 to 3.14 found")
     assert result.stderr.count("\n") == 1
 
 
@@ -108,7 +108,7 @@ def test_a_named_python_that_does_not_fit_is_refused():
         check=False,
     )
     assert result.returncode == 2
-    assert result.stderr == "set-up: PYTHON=false is not a Python of 3.10 to 3.13: name one that is.\n"
+    assert result.stderr == "set-up: PYTHON=false is not a Python of 3.11 to 3.14: name one that is.\n"
 
 
 def test_what_a_python_that_cannot_start_says_is_shown(tmp_path):

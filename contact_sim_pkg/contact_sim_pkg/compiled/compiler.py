@@ -1,7 +1,7 @@
 """numba's compiler for entries and kernels: with a library of code of our own (`linking.py`), names
 that are the same in each process, few garbage collections and one piece of memory for frames.
 
-With a version of numba whose inside this was not tested with (`TESTED`), functions are compiled in
+With a version of numba whose inside this was not tested with (`tested.py`), functions are compiled in
 numba's own way: slower, same numbers.
 """
 
@@ -17,17 +17,14 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
-import numba
 from numba.core.compiler import Compiler
 from numba.core.errors import NumbaTypeError
 
 from contact_sim_pkg.compiled import companion
 from contact_sim_pkg.compiled.linking import KernelLibrary, Overload
+from contact_sim_pkg.compiled.tested import IS_TESTED
 
 __all__ = ["compiled_kernels", "compiler_of"]
-
-TESTED = ("0.66.", "0.67.", "0.68.")
-"""Versions of numba whose inside is known to fit."""
 
 Result = TypeVar("Result")
 
@@ -105,7 +102,7 @@ _on_a_large_stack.__code__ = _on_a_large_stack.__code__.replace(co_stacksize=70_
 
 
 def compiler_of(*, is_entry: bool) -> type[Compiler] | None:
-    """The compiler of entries or of kernels; None, numba's own, where its version is not `TESTED`."""
-    if not numba.__version__.startswith(TESTED):
+    """The compiler of entries or of kernels; None, numba's own, where its version was not tested."""
+    if not IS_TESTED:
         return None
     return _EntryCompiler if is_entry else _KernelCompiler

@@ -24,14 +24,14 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
-from contact_sim_pkg.compiled.lanes import load, store
+from contact_sim_pkg.compiled.lanes import WIDTH, load, store
 
 __all__ = ["FURTHER", "IMAGINARY", "Axis", "good_size", "make_axis", "put", "transform"]
 
-IMAGINARY = 8
+IMAGINARY = WIDTH
 """From the real part of a number to its imaginary part, in a buffer."""
 
-FURTHER = 16
+FURTHER = 2 * WIDTH
 """From one number to the next."""
 
 Values = NDArray[numpy.float64]

@@ -38,7 +38,7 @@ def package_of(module: str) -> str:
 
 
 def packages_in(types: Iterable[Any]) -> frozenset[str]:
-    """Packages of others in numba's ``types``: of named tuples, of functions, in any depth."""
+    """Packages of others in numba's ``types``: of named tuples, held ones too, of functions, in any depth."""
     return frozenset().union(*map(_packages_of_type, types))
 
 
@@ -49,7 +49,8 @@ def _packages_of_type(numba_type: Any) -> frozenset[str]:
         named.append(getattr(getattr(numba_type, attribute, None), "__module__", None) or "")
     function = getattr(getattr(numba_type, "dispatcher", None), "py_func", None)
     named.append(getattr(function, "__module__", ""))
-    inside = [*(getattr(numba_type, "types", None) or ()), getattr(numba_type, "type", None)]
+    fields = getattr(numba_type, "field_dict", {}).values()  # of what `compiled/held.py` holds
+    inside = [*(getattr(numba_type, "types", None) or ()), *fields, getattr(numba_type, "type", None)]
     found = {package_of(module) for module in named} - {""}
     return frozenset(found).union(*(_packages_of_type(each) for each in inside if each is not None))
 

@@ -41,8 +41,9 @@ def _kernel_texts(package: Path) -> dict[Path, bytes]:
     paths = {str(path)[outside:-3].replace(os.sep, "."): path for path in package.rglob("*.py")}
     texts = {name: path.read_bytes() for name, path in paths.items()}
     decorators = f"{package.name}.{_KERNELS} import".encode()
+    own = f"{package.name}.compiled."  # imported by version of numba
     found: set[str] = set()
-    ahead = [name for name, text in texts.items() if decorators in text]
+    ahead = [name for name, text in texts.items() if decorators in text or name.startswith(own)]
     while ahead:
         name = ahead.pop()
         if name not in found:

@@ -9,5 +9,4 @@ from contact_sim_pkg.requirements import end_with_sentence
 
 if sys.argv[:1] == ["-m"]:  # `python -m contact_sim_pkg.nodes.NODE`, which is imported after its package
     sys.excepthook = end_with_sentence
-if sys.argv[:1] in (["-m"], ["-c"]):  # the second: how `python_command` starts one before Python 3.11
     disregard_current_folder()

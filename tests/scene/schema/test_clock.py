@@ -1,6 +1,8 @@
 """Blocks, durations and rates fit each other in whole nanoseconds, or the nearest that do are named."""
 
+import operator
 from fractions import Fraction
+from functools import reduce
 
 import pytest
 from hypothesis import given
@@ -11,6 +13,7 @@ from contact_sim_pkg.scene.schema.clock import divisors
 from contact_sim_pkg.scene.timing import make_timing
 
 THOUSAND = {"force_rate": 1000.0, "display_rate": 1000.0, "field_rate": 1000.0}
+ADDED_UP = reduce(operator.add, [0.001] * 3599)  # each step rounded; `sum` makes up for that since Python 3.12
 
 
 @pytest.mark.parametrize(
@@ -75,7 +78,7 @@ def test_the_number_of_blocks_of_an_hour_is_exact(maker):
         (0.47000000000000003, 0.01, 47, 0.47),
         (0.1 + 0.2, 0.01, 30, 0.3),
         (1.1 - 0.4, 0.01, 70, 0.7),
-        (sum([0.001] * 3599), 0.001, 3599, 3.599),
+        (ADDED_UP, 0.001, 3599, 3.599),
         (0.3 * (1.0 + 0.9e-9), 0.01, 30, 0.3),
         (0.3 * (1.0 - 0.9e-9), 0.01, 30, 0.3),
     ],

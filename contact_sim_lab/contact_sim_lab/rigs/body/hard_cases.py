@@ -86,7 +86,7 @@ def compliant_energy() -> Finding:
         heights = (motion.rotation @ shape.points.T)[2]
         first, second = heights.argsort()[:2]
         lowest += [int(first)] if heights[second] - heights[first] > 1e-4 else []
-    return at_most(worst / start, 1e-9, hard=numpy.count_nonzero(numpy.diff(lowest)))
+    return at_most(worst / start, 1e-9, hard=int(numpy.count_nonzero(numpy.diff(lowest))))
 
 
 def _energy(body: CompliantMotion) -> float:

@@ -135,7 +135,7 @@ def _basis() -> tuple[Array, Array, Array]:
     """
     nodes = -numpy.cos(numpy.pi * numpy.arange(NODES) / (NODES - 1))
     chebyshev = numpy.polynomial.chebyshev
-    coefficients = numpy.linalg.inv(chebyshev.chebvander(nodes, NODES - 1))
+    coefficients: Array = numpy.linalg.inv(chebyshev.chebvander(nodes, NODES - 1)).astype(float)
     primitive = numpy.stack([chebyshev.chebint(row, lbnd=-1) for row in numpy.eye(NODES)], axis=1)
     integrals = chebyshev.chebvander(nodes, NODES) @ primitive @ coefficients
     integrals[0] = 0.0
