@@ -62,7 +62,6 @@ setup(
         "jinja2>=3.1,<4",
         "matplotlib>=3.6,<4",
         "mcap>=1.5,<2",
-        "mpmath>=1.3,<2",
         "numba>=0.66,<0.69",
         "numpy>=1.26,<3",
         "pydantic>=2.6,<3",

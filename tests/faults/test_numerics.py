@@ -12,12 +12,12 @@ import numpy
 import pytest
 from tests.bench_process import ENVIRONMENT, messages, resolved
 
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_pkg.bag.encoding import deserialize
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.compiled import jit
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.solver import make_workspace, solve_at_load

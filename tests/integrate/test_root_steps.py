@@ -3,10 +3,10 @@ import math
 import numpy
 import pytest
 
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.integrate.root_steps import make_workspace
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.one_mass.single import empty_mode, run
 from contact_sim_pkg.laws.parameters import NormalElastic
 

@@ -8,6 +8,7 @@ import numpy
 import pytest
 from scipy.integrate import solve_ivp
 
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_lab.rigs.vehicle.scene_drive import drive_of, fast_run
 from contact_sim_lab.twins import impact
 from contact_sim_pkg.laws.elastic_law import (
@@ -24,7 +25,6 @@ from contact_sim_pkg.laws.foam_hysteresis import (
     hysteresis_rate,
 )
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import FoamElastic, FoamHysteresis, NormalDissipative, NormalElastic
 from contact_sim_pkg.rigs.vehicle.entries import energies
 from contact_sim_pkg.scene.resolve import load_resolved

@@ -3,6 +3,8 @@ import math
 import numpy
 import pytest
 
+from contact_sim_lab.laws.one_mass.belt_slider import BeltSlider
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.friction import (
     SEPARATED,
     STICK,
@@ -12,8 +14,6 @@ from contact_sim_pkg.laws.friction import (
     spring_is_limited,
     stick_event,
 )
-from contact_sim_pkg.laws.one_mass.parameters import BeltSlider
-from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import Friction
 
 LAW = Friction(1.0e4, 50.0, 0.5, 0.4)

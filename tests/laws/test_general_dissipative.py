@@ -5,11 +5,12 @@ import math
 import numpy
 import pytest
 
+from contact_sim_lab.laws.one_mass.impact_works import ImpactWorks
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_lab.twins import general_law, impact
 from contact_sim_pkg.laws.general_dissipative import SMOOTHING, rate_power, rate_power_slope
 from contact_sim_pkg.laws.normal_force import normal_force, normal_force_rate, tension_event
-from contact_sim_pkg.laws.one_mass.parameters import ImpactWorks, PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
+from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipative, NormalElastic
 
 PULLS = -math.inf

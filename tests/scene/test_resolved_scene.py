@@ -9,7 +9,9 @@ from tests.run.scenes import resolved
 
 from contact_sim_pkg.rigs.backrest.schema import BackrestSection
 from contact_sim_pkg.rigs.vehicle.tire.schema import BrushSection, Envelopment, TireField, TireSection
-from contact_sim_pkg.scene.resolved_scene import plain
+from contact_sim_pkg.scene.resolved_scene import MAY_BE_LEFT_OUT, plain
+from contact_sim_pkg.scene.schema import general, road, vibration
+from contact_sim_pkg.scene.schema.fields import Section
 from contact_sim_pkg.scene.schema.laws import HuntCrossley
 from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 
@@ -43,7 +45,21 @@ def test_plain_keys_are_attributes_and_absent_ones_none(scene):
     assert scene.outputs.force_rate == scene.data["outputs"]["force_rate"]
     assert scene.vibration is None
     assert plain({"a": {"b": 2.0}}).a.b == 2.0
-    assert plain({"a": 1.0}).missing is None
+    assert plain({"height": 1.0}).period is None
+
+
+def test_a_name_that_no_section_may_leave_out_is_refused():
+    with pytest.raises(AttributeError, match="no key 'heigth'"):
+        assert plain({"height": 1.0}).heigth
+    kinds = [*vars(general).values(), *vars(road).values(), *vars(vibration).values(), PressureFieldSection]
+    sections = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, Section)]
+    optional = {
+        name
+        for kind in sections
+        for name, field in kind.model_fields.items()
+        if not field.is_required() and field.default is None
+    }
+    assert optional == MAY_BE_LEFT_OUT
 
 
 def test_the_keys_of_every_scene_are_read_without_the_schema():

@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_lab.field.windowed import WindowedSolver
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace
 from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import FieldResult, make_workspace, solve_at_approach, solve_at_load
-from contact_sim_pkg.pressure.field.window import WindowedSolver
 
 __all__ = ["ENTRIES", "Entry", "SolveRequest", "holds_load"]
 

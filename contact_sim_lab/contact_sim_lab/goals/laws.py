@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from contact_sim_lab.laws import hard_cases_friction
 from contact_sim_lab.laws import hard_cases_impact as impacts_of
 from contact_sim_lab.laws import seat_slap as work_of
+from contact_sim_lab.laws.one_mass import runs as one_mass
 from contact_sim_lab.records.goal import GoalPart, Measured, median_time
 from contact_sim_lab.twins import impact
 from contact_sim_lab.twins.belt_slider import period_of_rigid_law
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.integrate.root_steps import RootStepWorkspace, make_workspace
-from contact_sim_pkg.laws.one_mass import runs as one_mass
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.point_contact import EVENT_FUNCTIONS, STATES
 from contact_sim_pkg.laws.one_mass.single import empty_mode, run

@@ -8,14 +8,14 @@ import math
 
 import numpy
 
+from contact_sim_lab.laws.one_mass.belt_slider import BeltSlider
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_lab.twins.belt_slider import StickSlip, period_of_rigid_law, slip_starts, state_at
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
-from contact_sim_pkg.laws.one_mass.parameters import BeltSlider
-from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.motion import event_count

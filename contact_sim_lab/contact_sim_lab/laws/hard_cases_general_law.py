@@ -8,14 +8,15 @@ import math
 
 import numpy
 
+from contact_sim_lab.laws.one_mass.impact_works import ImpactWorks
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_lab.laws.work_precision_restitution import SPHERE, delivered
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_lab.twins import general_law, impact
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.normal_force import normal_force
-from contact_sim_pkg.laws.one_mass.parameters import ImpactWorks, PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
+from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalElastic
 from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, severity_of_restitution
 

@@ -8,6 +8,7 @@ import math
 
 import numpy
 
+from contact_sim_lab.laws.one_mass.runs import OneMassCourse, free_impact, impact_speeds, integrate, seat_slap
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_lab.rigs.impact.hard_cases_sphere import STEEL_DENSITY, STEEL_RADIUS
@@ -17,7 +18,6 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import NOT_FINITE, TOO_MANY_EVENTS
 from contact_sim_pkg.laws.normal_elastic import elastic_energy, elastic_force
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.runs import OneMassCourse, free_impact, impact_speeds, integrate, seat_slap
 from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
 
 MASS, LAW = 20.0, NormalElastic(1.0e5, 1.5)

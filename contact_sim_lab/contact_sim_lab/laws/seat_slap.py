@@ -17,9 +17,9 @@ import numpy
 from scipy.integrate import solve_ivp
 
 from contact_sim_lab.laws import hard_cases_impact as impacts_of
+from contact_sim_lab.laws.one_mass import runs as one_mass
 from contact_sim_lab.records.goal import median_time
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.laws.one_mass import runs as one_mass
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 
 __all__ = ["END", "SlapCost", "cheapest", "own_work", "scipy_work"]

@@ -14,11 +14,11 @@ from collections.abc import Callable
 
 import numpy
 
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_lab.laws.restitution_formulas import FORMULAS
 from contact_sim_lab.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_lab.twins import impact
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipation, NormalElastic
 from contact_sim_pkg.laws.restitution import damping_of_restitution
 from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, kelvin_voigt_ratio, severity_of_restitution

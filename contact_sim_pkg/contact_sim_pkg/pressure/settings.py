@@ -39,6 +39,7 @@ class FieldSettings(NamedTuple):
     maximum_iterations: int
     corrector_passes: int  # most repetitions of a coupling step with the field found at its end
     belt: BeltSettings | InflatedBelt | None = None  # yields in series with the half-space
+    solver: type | None = None  # of a half-space, in place of `RollingField`
 
 
 def widened(settings: FieldSettings) -> FieldSettings:

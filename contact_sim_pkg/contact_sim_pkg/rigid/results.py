@@ -17,10 +17,10 @@ SENTENCES = {
     NOT_CONVERGED: "the iteration ended before the requested residual; the residual is returned",
     CONTACT_NOT_FINITE: "an input of the contact solve is not finite: state unchanged",
     TOO_MANY_IMPACTS: "more than 100000 impacts in one call: raise the rest speed or lower the restitution",
-    TOO_MANY_EVENTS: "more than 100000 events in one output sample hardly bring the motion on: take scheme: stepping or "
-    "compliant_contact, or a ground with fewer heights",
-    SPIN_TOO_FAST: "the body turns by more than one radian in a step of the scheme stepping, or by more than 100000 in an output "
-    "sample: take a shorter step, samples closer together, or a smaller torque",
+    TOO_MANY_EVENTS: "more than 100000 events in one output sample hardly bring the motion on: take compliant_contact, or a "
+    "ground with fewer heights",
+    SPIN_TOO_FAST: "the body turns by more than 100000 radians in an output sample: take samples closer together, or a smaller "
+    "torque",
 }
 
 # Mode of a contact over one solve.

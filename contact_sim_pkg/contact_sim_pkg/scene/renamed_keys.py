@@ -29,6 +29,8 @@ key are read.
 
 REMOVED: dict[str, str] = {
     "effects.seat.pressure_mat": "effects.seat.cushion with effects.seat.contact_field",
+    "effects.block.rigid_contact.scheme": "nothing (contact events are always located in time)",
+    "effects.block.rigid_contact.step": "nothing (contact events are always located in time)",
 }
 """Old key -> what serves in its place. A bag is read without it: nothing that moves followed from
 it.

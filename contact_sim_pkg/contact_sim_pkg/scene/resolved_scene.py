@@ -28,17 +28,25 @@ if TYPE_CHECKING:
 Kind = TypeVar("Kind", bound="Section")
 
 
+MAY_BE_LEFT_OUT = frozenset({
+    "angle", "at_least", "at_most", "cols", "corrector_passes", "coupling_length", "coupling_tolerance", "duration",
+    "header_line", "longitudinal", "octaves_per_minute", "period", "points", "rate", "relative_tolerance", "roughness",
+    "roughness_class", "rows", "sha256", "speed", "texture", "time_column", "time_unit", "tolerance", "unit",
+})  # fmt: skip
+"""Keys without a value of their own, of all sections outside the effects and of a pressure field."""
+
+
 class _Plain(SimpleNamespace):
-    """Keys of a section as attributes; a key that the data leave out is None."""
+    """Keys of a section as attributes; one that may be left out is None where it is."""
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
+        if name not in MAY_BE_LEFT_OUT:
+            raise AttributeError(f"the section has no key {name!r}, and none that may be left out has this name")
         return None
 
 
 def plain(data: Mapping[str, Any] | None) -> Any:
-    """Plain data of a section with its keys as attributes, None where there are none.
+    """Plain data of a section with its keys as attributes, None where they are left out.
 
     It stands for a section of the schema where a node starts without the schema; the data were
     checked before.

@@ -128,3 +128,13 @@ def test_the_depth_goes_smoothly_through_touch(gap: float) -> None:
 def test_an_overlap_without_bound_is_refused() -> None:
     with pytest.raises(ValueError, match="balls of any size"):
         interference(half_space([0, 0, 1], 0.0), half_space([0, 0, 1], 1.0))
+
+
+def test_a_ball_that_two_curved_bodies_touch_once_each_says_so() -> None:
+    one = ellipsoid(
+        [-0.1, 0.369, -0.271], [0.692, 0.168, 0.324], Rotation.from_rotvec([0.437, 0.578, 1.072]).as_matrix()
+    )
+    other = sphere([-0.362, -0.237, -0.188], 0.043)
+    found = interference(one, other)
+    assert found.depth == pytest.approx(reference.separating_translation(pair_of(one), pair_of(other)), rel=1e-9)
+    assert found.one_foot_each

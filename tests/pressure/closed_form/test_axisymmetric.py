@@ -11,20 +11,20 @@ import scipy.integrate
 import scipy.interpolate
 import scipy.optimize
 
-from contact_sim_lab.twins import axisymmetric as reference
-from contact_sim_pkg.pressure.closed_form.axisymmetric import (
+from contact_sim_lab.closed_form.axisymmetric import (
     approach_at_radius,
     load_at_radius,
     pressure,
     radius_at_approach,
     radius_at_load,
 )
-from contact_sim_pkg.pressure.closed_form.axisymmetric_profile import (
+from contact_sim_lab.closed_form.axisymmetric_profile import (
     AxisymmetricError,
     PowerProfile,
     SlopeProfile,
     tabulated_profile,
 )
+from contact_sim_lab.twins import axisymmetric as reference
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact
 
 MODULUS = 4e6

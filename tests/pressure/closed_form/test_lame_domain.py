@@ -11,15 +11,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contact_sim_lab.twins import lame as reference
-from contact_sim_pkg.pressure.closed_form.lame import lame_area, lame_moment
-from contact_sim_pkg.pressure.closed_form.lame_domain import (
+from contact_sim_lab.closed_form.lame_domain import (
     inside,
     lame_boundary,
     lame_mesh,
     perimeter,
     radial_variable,
 )
+from contact_sim_lab.twins import lame as reference
+from contact_sim_pkg.pressure.closed_form.lame import lame_area, lame_moment
 
 EXPONENTS = (0.1, 0.5, 0.8, 1.0, 1.3, 2.0, 4.0, 20.0, 100.0)
 

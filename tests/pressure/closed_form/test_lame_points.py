@@ -10,8 +10,8 @@ import scipy.spatial
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contact_sim_pkg.pressure.closed_form.lame_domain import inside, lame_boundary
-from contact_sim_pkg.pressure.closed_form.lame_points import fit_points, hull
+from contact_sim_lab.closed_form.lame_domain import inside, lame_boundary
+from contact_sim_lab.closed_form.lame_points import fit_points, hull
 
 
 @settings(max_examples=60)

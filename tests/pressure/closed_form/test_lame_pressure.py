@@ -12,10 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from contact_sim_lab.twins import lame_pressure as reference
-from contact_sim_pkg.pressure.closed_form.hertz import HertzError, hertz_contact
-from contact_sim_pkg.pressure.closed_form.lame import LameFit, fit_patch, lame_area
-from contact_sim_pkg.pressure.closed_form.lame_pressure import (
+from contact_sim_lab.closed_form.lame_pressure import (
     LamePressureError,
     ansatz_of_curvatures,
     ansatz_on_domain,
@@ -24,6 +21,9 @@ from contact_sim_pkg.pressure.closed_form.lame_pressure import (
     lame_pressure,
     printed_approach,
 )
+from contact_sim_lab.twins import lame_pressure as reference
+from contact_sim_pkg.pressure.closed_form.hertz import HertzError, hertz_contact
+from contact_sim_pkg.pressure.closed_form.lame import LameFit, fit_patch, lame_area
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.solver import make_workspace, solve_at_load
 

@@ -3,9 +3,9 @@
 import numpy
 import pytest
 
+from contact_sim_lab.field.windowed import STEP, WindowedSolver, overlap_window
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, make_workspace, solve_at_approach
-from contact_sim_pkg.pressure.field.window import STEP, WindowedSolver, overlap_window
 
 ROWS, COLS = 40, 36
 HALF_SPACE = make_half_space(ROWS, COLS, 0.006, 0.005, 6e6)

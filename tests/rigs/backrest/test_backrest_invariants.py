@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.rigs.backrest.backrest_runs import GRAVITY, driven, one_mass, sine
 
-from contact_sim_pkg.laws.one_mass import runs as free
+from contact_sim_lab.laws.one_mass import runs as free
 from contact_sim_pkg.laws.parameters import FoamElastic, Friction, GeneralDissipative, NormalDissipative, NormalElastic
 from contact_sim_pkg.rigs.backrest import entries as columns
 

@@ -27,17 +27,16 @@ print(*sorted({entry.__module__.partition(".rigid.")[2] for entry in never_calle
 """
 LAW = "effects.block.rigid_contact"
 PLANE, SPACE = "impact.planar_impact", "impact.path"  # each for one number of axes alone
-SPRINGS, STEPPING = "motion.compliant", ("motion.stepping", "geometry.reach")
+SPRINGS = "motion.compliant"
 
 
 @pytest.mark.parametrize(
     ("scene", "others"),
     [
-        (("block_fall",), {SPACE, SPRINGS, *STEPPING}),
-        (("block_slope", "block.motion=space"), {PLANE, SPRINGS, *STEPPING}),
-        (("block_zeno",), {PLANE, SPRINGS, *STEPPING}),
-        (("box_3d_tumble", f"{LAW}.facets=8"), {PLANE, SPRINGS, *STEPPING}),
-        (("box_3d_tumble", f"{LAW}.scheme=stepping"), {PLANE, SPRINGS}),
+        (("block_fall",), {SPACE, SPRINGS}),
+        (("block_slope", "block.motion=space"), {PLANE, SPRINGS}),
+        (("block_zeno",), {PLANE, SPRINGS}),
+        (("box_3d_tumble", f"{LAW}.facets=8"), {PLANE, SPRINGS}),
     ],
 )
 def test_the_warm_up_leaves_out_other_models_alone(scene, others):

@@ -94,13 +94,6 @@ def test_the_block_climbs_as_far_as_friction_and_weight_let_it_and_then_sticks()
     assert sorted(points[-1].state) == [0, 0, 2, 2]
 
 
-def test_the_steps_of_first_order_end_near_the_located_ones():
-    located, stepped = (
-        rows(run("block_slope", f"effects.block.rigid_contact.scheme={s}")[1]) for s in ("located", "stepping")
-    )
-    assert numpy.abs(located[1][:, -1] - stepped[1][:, -1]).max() < 2e-3
-
-
 def test_a_point_that_sticks_in_its_impact_is_said_to():
     """A ball that falls straight down sticks; one that moves on after its impact slips."""
     for velocity, state in ((0.0, 2), (20.0, 3)):
@@ -137,8 +130,14 @@ def test_the_compliant_twin_tends_to_the_rigid_scene_as_it_gets_stiffer():
 def test_a_compliant_contact_refuses_what_only_impulses_have():
     with pytest.raises(SceneError, match=r"rule: newton has no meaning with compliant_contact.*take energetic"):
         resolved("block_fall", COMPLIANT, "effects.block.rigid_contact.rule=newton")
-    with pytest.raises(SceneError, match=r"scheme: stepping has no meaning with compliant_contact.*take located"):
-        resolved("block_fall", COMPLIANT, "effects.block.rigid_contact.scheme=stepping")
+
+
+def test_a_scheme_of_fixed_steps_is_refused_with_what_takes_its_place():
+    for key in ("scheme=stepping", "step=0.001"):
+        with pytest.raises(
+            SceneError, match=r"was removed; write nothing \(contact events are always located in time\)"
+        ):
+            resolved("block_fall", f"effects.block.rigid_contact.{key}")
 
 
 def test_a_sphere_rolls_over_a_ground_of_heights():
@@ -265,13 +264,11 @@ def test_the_page_of_a_rigid_contact_draws_no_force_over_its_approach(tmp_path):
 VALLEYS = ("block.ground.heights=[0.1,0,0.1,0.3,0.2,0]", "block.ground.start=-0.5", "block.ground.distance=0.25")
 
 
-@pytest.mark.parametrize("scheme", ["located", "stepping"])
-def test_a_ball_that_falls_into_a_valley_of_heights_ends_its_run(scheme):
-    values = (*VALLEYS, "duration=2", "block.velocity=[0.3,0.1,0]", f"effects.block.rigid_contact.scheme={scheme}")
-    _scene, messages = run("block_zeno", *values)
+def test_a_ball_that_falls_into_a_valley_of_heights_ends_its_run():
+    _scene, messages = run("block_zeno", *VALLEYS, "duration=2", "block.velocity=[0.3,0.1,0]")
     ledgers = of(messages, "bench/energy", EnergyLedger)
     totals = numpy.array([ledger.kinetic + ledger.potential for ledger in ledgers])
-    assert numpy.diff(totals).max() <= (1e-9 if scheme == "located" else 0.05)
+    assert numpy.diff(totals).max() <= 1e-9
 
 
 @pytest.mark.parametrize(
@@ -339,8 +336,7 @@ def test_a_ball_that_rests_in_a_valley_is_pushed_up_with_its_weight():
 
 
 @pytest.mark.parametrize("motion", ["plane", "space"])
-@pytest.mark.parametrize("scheme", ["located", "stepping"])
-def test_the_wrench_of_a_ball_that_rolls_down_a_slope_of_heights_is_that_of_rolling(scheme, motion):
+def test_the_wrench_of_a_ball_that_rolls_down_a_slope_of_heights_is_that_of_rolling(motion):
     """In world axes: N = m g cos a along the normal, friction 2/7 m g sin a up the slope, and its
     moment R about the centre.
     """
@@ -348,7 +344,7 @@ def test_the_wrench_of_a_ball_that_rolls_down_a_slope_of_heights_is_that_of_roll
     height = radius / math.cos(angle)
     ball = (
         f"block.position=[0,0,{height!r}]", "block.velocity=[0,0,0]", "effects.block.rigid_contact.restitution=0",
-        f"effects.block.rigid_contact.scheme={scheme}", "duration=0.3", f"block.motion={motion}",
+        "duration=0.3", f"block.motion={motion}",
     )  # fmt: skip
     force, torque = _wrenches_over_heights((-0.2, 0.0, 0.2), *ball)
     along, normal = (

@@ -9,7 +9,7 @@ from contact_sim_lab.accuracy import scene_plot as accuracy_cost_plot
 from contact_sim_lab.accuracy.lines import parts_of_rigs
 
 
-def row(error, milliseconds=2.0, tolerance=1e-3, part="scheme in time"):
+def row(error, milliseconds=2.0, tolerance=1e-3, part="contact model"):
     return {
         "quantity": "distance", "part": part, "level": "located", "grid": None, "tolerance": tolerance, "error": error,
         "ms_per_simulated_s": milliseconds,
@@ -49,7 +49,7 @@ def test_a_point_is_named_by_what_was_asked_and_by_no_grid_that_is_not_there(axe
 
 def test_every_part_of_a_block_s_study_has_a_panel():
     drawn = {part.part for part in parts_of_rigs()}
-    assert {"scheme in time", "turning on active contacts", "friction cone", "contact model"} <= drawn
+    assert {"turning on active contacts", "friction cone", "contact model"} <= drawn
 
 
 @pytest.mark.parametrize("rows", [[], [row(math.nan)], [row(0.0)], [row(0.0), row(0.0, part="friction cone")]])

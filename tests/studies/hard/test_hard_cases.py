@@ -10,14 +10,15 @@ from hypothesis import strategies as st
 
 from contact_sim_lab.hard import hard_cases
 from contact_sim_lab.laws import hard_cases_impact
+from contact_sim_lab.laws.one_mass.belt_slider import BeltSlider
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.guard import Guard
 from contact_sim_lab.records.hard_case import HardCase, at_most, close_to
 from contact_sim_lab.twins import impact
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
-from contact_sim_pkg.laws.one_mass.parameters import BeltSlider, PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
+from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.motion import event_count

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
 
 __all__ = ["AMPLITUDES", "FREQUENCIES", "GRAVITY", "LAW", "MASS", "Steady", "exact_period", "steady_response"]

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy
 
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_lab.papers.cnoidal.cnoidal import CnoidalMotion, contact_oscillator, position, released_at
 from contact_sim_lab.papers.cnoidal.fit import Array, fit_ansatz, fit_harmonics, harmonics_of_period
 from contact_sim_lab.papers.cnoidal.periodic_contact import (
@@ -35,7 +36,6 @@ from contact_sim_lab.records.work_precision import (
     timed_once,
 )
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
 
 __all__ = ["ANSATZ_PART", "PART", "RELEASES", "WORK_PRECISION", "ansatz_rows", "rows"]
 

@@ -1,15 +1,15 @@
 """Minimum distance of two convex bodies, and the points where it is reached.
 
-    minimise |p1 - p2|^2 / 2   where   g(p1) <= 0 for each constraint of body 1, g(p2) <= 0 for each
-    of body 2
+    minimise |p1 - p2|^2 / 2   where   depth(p1) >= 0 below each constraint of body 1, depth(p2) >= 0
+    below each of body 2
 
-The problem is convex: what meets the Karush-Kuhn-Tucker conditions `p1 - p2 + sum lambda grad g =
-0` (and with the sign changed for body 2), `lambda >= 0`, `lambda g = 0` is the minimum. Newton
-steps on these conditions from inside the bodies (`papers/distance/convex_program.py`), then on the
-active constraints alone, which gives the last digits. Further starts are tried until the conditions
-hold to `CONVERGED`; the residual is part of the result. Overlapping bodies have distance 0 at some
-common point; how deep they overlap is in `papers/distance/interference.py`. Where the closest
-points are not unique (parallel faces), one pair is found.
+The problem is convex: what meets the Karush-Kuhn-Tucker conditions `p1 - p2 + sum lambda n = 0`
+(and with the sign changed for body 2), `lambda >= 0`, `lambda depth = 0` is the minimum, n the
+outward normals. SLSQP finds the active constraints, Newton steps on the conditions give the last
+digits. Further starts are tried until the conditions hold to `CONVERGED`; the residual is part of
+the result. Overlapping bodies have distance 0 at some common point; how deep they overlap is in
+`papers/distance/interference.py`. Where the closest points are not unique (parallel faces), one
+pair is found.
 
 Source: Driver and Seat eq 1.
 """
@@ -20,35 +20,23 @@ import math
 from typing import NamedTuple
 
 import numpy
+import scipy.optimize
 from numpy.typing import NDArray
 
-from contact_sim_lab.papers.distance.convex_body import ConvexBody
-from contact_sim_lab.papers.distance.convex_program import (
-    REGULARISATION,
-    Point,
-    Program,
-    evaluate,
-    hessian,
-    minimise,
-    moved_by,
-    stationarity,
-)
-from contact_sim_pkg.compiled.jit import entry, kernel
-from contact_sim_pkg.compiled.linear_solve import solve_linear
+from contact_sim_lab.papers.distance.convex_body import ConvexBody, depths, moved, newton, pair_size, surface
 
-__all__ = ["CONVERGED", "Closest", "minimum_distance", "minimum_distance_from"]
+__all__ = ["CONVERGED", "Closest", "conditions", "descended", "minimum_distance", "minimum_distance_from"]
 
 Field = NDArray[numpy.float64]
+Bodies = tuple[ConvexBody, ConvexBody]
 
 CONVERGED = 1e-10
 """Residual, relative to the size of the pair, at which no further start is tried."""
 
-SMALLEST_GAP = 1e-22
-"""Of the cost, relative to the square of the pair's size: the active constraints are known by then.
-"""
-
 MOST_STARTS = 6
-POLISH_STEPS = 6
+ACTIVE = 1e-6
+"""Depth, relative to the size of the pair, at which a constraint may carry a multiplier."""
+
 TOUCHING = 1e-9
 """Distance, relative to the size of the pair, below which the bodies count as overlapping."""
 
@@ -69,68 +57,32 @@ def minimum_distance(body_1: ConvexBody, body_2: ConvexBody) -> Closest:
         if best.residual <= CONVERGED:
             break
         other = minimum_distance_from(body_1, body_2, start)
-        if other.residual < best.residual:
-            best = other
-        best = best._replace(starts=start + 1)
+        best = (other if other.residual < best.residual else best)._replace(starts=start + 1)
     return best
 
 
-@entry
 def minimum_distance_from(body_1: ConvexBody, body_2: ConvexBody, start: int) -> Closest:
-    """One descent: start 0 is from the bodies' inside points, others from points between these and
-    the boundary.
-    """
-    origin, size = moved_by(body_1.inside, 0.5, between(body_2.inside, body_1.inside)), pair_size(body_1, body_2)
-    program = pair_program(body_1, body_2, origin, size)
+    """One descent: start 0 is from the bodies' inside points, others from points beside these."""
+    origin, size = 0.5 * (body_1.inside + body_2.inside), pair_size(body_1, body_2)
+    bodies = moved(body_1, origin, size), moved(body_2, origin, size)
     direction = start_direction(start)
-    first, second = (
-        toward_boundary(body_1, direction),
-        toward_boundary(body_2, moved_by(numpy.zeros(3), -1.0, direction)),
-    )
-    # Both points, about the middle of the bodies and over their size
-    unknowns = numpy.empty(6)
-    for j in range(3):
-        unknowns[j] = (body_1.inside[j] - origin[j] + first * direction[j]) / size
-        unknowns[3 + j] = (body_2.inside[j] - origin[j] - second * direction[j]) / size
-    # Interior points, then Newton steps on the active constraints
-    found = minimise(program, unknowns, SMALLEST_GAP)
-    point = polish(program, evaluate(program, found.unknowns, found.multipliers))
-    point_1, point_2 = numpy.empty(3), numpy.empty(3)
-    for j in range(3):
-        point_1[j] = origin[j] + size * point.unknowns[j]
-        point_2[j] = origin[j] + size * point.unknowns[3 + j]
-    distance = length_of(between(point_1, point_2))
-    overlap = distance < TOUCHING * size
-    return Closest(0.0 if overlap else distance, point_1, point_2, overlap, conditions(program, point), start + 1)
+    begin = [
+        body.inside + sign * depths(body, body.inside)[0].min() * direction
+        for body, sign in zip(bodies, (0.7, -0.7), strict=True)
+    ]
+    points = descended(bodies, numpy.array(begin)).x.reshape(2, 3)
+    # The pair with the digits of the conditions, or a common point: whichever meets them
+    pairs = polished(bodies, points), numpy.tile(points.mean(axis=0), (2, 1))
+    residuals = [conditions(bodies, pair)[1] for pair in pairs]
+    best = int(numpy.argmin(residuals))
+    distance = float(numpy.linalg.norm(pairs[best][0] - pairs[best][1]))
+    overlap = distance < TOUCHING
+    point_1, point_2 = origin + size * pairs[best]
+    return Closest(0.0 if overlap else size * distance, point_1, point_2, overlap, residuals[best], start + 1)
 
 
-@kernel
-def between(first: Field, second: Field) -> Field:
-    """Difference [3] of two points, `first - second`."""
-    return moved_by(first, -1.0, second)
-
-
-@entry
-def pair_size(body_1: ConvexBody, body_2: ConvexBody) -> float:
-    """Of the order of both bodies and their distance [m]."""
-    return inner_size(body_1) + inner_size(body_2) + length_of(between(body_1.inside, body_2.inside))
-
-
-@kernel
-def length_of(vector: Field) -> float:
-    """Euclidean length of a vector [3], in its unit: [m], or over the size [1]."""
-    total = 0.0
-    for part in vector:
-        total += part * part
-    return math.sqrt(total)
-
-
-@kernel
 def start_direction(start: int) -> Field:
-    """Unit vectors spread over the sphere by the golden angle; zero for start 0.
-
-    The result: [3].
-    """
+    """Unit vectors [3] spread over the sphere by the golden angle; zero for start 0."""
     if start == 0:
         return numpy.zeros(3)
     height = 1.0 - 2.0 * ((start * 0.6180339887498949) % 1.0)
@@ -138,186 +90,68 @@ def start_direction(start: int) -> Field:
     return numpy.array([around * math.cos(angle), around * math.sin(angle), height])
 
 
-@kernel
-def inner_size(body: ConvexBody) -> float:
-    """Of the order of the distance of the inside point from the boundary [m]."""
-    size = math.inf
-    for k in range(body.centres.shape[0]):
-        for j in range(3):
-            size = min(size, body.half_axes[k, j])
-    for i in range(body.offsets.size):
-        depth = body.offsets[i]
-        for j in range(3):
-            depth -= body.normals[i, j] * body.inside[j]
-        size = min(size, depth)
-    return size
+def descended(bodies: Bodies, points: Field) -> scipy.optimize.OptimizeResult:
+    """SLSQP from a pair of points [2, 3]; bodies and points over the size of the pair."""
+    return scipy.optimize.minimize(
+        half_square, points.ravel(), jac=True, method="SLSQP", options={"ftol": 1e-16, "maxiter": 300},
+        constraints={"type": "ineq", "fun": lambda z: room(bodies, z), "jac": lambda z: room_slopes(bodies, z)},
+    )  # fmt: skip
 
 
-@kernel
-def toward_boundary(body: ConvexBody, direction: Field) -> float:
-    """0.7 of the way [m] from the inside point to the boundary, and at most 7 inner sizes."""
-    way = 10.0 * inner_size(body)
-    for i in range(body.offsets.size):
-        rise, depth = 0.0, body.offsets[i]
-        for j in range(3):
-            rise += body.normals[i, j] * direction[j]
-            depth -= body.normals[i, j] * body.inside[j]
-        # Distance to each plane, then to each quadric, along the direction
-        if rise > 0.0:
-            way = min(way, depth / rise)
-    for k in range(body.centres.shape[0]):
-        square, half, rest = 0.0, 0.0, -1.0
-        for j in range(3):
-            for m in range(3):
-                from_j, from_m = body.inside[j] - body.centres[k, j], body.inside[m] - body.centres[k, m]
-                square += direction[j] * body.shapes[k, j, m] * direction[m]
-                half += direction[j] * body.shapes[k, j, m] * from_m
-                rest += from_j * body.shapes[k, j, m] * from_m
-        if square > 0.0:
-            way = min(way, (math.sqrt(half * half - square * rest) - half) / square)
-    return 0.7 * way
+def half_square(unknowns: Field) -> tuple[float, Field]:
+    """Half the squared distance of two points [6] over the size [1], and its gradient [6]."""
+    gap = unknowns[:3] - unknowns[3:]
+    return 0.5 * float(gap @ gap), numpy.concatenate([gap, -gap])
 
 
-@kernel
-def pair_program(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: float) -> Program:
-    """The problem in (p1, p2), lengths from `origin` over `size`.
-
-    origin: [3] [m]; size: [m].
-    """
-    planes, quadrics = body_1.offsets.size, body_1.centres.shape[0]
-    all_planes, all_quadrics = planes + body_2.offsets.size, quadrics + body_2.centres.shape[0]
-    # Cost: half the squared distance of the two points.
-    quadratic = numpy.eye(6)
-    for j in range(3):
-        quadratic[j, 3 + j], quadratic[3 + j, j] = -1.0, -1.0
-    # Planes and quadrics of both bodies.
-    rows, bounds = numpy.zeros((all_planes, 6)), numpy.empty(all_planes)
-    curved, centres = numpy.zeros((all_quadrics, 6, 6)), numpy.zeros((all_quadrics, 6))
-    put_planes(body_1, origin, size, rows, bounds, 0, 0)
-    put_planes(body_2, origin, size, rows, bounds, planes, 3)
-    put_quadrics(body_1, origin, size, curved, centres, 0, 0)
-    put_quadrics(body_2, origin, size, curved, centres, quadrics, 3)
-    none = numpy.zeros((all_quadrics, 6))
-    return Program(
-        quadratic=quadratic,
-        linear=numpy.zeros(6),
-        flat_rows=rows,
-        flat_bounds=bounds,
-        curved=curved,
-        curved_centres=centres,
-        curved_rows=none,
-        curved_bounds=numpy.ones(all_quadrics),
+def room(bodies: Bodies, unknowns: Field) -> Field:
+    """Depths of both points [6] below the constraints of their body [constraints], over the size."""
+    return numpy.concatenate(
+        [depths(body, point)[0] for body, point in zip(bodies, unknowns.reshape(2, 3), strict=True)]
     )
 
 
-@kernel
-def put_planes(
-    body: ConvexBody, origin: Field, size: float, rows: Field, bounds: Field, first: int, column: int
-) -> None:
-    """Write the planes of a body as rows [planes, 6] and bounds [planes] [1], from `first` and
-    `column` on.
-
-    origin: [3] in [m]; size: [m].
-    """
-    for i in range(body.offsets.size):
-        bounds[first + i] = body.offsets[i] / size
-        for j in range(3):
-            rows[first + i, column + j] = body.normals[i, j]
-            bounds[first + i] -= body.normals[i, j] * origin[j] / size
+def room_slopes(bodies: Bodies, unknowns: Field) -> Field:
+    """Derivatives [constraints, 6] of `room`: minus the outward normals."""
+    first, second = (depths(body, point)[1] for body, point in zip(bodies, unknowns.reshape(2, 3), strict=True))
+    return -numpy.block([[first, numpy.zeros_like(first)], [numpy.zeros_like(second), second]])
 
 
-@kernel
-def put_quadrics(
-    body: ConvexBody, origin: Field, size: float, curved: Field, centres: Field, first: int, column: int
-) -> None:
-    """Write the quadrics of a body as matrices [quadrics, 6, 6] and centres [quadrics, 6], from
-    `first` and `column` on.
-
-    origin: [3] in [m]; size: [m]; the results are over the size [1].
-    """
-    for k in range(body.centres.shape[0]):
-        for j in range(3):
-            centres[first + k, column + j] = (body.centres[k, j] - origin[j]) / size
-            for m in range(3):
-                curved[first + k, column + j, column + m] = body.shapes[k, j, m] * size * size
-
-
-@kernel
-def polish(program: Program, point: Point) -> Point:
-    """Newton steps on the active constraints as equations, as long as they lower the residual."""
-    active = active_constraints(point)
-    error = conditions(program, point)
-    for _ in range(POLISH_STEPS):
-        moved = equality_step(program, point, active)
-        moved_error = conditions(program, moved)
-        if not moved_error < error:
-            break
-        point, error = moved, moved_error
-    return point
-
-
-@kernel
-def active_constraints(point: Point) -> NDArray[numpy.int64]:
-    """Those whose multiplier is larger than their distance from the boundary.
-
-    The result: their numbers, [active].
-    """
-    active = numpy.empty(point.values.size, dtype=numpy.int64)
-    number = 0
-    for i in range(point.values.size):
-        if point.multipliers[i] > -point.values[i]:
-            active[number] = i
-            number += 1
-    return active[:number]
-
-
-@kernel
-def equality_step(program: Program, point: Point, active: NDArray[numpy.int64]) -> Point:
-    """One Newton step on stationarity and `g = 0` of the active constraints; the others get no
-    multiplier.
-
-    active: numbers of constraints, [active].
-    """
-    size, number = point.unknowns.size, active.size
-    matrix, right = numpy.zeros((size + number, size + number)), numpy.empty(size + number)
-    curvature, slope = hessian(program, point.multipliers), stationarity(program, point)
-    # Stationarity, and the active constraints as equations.
-    for j in range(size):
-        right[j] = -slope[j]
-        for m in range(size):
-            matrix[j, m] = curvature[j, m]
-        matrix[j, j] += REGULARISATION
-    for a in range(number):
-        right[size + a] = -point.values[active[a]]
-        matrix[size + a, size + a] = -REGULARISATION
-        for j in range(size):
-            matrix[j, size + a] = point.gradients[active[a], j]
-            matrix[size + a, j] = point.gradients[active[a], j]
-    # Newton step of unknowns and multipliers.
-    step = solve_linear(matrix, right)
-    multipliers = numpy.zeros(point.values.size)
-    for a in range(number):
-        multipliers[active[a]] = point.multipliers[active[a]] + step[size + a]
-    unknowns = numpy.empty(size)
-    for j in range(size):
-        unknowns[j] = point.unknowns[j] + step[j]
-    return evaluate(program, unknowns, multipliers)
-
-
-@kernel
-def conditions(program: Program, point: Point) -> float:
-    """Largest violation [1]: of stationarity, and for each constraint `|min(lambda |grad g|, -g /
-    |grad g|)|`, lengths over the size.
-
-    The latter is zero where both are not negative and one of them is zero.
-    """
+def conditions(bodies: Bodies, points: Field, thickness: float = ACTIVE) -> tuple[list[Field], float]:
+    """Multipliers of each body's constraints that fit two points [2, 3] best, and the largest
+    violation [1] of the conditions, `|min(lambda, depth)|` among them; thickness: depth below which
+    a constraint may carry a multiplier."""
+    multipliers: list[Field] = []
     worst = 0.0
-    for part in stationarity(program, point):
-        worst = max(worst, abs(part))
-    for i in range(point.values.size):
-        slope = 0.0
-        for part in point.gradients[i]:
-            slope += part * part
-        slope = math.sqrt(slope)
-        worst = max(worst, abs(min(point.multipliers[i] * slope, -point.values[i] / slope)))
-    return worst
+    for body, point, other in zip(bodies, points, points[::-1], strict=True):
+        depth, normals = depths(body, point)
+        fitted, active = numpy.zeros(depth.size), depth < thickness
+        if active.any():
+            fitted[active] = scipy.optimize.nnls(normals[active].T, other - point)[0]
+        multipliers.append(fitted)
+        worst = max(worst, *abs(point - other + fitted @ normals), *abs(numpy.minimum(fitted, depth)))
+    return multipliers, worst
+
+
+def polished(bodies: Bodies, points: Field) -> Field:
+    """The points [2, 3] after steps on the conditions, the active constraints as equations."""
+    fitted = conditions(bodies, points)[0]
+    held = [multipliers > 0.0 for multipliers in fitted]
+
+    def equations(unknowns: Field) -> tuple[Field, Field]:
+        pair, row = unknowns[:6].reshape(2, 3), 6
+        values, jacobian = numpy.zeros(unknowns.size), numpy.zeros((unknowns.size, unknowns.size))
+        jacobian[:6, :6] = numpy.kron([[1.0, -1.0], [-1.0, 1.0]], numpy.eye(3))
+        values[:6] = jacobian[:6, :6] @ unknowns[:6]
+        for k, body in enumerate(bodies):
+            own = slice(3 * k, 3 * k + 3)
+            for constraint in numpy.flatnonzero(held[k]):
+                values[row], normal, turn = surface(body, constraint, pair[k])
+                values[own] += unknowns[row] * normal
+                jacobian[own, own] += unknowns[row] * turn
+                jacobian[own, row] = jacobian[row, own] = normal
+                row += 1
+        return values, jacobian
+
+    found = newton(equations, numpy.concatenate([points.ravel(), *(f[h] for f, h in zip(fitted, held, strict=True))]))
+    return found[:6].reshape(2, 3)

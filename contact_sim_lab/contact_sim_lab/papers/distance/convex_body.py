@@ -12,26 +12,37 @@ Source: Driver and Seat eqs 1 and 2 (bounding surface constraints).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
+from contact_sim_lab.papers.distance.ellipsoid import supporting_plane
+
 __all__ = [
     "BodyError",
     "ConvexBody",
     "box",
+    "depths",
     "ellipsoid",
     "half_space",
+    "joined",
+    "moved",
+    "newton",
+    "pair_size",
     "planes",
     "quadric",
     "sphere",
+    "surface",
 ]
 
 Field = NDArray[numpy.float64]
 
 IDENTITY = numpy.eye(3)
 DEEP = 1.0  # [m] how far below its plane the inside point of a half-space lies
+NEWTON_STEPS = 10
+SMALLEST = 1e-100  # [m] of a coordinate: its square is a number
 
 
 class BodyError(ValueError):
@@ -111,6 +122,69 @@ def planes(normals: Field, offsets: Field, inside: Field) -> ConvexBody:
     """
     none, matrices = numpy.zeros((0, 3)), numpy.zeros((0, 3, 3))
     return ConvexBody(none, none, matrices, matrices, numpy.ascontiguousarray(normals), offsets, inside)
+
+
+def joined(bodies: Sequence[ConvexBody]) -> ConvexBody:
+    """All constraints of several bodies, those of the first one first; inside: the mean of their
+    inside points, which may lie outside."""
+    parts = [numpy.concatenate(values) for values in zip(*(body[:-1] for body in bodies), strict=True)]
+    return ConvexBody._make([*parts, numpy.mean([body.inside for body in bodies], axis=0)])
+
+
+def moved(body: ConvexBody, origin: Field, size: float) -> ConvexBody:
+    """The body in lengths from `origin` [3] [m], over `size` [m]."""
+    return ConvexBody(
+        (body.centres - origin) / size, body.half_axes / size, body.rotations, body.shapes * size**2, body.normals,
+        (body.offsets - body.normals @ origin) / size, (body.inside - origin) / size,
+    )  # fmt: skip
+
+
+def depths(body: ConvexBody, point: Field) -> tuple[Field, Field]:
+    """Depth [constraints] [m] of a point [3] [m] below each constraint, quadrics first, negative
+    outside; and the outward unit normal at its foot [constraints, 3]."""
+    curved = len(body.centres)
+    found, normals = numpy.empty(curved + len(body.offsets)), numpy.empty((curved + len(body.offsets), 3))
+    for k in range(curved):
+        local, normal = (point - body.centres[k]) @ body.rotations[k], numpy.empty(3)
+        local[abs(local) < SMALLEST] = 0.0
+        found[k] = supporting_plane(body.half_axes[k], local, normal) - normal @ local
+        normals[k] = body.rotations[k] @ normal
+    found[curved:], normals[curved:] = body.offsets - body.normals @ point, body.normals
+    return found, normals
+
+
+def surface(body: ConvexBody, constraint: int, point: Field) -> tuple[float, Field, Field]:
+    """Height [m] of a point [3] [m] above one constraint, right to first order in it, the outward
+    unit normal [3] of the level there and the normal's derivative [3, 3] [1/m]."""
+    curved = len(body.centres)
+    if constraint >= curved:
+        normal = body.normals[constraint - curved]
+        return float(normal @ point - body.offsets[constraint - curved]), normal, numpy.zeros((3, 3))
+    local, half_axes = (point - body.centres[constraint]) @ body.rotations[constraint], body.half_axes[constraint]
+    slope = body.rotations[constraint] @ (local / half_axes**2)
+    length = float(numpy.linalg.norm(slope))
+    normal = slope / length
+    turn = (body.shapes[constraint] - numpy.outer(normal, normal @ body.shapes[constraint])) / length
+    return float((((local / half_axes) ** 2).sum() - 1.0) / (2.0 * length)), normal, turn
+
+
+def newton(equations: Callable[[Field], tuple[Field, Field]], start: Field) -> Field:
+    """Unknowns [n] after Newton steps on equations that return values [m] and Jacobian [m, n], as
+    long as they come closer; least squares, for the Jacobian may be singular."""
+    values, jacobian = equations(start)
+    for _ in range(NEWTON_STEPS):
+        moved_start = start + numpy.linalg.lstsq(jacobian, -values, rcond=1e-13)[0]
+        moved_values, jacobian = equations(moved_start)
+        if not numpy.linalg.norm(moved_values) < numpy.linalg.norm(values):
+            break
+        start, values = moved_start, moved_values
+    return start
+
+
+def pair_size(body_1: ConvexBody, body_2: ConvexBody) -> float:
+    """Of the order of two bodies and their distance [m]."""
+    inner = (min([*body.half_axes.ravel(), *(body.offsets - body.normals @ body.inside)]) for body in (body_1, body_2))
+    return float(numpy.linalg.norm(body_1.inside - body_2.inside) + sum(inner))
 
 
 def _vector(values: ArrayLike, name: str) -> Field:

@@ -1,7 +1,7 @@
 """Polyhedra, and what several convex bodies share, with the point inside that the searches start
 from.
 
-That point is the centre of the largest ball inside (`papers/distance/touching_ball.py`), bounded by
+That point is the centre of the largest ball inside (`papers/distance/largest_ball.py`), bounded by
 a box for bodies without bounds.
 
 Source: Driver and Seat eqs 1 and 2 (bounding surface constraints).
@@ -12,8 +12,8 @@ from __future__ import annotations
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from contact_sim_lab.papers.distance.convex_body import BodyError, ConvexBody, box, planes
-from contact_sim_lab.papers.distance.touching_ball import largest_ball
+from contact_sim_lab.papers.distance.convex_body import BodyError, ConvexBody, box, joined, planes
+from contact_sim_lab.papers.distance.largest_ball import largest_ball
 
 __all__ = ["intersection", "polyhedron"]
 
@@ -49,18 +49,7 @@ def intersection(*bodies: ConvexBody) -> ConvexBody:
     """What all the bodies share. Raises `BodyError` where that is empty or flat."""
     if not bodies:
         raise BodyError("convex body: an intersection needs at least one body")
-    centres, half_axes, rotations, shapes, normals, offsets, inside = zip(*bodies, strict=True)
-    return _with_inside(
-        ConvexBody(
-            numpy.concatenate(centres),
-            numpy.concatenate(half_axes),
-            numpy.concatenate(rotations),
-            numpy.concatenate(shapes),
-            numpy.concatenate(normals),
-            numpy.concatenate(offsets),
-            numpy.mean(inside, axis=0),
-        )
-    )
+    return _with_inside(joined(bodies))
 
 
 def _with_inside(body: ConvexBody) -> ConvexBody:

@@ -3,7 +3,7 @@
 
 scipy's differential evolution (a population that crosses and mutates, seed fixed) finds the region;
 a local search from its best point gives the digits. It needs thousands of evaluations where
-`papers/distance/closest.py` needs some tens of Newton steps, and is here to be compared with it.
+`papers/distance/closest.py` needs some tens, and is here to be compared with it.
 The residual is that of the optimality conditions at the point found, with the multipliers that fit
 best.
 """
@@ -16,8 +16,8 @@ import numpy
 import scipy.optimize
 from numpy.typing import NDArray
 
-from contact_sim_lab.papers.distance.convex_body import ConvexBody
-from contact_sim_lab.papers.distance.ellipsoid import supporting_plane
+from contact_sim_lab.papers.distance.closest import conditions, descended
+from contact_sim_lab.papers.distance.convex_body import ConvexBody, depths, joined, moved, pair_size
 
 __all__ = ["GeneticResult", "constraint_values", "genetic_distance", "genetic_interference"]
 
@@ -44,7 +44,7 @@ def genetic_distance(body_1: ConvexBody, body_2: ConvexBody, seed: int = 1, poli
     """Distance [m] of two bodies; a point outside its body counts as the boundary point towards the
     inside point.
     """
-    bodies, size = (body_1, body_2), _size(body_1, body_2)
+    bodies, size = (body_1, body_2), pair_size(body_1, body_2)
 
     def gaps(genes: Field) -> Field:
         points = [_pulled_in(body, genes[3 * k : 3 * k + 3]) for k, body in enumerate(bodies)]
@@ -54,20 +54,21 @@ def genetic_distance(body_1: ConvexBody, body_2: ConvexBody, seed: int = 1, poli
     found = _evolve(gaps, bounds, seed)
     points = numpy.stack([_pulled_in(body, found.x[3 * k : 3 * k + 3]) for k, body in enumerate(bodies)])
     evaluations = _evaluations(found)
+    origin = body_1.inside
+    scaled, points = (moved(body_1, origin, size), moved(body_2, origin, size)), (points - origin) / size
     if polish:
-        local = _slsqp_distance(bodies, points, size)
+        local = descended(scaled, points)
         points, evaluations = local.x.reshape(2, 3), evaluations + int(local.nfev)
-    distance = float(numpy.linalg.norm(points[0] - points[1]))
-    return GeneticResult(distance, points, _distance_residual(bodies, points, size), evaluations)
+    distance, residual = size * float(numpy.linalg.norm(points[0] - points[1])), conditions(scaled, points, ACTIVE)[1]
+    return GeneticResult(distance, origin + size * points, residual, evaluations)
 
 
 def genetic_interference(body_1: ConvexBody, body_2: ConvexBody, seed: int = 1, polish: bool = True) -> GeneticResult:
     """Interference d [m]: twice the largest depth below every constraint of both bodies."""
-    bodies, size = (body_1, body_2), _size(body_1, body_2)
+    both, size = joined((body_1, body_2)), pair_size(body_1, body_2)
 
     def cost(genes: Field) -> Field:
-        points = genes.reshape(3, -1).T
-        return numpy.array([-_depths(bodies, point)[0].min() for point in points])
+        return numpy.array([-depths(both, point)[0].min() for point in genes.reshape(3, -1).T])
 
     found = _evolve(cost, _bounds(body_1, size), seed)
     point, evaluations = found.x, _evaluations(found)
@@ -75,11 +76,11 @@ def genetic_interference(body_1: ConvexBody, body_2: ConvexBody, seed: int = 1, 
         options = {"xatol": 1e-12 * size, "fatol": 1e-15 * size, "maxiter": 2000}
         local = scipy.optimize.minimize(lambda p: cost(p)[0], point, method="Nelder-Mead", options=options)
         point, evaluations = local.x, evaluations + int(local.nfev)
-    depths, normals = _depths(bodies, point)
-    active = depths < depths.min() + ACTIVE * size
+    found_depths, normals = depths(both, point)
+    active = found_depths < found_depths.min() + ACTIVE * size
     rows = numpy.vstack([normals[active].T, numpy.ones(int(active.sum()))])
     _, residual = scipy.optimize.nnls(rows, numpy.array([0.0, 0.0, 0.0, 1.0]))
-    return GeneticResult(2.0 * float(depths.min()), point[None], float(residual), evaluations)
+    return GeneticResult(2.0 * float(found_depths.min()), point[None], float(residual), evaluations)
 
 
 def _evolve(cost: object, bounds: list[tuple[float, float]], seed: int) -> scipy.optimize.OptimizeResult:
@@ -92,24 +93,6 @@ def _evolve(cost: object, bounds: list[tuple[float, float]], seed: int) -> scipy
 def _evaluations(found: scipy.optimize.OptimizeResult) -> int:
     """Of single points: a call of the cost is a whole population."""
     return int(found.nfev * found.population.shape[0])
-
-
-def _slsqp_distance(bodies: tuple[ConvexBody, ConvexBody], points: Field, size: float) -> scipy.optimize.OptimizeResult:
-    """Local search from a pair of points; constraints as they are."""
-    start = points.ravel()
-
-    def room(unknowns: Field) -> Field:
-        return numpy.concatenate(
-            [-constraint_values(body, unknowns[3 * k : 3 * k + 3]) for k, body in enumerate(bodies)]
-        )
-
-    return scipy.optimize.minimize(
-        lambda z: ((z[:3] - z[3:]) ** 2).sum() / size**2,
-        start,
-        method="SLSQP",
-        constraints={"type": "ineq", "fun": room},
-        options={"ftol": 1e-16, "maxiter": 300},
-    )
 
 
 def constraint_values(body: ConvexBody, points: Field) -> Field:
@@ -138,39 +121,6 @@ def _pulled_in(body: ConvexBody, points: Field) -> Field:
     return numpy.asarray(start + reach * way)
 
 
-def _depths(bodies: tuple[ConvexBody, ConvexBody], point: Field) -> tuple[Field, Field]:
-    """Depth below each constraint of both bodies, and the outward normal at its foot."""
-    depths, normals = [], []
-    for body in bodies:
-        for centre, axes, rotation in zip(body.centres, body.half_axes, body.rotations, strict=True):
-            local, normal = rotation.T @ (point - centre), numpy.empty(3)
-            depths.append(supporting_plane(axes, local, normal) - normal @ local)
-            normals.append(rotation @ normal)
-        depths += list(body.offsets - body.normals @ point)
-        normals += list(body.normals)
-    return numpy.array(depths), numpy.array(normals)
-
-
-def _distance_residual(bodies: tuple[ConvexBody, ConvexBody], points: Field, size: float) -> float:
-    """Largest part of the gap that no positive multipliers of active constraints balance, and of a
-    constraint violated.
-    """
-    worst = 0.0
-    for k, body in enumerate(bodies):
-        point, gap = points[k], (points[k] - points[1 - k]) / size
-        off = point - body.centres
-        slopes = numpy.concatenate([2.0 * numpy.einsum("kij,kj->ki", body.shapes, off), body.normals])
-        lengths = numpy.linalg.norm(slopes, axis=1)
-        outside = constraint_values(body, point) / (lengths * size)
-        active = outside > -ACTIVE
-        if active.any():
-            _, left = scipy.optimize.nnls((slopes / lengths[:, None])[active].T, -gap)
-        else:
-            left = float(numpy.linalg.norm(gap))
-        worst = max(worst, float(left), float(outside.max()))
-    return worst
-
-
 def _bounds(body: ConvexBody, size: float) -> list[tuple[float, float]]:
     """Where closest points are looked for: about the inside point, within the larger of the body
     and the pair.
@@ -178,10 +128,3 @@ def _bounds(body: ConvexBody, size: float) -> list[tuple[float, float]]:
     axes = body.half_axes[numpy.isfinite(body.half_axes)]
     half = max([size, *(1.1 * axes)])
     return [(float(middle - half), float(middle + half)) for middle in body.inside]
-
-
-def _size(body_1: ConvexBody, body_2: ConvexBody) -> float:
-    """Of the order of the pair [m]."""
-    return float(numpy.linalg.norm(body_1.inside - body_2.inside)) + sum(
-        float(min([*body.half_axes.ravel(), *(body.offsets - body.normals @ body.inside)])) for body in (body_1, body_2)
-    )

@@ -18,7 +18,7 @@ depth w in a half-space has 2 w / 3). `one_foot_each` says which it is.
 Found by cutting planes: every foot of a point adds the supporting plane there (and on a quadric its
 seven reflections), the largest ball under all planes so far is a linear program, and Newton steps
 on the conditions above, started from the planes that hold that ball
-(`papers/distance/touching_ball.py`), give the last digits as soon as those planes are near the
+(`papers/distance/largest_ball.py`), give the last digits as soon as those planes are near the
 right ones.
 
 Source: Driver and Seat eq 2, corrected (one common point, signed distances).
@@ -32,9 +32,9 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_lab.papers.distance.closest import minimum_distance, pair_size
-from contact_sim_lab.papers.distance.convex_body import ConvexBody
-from contact_sim_lab.papers.distance.touching_ball import largest_ball
+from contact_sim_lab.papers.distance.closest import minimum_distance
+from contact_sim_lab.papers.distance.convex_body import ConvexBody, pair_size
+from contact_sim_lab.papers.distance.largest_ball import largest_ball
 
 __all__ = ["Interference", "interference"]
 

@@ -54,7 +54,7 @@ PHASES = (
     Parameter("k_1", "1/m", 1.0),
     Parameter("k_2", "1/m", 1.6),
 )
-CLOSED = "contact_sim_pkg.pressure.closed_form"
+CLOSED = "contact_sim_lab.closed_form"
 
 
 def _bodies(half_axes_1: Array, half_axes_2: Array, centre_2: Array) -> tuple[ConvexBody, ConvexBody]:

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_lab.closed_form.lame_domain import lame_boundary
+from contact_sim_lab.closed_form.lame_points import fit_points, hull
 from contact_sim_lab.papers.cnoidal.periodic_contact import steady_response
 from contact_sim_lab.papers.runs import series_of
 from contact_sim_lab.records.paper import SHAPE_ONLY, Drawn, Figure, Number, Values
@@ -19,8 +21,6 @@ from contact_sim_lab.rigs.backrest.twin import SlappingMass, slapping_course, sl
 from contact_sim_lab.twins.impact import damping_of_restitution
 from contact_sim_pkg.library import load_scene
 from contact_sim_pkg.pressure.closed_form.lame import LameFit
-from contact_sim_pkg.pressure.closed_form.lame_domain import lame_boundary
-from contact_sim_pkg.pressure.closed_form.lame_points import fit_points, hull
 from contact_sim_pkg.rigs.backrest.schema import BackFriction
 from contact_sim_pkg.scene.schema.fields import given
 
@@ -290,7 +290,7 @@ def _figure_3(values: Values) -> Drawn:
 _SLAP = "contact_sim_lab.papers.cnoidal.periodic_contact:steady_response"
 FIGURES: tuple[Figure, ...] = (
     Figure("3", "contact domain with the points detected at first touch",
-           ("scene seat_slap", "contact_sim_pkg.pressure.closed_form.lame_points:fit_points"),
+           ("scene seat_slap", "contact_sim_lab.closed_form.lame_points:fit_points"),
            "rms deviation of the border from the fitted Lamé curve, no per cent", _figure_3, SHAPE_ONLY),
     Figure("4", "contact force over the approach at four frequencies of the spine", ("scene seat_slip", _SLAP),
            "scipy of eqs 7, 8, 1e-4: peak and loop area; amplitudes at lift-off", _figure_4),

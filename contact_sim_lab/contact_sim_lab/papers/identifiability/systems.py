@@ -9,8 +9,9 @@ __all__ = ["SYSTEMS"]
 CONTACT = "effects.block.rigid_contact"
 
 SYSTEMS = (
-    System("rigid body with frictional contact, one complementarity problem a step", (("9", "block/force: normal, tangential"),),
-           f"bench run block_fall --set {CONTACT}.scheme=stepping --set {CONTACT}.rule=newton"),
+    System("rigid body with frictional contact, one complementarity problem an instant",
+           (("9", "block/force: normal, tangential"),),
+           f"bench run block_fall --set {CONTACT}.rule=newton"),
     System("fall of a block on its corner, instants of contact located", (("figure 1", "first impact"),),
            "bench paper identifiability --figure 1"),
     System(

@@ -5,17 +5,18 @@ from __future__ import annotations
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_lab.closed_form import axisymmetric, lame_domain, lame_pressure
+from contact_sim_lab.closed_form.axisymmetric_profile import PowerProfile, tabulated_profile
 from contact_sim_lab.records.paper import Equation, Parameter
 from contact_sim_lab.twins.lame_pressure import printed_eccentricity_power, printed_shape_load
-from contact_sim_pkg.pressure.closed_form import axisymmetric, lame, lame_domain, lame_pressure
-from contact_sim_pkg.pressure.closed_form.axisymmetric_profile import PowerProfile, tabulated_profile
+from contact_sim_pkg.pressure.closed_form import lame
 from contact_sim_pkg.pressure.field.halfspace import displacement, make_buffers, make_half_space
 from contact_sim_pkg.rigs.vehicle.tire import asperity_impulses
 
 __all__ = ["EQUATIONS"]
 
 Array = NDArray[numpy.float64]
-CLOSED = "contact_sim_pkg.pressure.closed_form"
+CLOSED = "contact_sim_lab.closed_form"
 
 A = Parameter("a", "m", 0.109, above=0.0, most=1e6, help="half axis along x")
 B = Parameter("b", "m", 0.049, above=0.0, most=1e6, help="half axis along y")
@@ -103,7 +104,8 @@ EQUATIONS: tuple[Equation, ...] = (
     Equation("5", "radial variable of the Lamé domain", "ρ = (|x/a|ⁿ + |y/b|ⁿ)^(1/n)", f"{CLOSED}.lame_domain:radial_variable",
              (*POINTS, A, B, N), (("ρ", ""),)),
     Equation("5-domain", "area, perimeter and second moments of the Lamé domain", "S = 4ab Γ(1+1/n)²/Γ(1+2/n)",
-             f"{CLOSED}.lame:lame_moment", (A, B, N), (("area", "m²"), ("perimeter", "m"), ("∬ x²", "m⁴"), ("∬ y²", "m⁴")),
+             "contact_sim_pkg.pressure.closed_form.lame:lame_moment",
+             (A, B, N), (("area", "m²"), ("perimeter", "m"), ("∬ x²", "m⁴"), ("∬ y²", "m⁴")),
              _domain),
     Equation("6", "boundary of the Lamé domain, at equal arc lengths", "x = a sgn(cos θ)|cos θ|^(2/n), …",
              f"{CLOSED}.lame_domain:lame_boundary", (A, B, N, Parameter("count", "", 8, least=4, most=100000)),
@@ -122,7 +124,7 @@ EQUATIONS: tuple[Equation, ...] = (
              f"{CLOSED}.lame_pressure:equivalent_ellipse",
              (A, B, N, MODULUS, LOAD), ANSATZ),
     Equation("9", "approach, corrected: Hertz", "Δ = [9 P² H/(4π² E*²)]^(1/3) (1−m)^(1/3) K E^(−1/3)",
-             f"{CLOSED}.hertz:hertz_contact",
+             "contact_sim_pkg.pressure.closed_form.hertz:hertz_contact",
              (*CURVATURES, MODULUS, LOAD), HERTZ),
     Equation("9-printed", "approach as printed, with Young's modulus", "low by (2(1+ν))^(−2/3)",
              f"{CLOSED}.lame_pressure:printed_approach",

@@ -12,29 +12,29 @@ from typing import TYPE_CHECKING
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_lab.papers.inputs import read_table
-from contact_sim_lab.records.paper import PaperError, SystemResult, Values
-from contact_sim_pkg.pressure.closed_form.axisymmetric import (
+from contact_sim_lab.closed_form.axisymmetric import (
     approach_at_radius,
     load_at_radius,
     pressure,
     radius_at_load,
 )
-from contact_sim_pkg.pressure.closed_form.axisymmetric_profile import (
+from contact_sim_lab.closed_form.axisymmetric_profile import (
     AxisymmetricError,
     SlopeProfile,
     tabulated_profile,
 )
-from contact_sim_pkg.pressure.closed_form.lame import LameFit, lame_area
-from contact_sim_pkg.pressure.closed_form.lame_domain import lame_boundary
-from contact_sim_pkg.pressure.closed_form.lame_points import fit_points
-from contact_sim_pkg.pressure.closed_form.lame_pressure import (
+from contact_sim_lab.closed_form.lame_domain import lame_boundary
+from contact_sim_lab.closed_form.lame_points import fit_points
+from contact_sim_lab.closed_form.lame_pressure import (
     LamePressure,
     LamePressureError,
     ansatz_on_domain,
     equivalent_ellipse,
     lame_pressure,
 )
+from contact_sim_lab.papers.inputs import read_table
+from contact_sim_lab.records.paper import PaperError, SystemResult, Values
+from contact_sim_pkg.pressure.closed_form.lame import LameFit, lame_area
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Canvas

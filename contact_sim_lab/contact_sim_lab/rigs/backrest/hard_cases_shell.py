@@ -6,18 +6,18 @@ import math
 
 import numpy
 
-from contact_sim_lab.records import guard
-from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
-from contact_sim_lab.rigs.backrest.twin_shell import plate_centre_deflection
-from contact_sim_pkg.pressure.closed_form.lame import lame_area
-from contact_sim_pkg.pressure.closed_form.lame_domain import (
+from contact_sim_lab.closed_form.lame_domain import (
     inside,
     lame_boundary,
     lame_mesh,
     perimeter,
     radial_variable,
 )
-from contact_sim_pkg.pressure.closed_form.lame_points import fit_points
+from contact_sim_lab.closed_form.lame_points import fit_points
+from contact_sim_lab.records import guard
+from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
+from contact_sim_lab.rigs.backrest.twin_shell import plate_centre_deflection
+from contact_sim_pkg.pressure.closed_form.lame import lame_area
 from contact_sim_pkg.rigs.backrest.shell import ShallowShell, ShellError, natural_frequencies, static_deflection
 
 BACK = ShallowShell(

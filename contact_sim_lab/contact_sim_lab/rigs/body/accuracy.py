@@ -1,5 +1,4 @@
-"""Accuracy and cost of the block rig: scheme and step in time, facets of the friction cone, and the
-contact model.
+"""Accuracy and cost of the block rig: facets of the friction cone, and the contact model.
 
 *path* is the largest distance of the centre of mass from where the reference has it at the same
 instant, over the size of the body; *end* is that distance at the end; *turn* is the angle between
@@ -32,16 +31,15 @@ from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["ACCURACY",
-    "COMPLIANT_PART", "CONE_PART", "SCHEME_PART", "TURN_PART", "contact_rows", "facet_rows", "scheme_rows", "turn_rows",
+    "COMPLIANT_PART", "CONE_PART", "TURN_PART", "contact_rows", "facet_rows", "turn_rows",
 ]  # fmt: skip
 
-SCHEME_PART, CONE_PART, COMPLIANT_PART, TURN_PART = (
-    "scheme in time", "friction cone", "contact model", "turning on active contacts",
+CONE_PART, COMPLIANT_PART, TURN_PART = (
+    "friction cone", "contact model", "turning on active contacts",
 )  # fmt: skip
 TOLERANCES = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 LONGEST = 1.0  # [s] of the scene
 TICK = 1e-3  # [s]
-STEPS = (1e-3, 5e-4, 1e-4)  # [s]
 FACETS = (4, 8, 16)
 STIFFNESSES = (1e4, 1e5, 1e6, 1e7, 1e8)  # [N/m]
 OWN = "own code, located events, the true cone"
@@ -49,19 +47,6 @@ RIGID = "the rigid contact of the scene: a difference of models"
 REPEATS = 3
 Row = dict[str, Any]
 Notify = Callable[[str], None]
-
-
-def scheme_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Row]:
-    """Fixed steps, and located events for their time, against located events."""
-    model = _rigid(scene)
-    notify("scheme: located events")
-    exact, cost = _path(model, scene)
-    rows = []
-    for step in STEPS:
-        notify(f"scheme: steps of {1e3 * step:g} ms")
-        way = dataclasses.replace(model, scheme="stepping", step=step)
-        rows += _compared(SCHEME_PART, f"stepping, {1e3 * step:g} ms", OWN, way, scene, exact, notify)
-    return rows + _rows(SCHEME_PART, "located", cost, OWN, exact, exact, model)
 
 
 def facet_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Row]:
@@ -126,7 +111,7 @@ def _compared(
 
 
 def _rigid(scene: ResolvedScene) -> BlockModel:
-    return dataclasses.replace(build_block(scene), contact=None, scheme="located", facets=0)
+    return dataclasses.replace(build_block(scene), contact=None, facets=0)
 
 
 def _path(model: BlockModel, scene: ResolvedScene) -> tuple[tuple[Vector, Vector], float]:
@@ -178,14 +163,13 @@ ACCURACY = tuple(
     AccuracyStudy(rows, (AccuracyPart(part, heading, panel, level),))
     for rows, part, heading, panel, level in (
         (
-            scheme_rows, SCHEME_PART, "scheme in time: distance over the body's size, turn in rad",
-            "rigid contact, scheme in time", "scheme",
-        ),
-        (
             turn_rows, TURN_PART, "body that turns on active contacts: distance over that from the corner",
             "body that turns on active contacts", "",
         ),
-        (facet_rows, CONE_PART, "friction cone: the same", "rigid contact, friction cone", "cone"),
+        (
+            facet_rows, CONE_PART, "friction cone: distance over the body's size, turn in rad",
+            "rigid contact, friction cone", "cone",
+        ),
         (
             contact_rows, COMPLIANT_PART, "contact model: difference of the two, the same", "compliant against rigid contact",
             "contact",

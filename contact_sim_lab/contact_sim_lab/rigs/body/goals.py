@@ -158,7 +158,7 @@ def goals() -> list[Measured]:
             1e-12,
             note=f"{impacts} impacts",
         ),
-        Measured("slide to a stop: error of the distance", rigid_motion.slide_error(None), "", 1e-9),
+        Measured("slide to a stop: error of the distance", rigid_motion.slide_error(), "", 1e-9),
         Measured("creep on a slope of 15°", rigid_motion.creep(), "m/s", 1e-15),
         Measured("1000 elastic bounces: energy", rigid_motion.elastic_drift()[0], "", 1e-12),
     ]

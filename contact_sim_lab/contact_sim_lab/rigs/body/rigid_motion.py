@@ -11,11 +11,10 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigid.body import box, placed, regular_block, slope, sphere
 from contact_sim_pkg.rigid.motion.located import LocatedBody
-from contact_sim_pkg.rigid.motion.stepping import SteppedBody
 from contact_sim_pkg.rigid.results import SENTENCES, SOLVED
 
 __all__ = [
-    "BOUNCE_TIME", "SLIDE", "SPEED", "bounce_to_rest", "bounced", "creep", "cube_for_a_second", "elastic_drift",
+    "BOUNCE_TIME", "SLIDE", "SPEED", "bounce_to_rest", "creep", "cube_for_a_second", "elastic_drift",
     "slid", "slide_error",
 ]  # fmt: skip
 
@@ -32,12 +31,6 @@ def _checked(status: int) -> None:
         raise ArithmeticError(SENTENCES[status])
 
 
-def _sliding(step: float | None) -> LocatedBody | SteppedBody:
-    block = regular_block(SIDE, 1.0, FRICTION, 0.0)
-    motion = placed(block, numpy.array([0.0, 0.5 * SIDE]), numpy.array([SPEED, 0.0, 0.0]))
-    return LocatedBody(block, slope(2), motion) if step is None else SteppedBody(block, slope(2), motion, step)
-
-
 def cube_for_a_second(speed: float) -> None:
     """A cube on a plane for 1 s with states at every tick; ``speed`` [m/s] along the plane at the
     start.
@@ -47,20 +40,19 @@ def cube_for_a_second(speed: float) -> None:
     _checked(LocatedBody(cube, slope(3), motion).advance_over(TICK, round(1.0 / TICK))[0])
 
 
-def slid(step: float | None, tick: float = TICK) -> LocatedBody | SteppedBody:
-    """A block after a second, that slid from 2 m/s to a stop; ``step`` [s], None: located."""
-    body = _sliding(step)
-    if isinstance(body, LocatedBody):
-        for _ in range(round(1.0 / tick)):
-            _checked(body.advance(tick))
-    else:
-        _checked(body.advance(round(1.0 / body.step)))
+def slid(tick: float = TICK) -> LocatedBody:
+    """A block after a second, that slid from 2 m/s to a stop."""
+    block = regular_block(SIDE, 1.0, FRICTION, 0.0)
+    motion = placed(block, numpy.array([0.0, 0.5 * SIDE]), numpy.array([SPEED, 0.0, 0.0]))
+    body = LocatedBody(block, slope(2), motion)
+    for _ in range(round(1.0 / tick)):
+        _checked(body.advance(tick))
     return body
 
 
-def slide_error(step: float | None, tick: float = TICK) -> float:
-    """Relative error of its distance; the arguments as of `slid`."""
-    return abs(float(slid(step, tick).motion.position[0]) / SLIDE - 1.0)
+def slide_error(tick: float = TICK) -> float:
+    """Relative error of its distance; the argument as of `slid`."""
+    return abs(float(slid(tick).motion.position[0]) / SLIDE - 1.0)
 
 
 def bounce_to_rest(restitution: float = RESTITUTION, tick: float = 0.05) -> tuple[float, int]:
@@ -74,23 +66,6 @@ def bounce_to_rest(restitution: float = RESTITUTION, tick: float = 0.05) -> tupl
         if not math.isnan(body.rested):
             return count * tick + body.rested, impacts
     return math.nan, impacts
-
-
-def bounced(step: float | None, duration: float = 1.0) -> float:
-    """Error over 1 m of the height of the same ball after ``duration`` [s], two impacts on;
-    ``step`` [s], None: located.
-    """
-    ball = sphere(RADIUS, 1.0, FRICTION, RESTITUTION)
-    motion = placed(ball, numpy.array([0.0, 0.0, HEIGHT + RADIUS]), numpy.zeros(6))
-    if step is None:
-        _checked(LocatedBody(ball, slope(3), motion).advance(duration))
-    else:
-        _checked(SteppedBody(ball, slope(3), motion, step).advance(round(duration / step)))
-    first = math.sqrt(2.0 * HEIGHT / GRAVITY)
-    speed, left = GRAVITY * first * RESTITUTION, duration - first
-    while left > 2.0 * speed / GRAVITY:
-        left, speed = left - 2.0 * speed / GRAVITY, speed * RESTITUTION
-    return abs(float(motion.position[2]) - RADIUS - (speed * left - 0.5 * GRAVITY * left**2)) / HEIGHT
 
 
 def creep(duration: float = 10.0, tick: float = 0.01) -> float:

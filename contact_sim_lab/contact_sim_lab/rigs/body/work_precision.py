@@ -14,7 +14,7 @@ from collections.abc import Callable
 import numpy
 
 from contact_sim_lab.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, row
-from contact_sim_lab.rigs.body import crossing_body, rigid_motion, tipping_body
+from contact_sim_lab.rigs.body import crossing_body, tipping_body
 from contact_sim_lab.rigs.body.rigid_problem import (
     ContactCase,
     contact_rows,
@@ -32,24 +32,20 @@ from contact_sim_pkg.rigid.problem import PLANE, SPACE
 __all__ = [
     "CONE_PART",
     "SOLVER_PART",
-    "STEP_PART",
     "TURN_PART",
     "WORK_PRECISION",
     "cone_rows",
     "solver_rows",
-    "step_rows",
     "turn_rows",
 ]  # fmt: skip
 
 SOLVER_PART = "post-impact velocity: solver"
 CONE_PART = "friction cone in space"
-STEP_PART = "rigid contact in time: end position"
 TURN_PART = "body that turns on active contacts: end position"
 CLOSED = "closed form"
 ENUMERATION = "all index sets, numpy, no shared code"
 POINT_MASS = "closed form of a sliding point"
 DIRECTIONS = 37  # of slip, over which the worst error is taken
-STEPS = (1e-3, 1e-4, None)  # [s]; None: located
 FACETS = (4, 8, 16, 32, 0)
 TOLERANCES = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 
@@ -102,22 +98,6 @@ def cone_rows() -> list[Row]:
     return found
 
 
-def step_rows() -> list[Row]:
-    """A block that slides to a stop, and a ball after two bounces, by fixed steps and located;
-    times are of the whole run.
-    """
-    cases = {
-        "block slides to a stop, 1 s": rigid_motion.slide_error, "ball after 1 s and two bounces": rigid_motion.bounced,
-    }  # fmt: skip
-    found = []
-    for name, run in cases.items():
-        for step in STEPS:
-            ms = milliseconds(lambda run=run, step=step: run(step))  # type: ignore[misc]
-            level = "located" if step is None else f"stepping, {1e3 * step:g} ms"
-            found.append(row(STEP_PART, name, "position", FidelityLevel(level, ms), CLOSED, run(step)))
-    return found
-
-
 def turn_rows() -> list[Row]:
     """Bodies that tip over on a corner and on an edge, and one whose slip turns, by the tolerance
     of their integration.
@@ -150,6 +130,5 @@ def _by_tolerance(
 WORK_PRECISION = (
     WorkPrecision(SOLVER_PART, solver_rows),
     WorkPrecision(CONE_PART, cone_rows),
-    WorkPrecision(STEP_PART, step_rows),
     WorkPrecision(TURN_PART, turn_rows),
 )

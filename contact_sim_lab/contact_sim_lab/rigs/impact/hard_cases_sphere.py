@@ -10,11 +10,11 @@ from collections.abc import Callable
 
 import numpy
 
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_lab.twins import impact as elastic_reference
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.rigs.impact.theory import micro_front, moduli, position, shift, stress
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere, hertz_modulus
 from contact_sim_pkg.rigs.impact.theory.closed_form import scalings as closed_forms

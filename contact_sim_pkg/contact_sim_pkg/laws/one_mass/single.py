@@ -13,16 +13,15 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.compiled.vectors import copy_row
-from contact_sim_pkg.integrate import dormand_prince
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.root_steps import RootStepWorkspace, integrate, set_event_directions
-from contact_sim_pkg.laws.one_mass import belt_slider, impact_works, point_contact
+from contact_sim_pkg.laws.one_mass import point_contact
 
-__all__ = ["belt_slider", "empty_mode", "impact_works", "point_contact", "run", "run_with_friction"]
+__all__ = ["empty_mode", "point_contact", "run", "undriven"]
 
 
 @borrowing_kernel
-def _free(start, end):
+def undriven(start, end):
     """Segment from ``start`` to ``end`` in [s] in which nothing moves the rig."""
     return Drive(
         start=start,
@@ -49,47 +48,14 @@ def run(
     and changes in place; ``scale`` [states] the error allowed per step. Returns the status of
     ``compiled/results.py``; rows after a failure keep what they held.
     """
-    drive = _free(times[0], times[-1])
+    drive = undriven(times[0], times[-1])
     set_event_directions(rig, drive, mode, times[0], state, work)
     copy_row(state, out[0])
     # One segment between two output times after the other; events do not end a segment
     status = 0
     for i in range(times.shape[0] - 1):
-        drive = _free(times[i], times[i + 1])
+        drive = undriven(times[i], times[i + 1])
         status = integrate(rig, drive, mode, times[i + 1], state, scale, work)
-        if status != 0:
-            return status
-        copy_row(state, out[i + 1])
-    return status
-
-
-_integrate_5 = dormand_prince.integrate
-_set_event_directions_5 = dormand_prince.set_event_directions
-
-
-@entry
-def run_with_friction(
-    rig: Any,
-    mode: Modes,
-    state: Vector,
-    scale: Vector,
-    work: dormand_prince.DormandPrinceWorkspace,
-    times: Vector,
-    out: Vector,
-) -> int:
-    """As ``run``, by the integrator of the driven rigs: friction events have no root of time beside
-    them that steps could use.
-
-    state, scale: [states]; times: [n] [s]; out: [n, states].
-    """
-    drive = _free(times[0], times[-1])
-    _set_event_directions_5(rig, drive, mode, times[0], state, work)
-    copy_row(state, out[0])
-    # One segment between two output times after the other
-    status = 0
-    for i in range(times.shape[0] - 1):
-        drive = _free(times[i], times[i + 1])
-        status = _integrate_5(rig, drive, mode, times[i + 1], state, scale, work)
         if status != 0:
             return status
         copy_row(state, out[i + 1])

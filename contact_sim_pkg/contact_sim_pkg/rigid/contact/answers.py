@@ -16,7 +16,7 @@ from contact_sim_pkg.rigid.contact.solver import NEAREST, NEWTON, REFINE, Contac
 from contact_sim_pkg.rigid.problem import DISC, SPACE, ContactProblem, residual
 from contact_sim_pkg.rigid.results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, UNIQUE
 
-__all__ = ["contact_impulses", "nearest_motion", "solve_repeatedly"]
+__all__ = ["contact_impulses", "solve_repeatedly"]
 
 CLOSE = (
     # residual for which no path is followed: that of a slip of 1e-13 m/s, say, which neither ends

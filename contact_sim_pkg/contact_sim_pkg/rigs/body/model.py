@@ -46,8 +46,6 @@ class BlockModel:
     axes: Matrix  # [3, 3] principal axes of the body in the axes of the scene
     timing: Timing
     rule: int
-    scheme: str
-    step: float  # [s] of the scheme stepping
     facets: int
     gravity: float  # [m/s^2]
     force: Vector  # [3] known, in [N]
@@ -85,8 +83,6 @@ def build_block(scene: ResolvedScene) -> BlockModel:
         axes=axes,
         timing=make_timing(scene, True),
         rule=RULE_NAMES[law.rule],
-        scheme=law.scheme,
-        step=law.step,
         facets=law.facets,
         gravity=block.gravity,
         force=force,

@@ -80,10 +80,6 @@ class RigidContact(Section):
         "restitution of works (never gains energy), of impulses, or of velocities (may gain energy with friction)",
         default="energetic",
     )
-    scheme: Literal["located", "stepping"] = choice(
-        "events located in time, or fixed steps of first order", default="located"
-    )
-    step: float = number(1e-6, 0.01, "s", "step of the scheme stepping; fits the samples of the outputs", default=1e-3)
     facets: int = number(0, 64, "", "facets of the friction cone in space, even; 0: the true cone", default=0)
 
 

@@ -37,14 +37,14 @@ def block_breaches(scene: Scene) -> Iterator[Breach]:
     if block.motion == "plane" and law.facets:
         sentence = f"{law.facets} has no meaning in the plane, whose cone has two edges; take 0 or motion: space"
         yield Breach("effects.block.rigid_contact.facets", sentence, ("block.motion",))
-    yield from _scheme(scene, law)
+    yield from _facets(law)
     if scene.effect("block", CompliantContact) is not None:
         yield from _compliant(law)
 
 
 def _compliant(law: RigidContact) -> Iterator[Breach]:
     """What only impulses have."""
-    for name, only in (("rule", "energetic"), ("scheme", "located"), ("facets", 0)):
+    for name, only in (("rule", "energetic"), ("facets", 0)):
         if getattr(law, name) != only:
             sentence = (
                 f"{getattr(law, name)} has no meaning with compliant_contact, which has no impulses; take {only} or remove "
@@ -53,17 +53,10 @@ def _compliant(law: RigidContact) -> Iterator[Breach]:
             yield Breach(f"effects.block.rigid_contact.{name}", sentence, ("effects.block.compliant_contact",))
 
 
-def _scheme(scene: Scene, law: RigidContact) -> Iterator[Breach]:
+def _facets(law: RigidContact) -> Iterator[Breach]:
     if law.facets % 2 or law.facets == 2:
         sentence = f"{law.facets} is odd or too few; take an even number from 4, or 0 for the true cone"
         yield Breach("effects.block.rigid_contact.facets", sentence)
-    steps = 1.0 / (law.step * scene.outputs.force_rate)
-    if law.scheme == "stepping" and abs(steps - round(steps)) > 1e-9 * steps:
-        sentence = (
-            f"{show(law.step)} s does not fit a sample of the outputs ({show(1.0 / scene.outputs.force_rate)} s) a whole "
-            "number of times"
-        )
-        yield Breach("effects.block.rigid_contact.step", sentence, ("outputs.force_rate",))
 
 
 def _shape(block: Block) -> Iterator[Breach]:

@@ -13,7 +13,6 @@ from contact_sim_pkg.rigid.body import Motion, rise_to_ground
 from contact_sim_pkg.rigid.motion.compliant import CompliantMotion, sentence_of
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.motion.motion import ACTIVE
-from contact_sim_pkg.rigid.motion.stepping import SteppedBody
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.results import SENTENCES, SOLVED, STICK
 from contact_sim_pkg.rigs.body.geometry import contact_arms
@@ -24,7 +23,7 @@ from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import largest
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-Body: TypeAlias = LocatedBody | SteppedBody | CompliantMotion
+Body: TypeAlias = LocatedBody | CompliantMotion
 WARM_UP_IMPACT = 1e-4  # [m] above the ground, from which the warm-up drops the body
 
 
@@ -166,19 +165,16 @@ def move(body: Body, model: BlockModel, interval: float, where: str = "block") -
 
 def status_after(body: Body, model: BlockModel, interval: float) -> int:
     """Move ``body`` by ``interval`` [s]; returns a status."""
-    stepped = isinstance(body, SteppedBody)
-    return body.advance(max(1, round(interval / model.step)) if stepped else interval)  # type: ignore[arg-type]
+    return body.advance(interval)
 
 
 def body_of(model: BlockModel, motion: Motion) -> Body:
-    """The body of a scene at ``motion``, which changes in place, under the scheme and contact of
+    """The body of a scene at ``motion``, which changes in place, under the contact of
     ``model``.
     """
     if model.contact is not None:
         return CompliantMotion(model.body, model.ground, motion, model.contact, model.tolerance)
-    if model.scheme == "located":
-        return LocatedBody(model.body, model.ground, motion, model.rule, model.facets, model.tolerance)
-    return SteppedBody(model.body, model.ground, motion, model.step, model.rule, model.facets)
+    return LocatedBody(model.body, model.ground, motion, model.rule, model.facets, model.tolerance)
 
 
 def _copy(motion: Motion) -> Motion:

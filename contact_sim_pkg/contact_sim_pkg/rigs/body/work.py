@@ -6,17 +6,16 @@ import math
 from collections.abc import Iterator
 
 from contact_sim_pkg.records.work import Work
-from contact_sim_pkg.rigs.body.schema import Block, CompliantContact, RigidContact
+from contact_sim_pkg.rigs.body.schema import Block, CompliantContact
 from contact_sim_pkg.run.integrator_work import Link, integrator_steps, power_law_link, segments
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-# [s] of a sub-step of a flight; of a step of the scheme stepping
-SUBSTEP_COST, STEPPED_COST = 6e-6, 5e-5
+SUBSTEP_COST = 6e-6  # [s] of a sub-step of a flight
 PLANAR_TURN, SPATIAL_TURN = 0.2, 0.02  # [rad] of a sub-step
 
 
 def work_of_block(scene: ResolvedScene) -> Iterator[Work]:
-    """Sub-steps of flight or steps of the rigid scheme; steps of the integrator where the contact
+    """Sub-steps of flight; steps of the integrator where the contact
     is compliant.
     """
     block, compliant = scene.section(Block), scene.effect("block", CompliantContact)
@@ -33,10 +32,6 @@ def work_of_block(scene: ResolvedScene) -> Iterator[Work]:
         if compliant.tangential_damping:  # a sliding point: its spring relaxes against its damper
             links.append(Link("compliant_contact", compliant.tangential_damping, 0.0, compliant.tangential_stiffness))
         yield from integrator_steps(scene, "block", links)
-    law = scene.effect("block", RigidContact) or RigidContact()
-    if law.scheme == "stepping":
-        yield Work("steps of rigid_contact.step", scene.duration / law.step, STEPPED_COST)
-        return
     # flight is cut into sub-steps of bounded rotation
     angle = _turned(block, scene.duration)
     yield Work(

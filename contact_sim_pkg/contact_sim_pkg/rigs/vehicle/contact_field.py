@@ -31,7 +31,6 @@ from contact_sim_pkg.rigs.vehicle.tire.envelopment import yielding_of
 from contact_sim_pkg.scene.errors import Fault, SceneError
 
 Field = NDArray[numpy.float64]
-SOLVER: type = RollingField
 TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law is laid
 TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
 
@@ -66,7 +65,7 @@ class PressureField:
         """
         self.settings = settings
         self.contact = contact
-        self._field = SOLVER(half_space_of(settings))
+        self._field = (settings.solver or RollingField)(half_space_of(settings))
         self.whole: Held[Part] = self._field.whole
         self._row: int | None = None  # of the road under row 0, at the last solve
         self.pressure: Field = self._field.pressure

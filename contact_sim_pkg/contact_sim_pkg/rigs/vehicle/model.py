@@ -89,16 +89,18 @@ class Model:
         return self.edge is not None and self.edge.is_short
 
 
-def build(scene: ResolvedScene, lean: Lean | None = None) -> Model:
-    """Parameters of a resolved scene whose occupant leans on a seat back where there is one. Raises
-    FieldError where a pressure field cannot carry the standing load.
+def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = None) -> Model:
+    """Parameters of a resolved scene whose occupant leans on a seat back where there is one.
+
+    solver: of a half-space, in place of `RollingField`. Raises FieldError where a pressure field
+    cannot carry the standing load.
     """
     with_tire, with_seat = scene.rig in ("tire", "car"), scene.rig in ("seat", "car", "occupant")
     given_seat = scene.section(seat_schema.SeatSection) if with_seat else None
     occupant = None if given_seat is None else given_seat.occupant.model_of()
     # Contacts: each with its pressure field, where the scene calls for one.
-    seat_field, shape = (None, None) if given_seat is None else _seat_field(scene, given_seat)
-    tire = build_tire(scene, None if given_seat is None else given_seat.occupant) if with_tire else None
+    seat_field, shape = (None, None) if given_seat is None else _seat_field(scene, given_seat, solver)
+    tire = build_tire(scene, None if given_seat is None else given_seat.occupant, solver) if with_tire else None
     tire_field = None if tire is None else tire.field
     # The states of the seat follow those of the quarter car: 4, or 6 with a rigid ring.
     behind = 0 if tire is None else 4 if tire.rigid_ring is None else 6
@@ -205,10 +207,14 @@ def _behind_foam(scene: ResolvedScene, seat: Seat, lean: Lean | None) -> int:
     return _behind_occupant(scene, seat, lean) + (0 if hysteresis(scene, "seat", 0) is None else 1)
 
 
-def _seat_field(scene: ResolvedScene, seat: seat_schema.SeatSection) -> tuple[FieldGrids | None, SeatShape | None]:
+def _seat_field(
+    scene: ResolvedScene, seat: seat_schema.SeatSection, solver: type | None
+) -> tuple[FieldGrids | None, SeatShape | None]:
     modulus = seat.cushion_modulus / (1.0 - seat.cushion_poisson**2)
     settings = field_settings(scene.effect("seat", seat_schema.HalfSpaceField), modulus)
-    return (None, None) if settings is None else (make_grids(settings, "seat"), shape_of(seat.body))
+    if settings is None:
+        return None, None
+    return make_grids(settings._replace(solver=solver), "seat"), shape_of(seat.body)
 
 
 def seat_gap_on(shape: SeatShape, settings: FieldSettings) -> NDArray[numpy.float64]:

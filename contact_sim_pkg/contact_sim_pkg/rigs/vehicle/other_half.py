@@ -8,7 +8,7 @@ from contact_sim_pkg.compiled.held import hold
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
 from contact_sim_pkg.pressure.field.solver import CONVERGED, FieldResult
 from contact_sim_pkg.pressure.field.window import make_part
-from contact_sim_pkg.rigs.vehicle import contact_field
+from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
@@ -20,8 +20,7 @@ def compile_all_but_fields(scene: ResolvedScene) -> None:
     """Prepare a run of the scene on springs in place of its pressure fields, where it has any."""
     if all(scene.effect(contact, PressureFieldSection) is None for contact in ("tire", "seat")):
         return
-    contact_field.SOLVER = _Spring
-    Simulation(scene).prepare()
+    Simulation(scene, build(scene, solver=_Spring)).prepare()
 
 
 class _Spring:

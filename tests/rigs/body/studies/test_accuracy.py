@@ -1,4 +1,4 @@
-"""Cost of accuracy of the block rig: steps, facets and the compliant contact against located rigid
+"""Cost of accuracy of the block rig: facets and the compliant contact against located rigid
 contact.
 """
 
@@ -22,13 +22,6 @@ def errors(rows, quantity):
 @pytest.fixture(scope="module")
 def slope_scene():
     return load_resolved("block_slope", "duration=0.5")
-
-
-def test_shorter_steps_come_nearer_to_located_events(slope_scene):
-    path = errors(accuracy_cost_block.scheme_rows("", slope_scene, quiet), "path")
-    assert list(path) == ["stepping, 1 ms", "stepping, 0.5 ms", "stepping, 0.1 ms", "located"]
-    assert path["stepping, 1 ms"] == pytest.approx(10.0 * path["stepping, 0.1 ms"], rel=0.1)
-    assert path["located"] == 0.0
 
 
 def test_a_stiffer_contact_comes_nearer_to_the_rigid_one_that_slides_to_a_stop(slope_scene):

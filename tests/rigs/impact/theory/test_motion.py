@@ -5,9 +5,9 @@ import math
 import numpy
 import pytest
 
+from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_lab.twins import impact as hunt_crossley
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere, hertz_modulus, pair, shares
 from contact_sim_pkg.rigs.impact.theory.errors import FoldError, ImpactError
 from contact_sim_pkg.rigs.impact.theory.motion import course, solve_impact

@@ -9,22 +9,22 @@ import math
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_lab.closed_form import axisymmetric
+from contact_sim_lab.closed_form.axisymmetric_profile import PowerProfile
+from contact_sim_lab.closed_form.lame_pressure import (
+    ansatz_of_curvatures,
+    ansatz_on_domain,
+    eccentricity,
+    equivalent_ellipse,
+)
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, exactly
 from contact_sim_lab.twins.lame_pressure import printed_eccentricity_power
 from contact_sim_pkg.excitation.blocks import RoadBlocks
 from contact_sim_pkg.excitation.iso8608 import Iso8608Road
 from contact_sim_pkg.excitation.travel import Travel
-from contact_sim_pkg.pressure.closed_form import axisymmetric
-from contact_sim_pkg.pressure.closed_form.axisymmetric_profile import PowerProfile
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, hertz_contact_at_approach
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch
-from contact_sim_pkg.pressure.closed_form.lame_pressure import (
-    ansatz_of_curvatures,
-    ansatz_on_domain,
-    eccentricity,
-    equivalent_ellipse,
-)
 from contact_sim_pkg.pressure.closed_form.subsurface import SurfaceGrid, subsurface_stress
 from contact_sim_pkg.pressure.field.patch import contact_area
 from contact_sim_pkg.pressure.field.winkler import winkler_at_load

@@ -10,6 +10,12 @@ from __future__ import annotations
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_lab.closed_form.lame_pressure import (
+    LamePressure,
+    ansatz_on_domain,
+    equivalent_ellipse,
+    lame_pressure,
+)
 from contact_sim_lab.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_lab.rigs.vehicle.work_precision.fields import (
     CONVERGED,
@@ -22,12 +28,6 @@ from contact_sim_lab.rigs.vehicle.work_precision.fields import (
 )
 from contact_sim_lab.rigs.vehicle.work_precision.patch_problem import PatchProblem
 from contact_sim_pkg.pressure.closed_form.lame import LameFit, fit_patch, lame_area
-from contact_sim_pkg.pressure.closed_form.lame_pressure import (
-    LamePressure,
-    ansatz_on_domain,
-    equivalent_ellipse,
-    lame_pressure,
-)
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 
 __all__ = ["EXPONENTS", "PART", "WORK_PRECISION", "power_gap", "rows"]

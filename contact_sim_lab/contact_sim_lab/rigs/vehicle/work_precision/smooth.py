@@ -9,6 +9,13 @@ import math
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_lab.closed_form.lame_pressure import (
+    LamePressure,
+    ansatz_of_curvatures,
+    ansatz_on_domain,
+    equivalent_ellipse,
+    lame_pressure,
+)
 from contact_sim_lab.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds
 from contact_sim_lab.rigs.vehicle.work_precision.fields import (
     GIVEN,
@@ -29,13 +36,6 @@ from contact_sim_lab.rigs.vehicle.work_precision.patch_problem import (
 from contact_sim_lab.twins import hertz as reference
 from contact_sim_pkg.pressure.closed_form.hertz import HertzContact, hertz_contact, hertz_contact_at_approach
 from contact_sim_pkg.pressure.closed_form.lame import LameFit, fit_patch, lame_area
-from contact_sim_pkg.pressure.closed_form.lame_pressure import (
-    LamePressure,
-    ansatz_of_curvatures,
-    ansatz_on_domain,
-    equivalent_ellipse,
-    lame_pressure,
-)
 
 __all__ = ["FIELD_CELLS", "LEVELS", "PART", "REFERENCE", "WORK_PRECISION", "exact_answer", "rows"]
 

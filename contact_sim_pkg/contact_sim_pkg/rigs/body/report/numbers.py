@@ -10,8 +10,7 @@ BLOCK = "block"
 """Name of the contact."""
 
 REST_SPEED = 1.0e-12
-"""In [m/s] and [rad/s]: a slower body rests. The scheme `stepping` leaves its rounding, some 1e-17,
-where one has come to rest.
+"""In [m/s] and [rad/s]: a slower body rests: rounding may leave some 1e-17 where one has come to rest.
 """
 
 

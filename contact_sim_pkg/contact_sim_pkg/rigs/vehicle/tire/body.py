@@ -53,9 +53,10 @@ def tire_body(effects: dict[str, Any]) -> TireBody:
     elastic: HertzElastic = plain(effects["normal_elastic"])
     envelopment: Envelopment | None = plain(effects.get("envelopment"))
     belt = None if envelopment is None else BeltSettings(envelopment.tension, envelopment.foundation)
-    if elastic.young_modulus is None:
+    young = effects["normal_elastic"].get("young_modulus")
+    if young is None:
         raise ValueError("effects.tire.normal_elastic.young_modulus is open: the scene is not resolved")
-    modulus = elastic.young_modulus / (1.0 - elastic.poisson_ratio**2)
+    modulus = young / (1.0 - elastic.poisson_ratio**2)
     return TireBody(TireForm(elastic.radius_rolling, elastic.radius_lateral), modulus, elastic.poisson_ratio, belt)
 
 

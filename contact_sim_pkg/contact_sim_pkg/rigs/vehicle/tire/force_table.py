@@ -19,7 +19,7 @@ from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import CONVERGED
 from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle import contact_field
+from contact_sim_pkg.rigs.vehicle.contact_field import half_space_of
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import RANGE
 
@@ -101,16 +101,16 @@ def gap_over_level_road(form: TireForm, x: NDArray[numpy.floating[Any]], y: NDAr
     return numpy.asarray(along[:, None] + across[None, :])
 
 
-def tire_table(body: TireBody) -> TireTable:
-    """The table of a body, kept on disk."""
-    if contact_field.SOLVER is not RollingField:  # what stands for it is worth nothing later
-        return _make(body)
+def tire_table(body: TireBody, solver: type | None = None) -> TireTable:
+    """The table of a body, kept on disk; not so with another ``solver`` of a half-space."""
+    if solver is not None:
+        return _make(body, solver)
     arrays = kept_arrays("tires", repr(body), [__file__], lambda: _make(body)._asdict())
     arrays["spacing"] = float(arrays["spacing"])  # type: ignore[assignment]
     return TireTable(**arrays)  # type: ignore[arg-type]
 
 
-def _make(body: TireBody) -> TireTable:
+def _make(body: TireBody, solver: type = RollingField) -> TireTable:
     """Solve approach after approach, each from the one before, until the contact comes to the edge."""
     assert body.extent is not None
     cell_x, cell_y = body.extent[0] / ROWS, body.extent[1] / COLS
@@ -118,7 +118,7 @@ def _make(body: TireBody) -> TireTable:
     settings = FieldSettings(rows, cols, cell_x, cell_y, body.modulus, TOLERANCE, ITERATIONS, 0, body.belt)
     middle_row, middle_col = rows // 2, cols // 2
     x, y = (numpy.arange(rows) - middle_row) * cell_x, (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y
-    gap, field = gap_over_level_road(body.form, x, y), contact_field.SOLVER(contact_field.half_space_of(settings))
+    gap, field = gap_over_level_road(body.form, x, y), solver(half_space_of(settings))
     force, size = [0.0], [(0.0, 0.0, 0.0)]
     quarters: list[Field] = [numpy.zeros((rows - middle_row, cols - middle_col))]
     for node in range(1, round(DEEPEST / SPACING) + 1):

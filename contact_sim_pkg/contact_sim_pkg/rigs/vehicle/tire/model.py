@@ -127,21 +127,22 @@ class TireParts:
     asperities: Asperities | None
 
 
-def build_tire(scene: ResolvedScene, occupant: OccupantSection | None) -> TireParts:
-    """Parts of a resolved scene's tire under an ``occupant``, None where it carries none.
+def build_tire(scene: ResolvedScene, occupant: OccupantSection | None, solver: type | None = None) -> TireParts:
+    """Parts of a resolved scene's tire under an ``occupant``, None where it carries none; solver: of a
+    half-space, in place of `RollingField`.
 
     Raises SceneError where a pressure field cannot carry the standing load.
     """
     given_tire, body = scene.section(schema.TireSection), body_of(scene)
     load = standing_load(given_tire, occupant)
-    rigid_ring, table = _rigid_ring(scene), None if body.extent is None else tire_table(body)
+    rigid_ring, table = _rigid_ring(scene), None if body.extent is None else tire_table(body, solver)
     geometry = _geometry(scene, body, table, load)
     tread = _tread(scene, body, geometry)
     tire = Tire(
         given_tire.wheel_mass - (0.0 if rigid_ring is None else rigid_ring.belt_mass), given_tire.body_mass,
         given_tire.suspension_stiffness, given_tire.suspension_damping,
     )  # fmt: skip
-    law, length, field = _elastic(scene, body, table, load, geometry, tread)
+    law, length, field = _elastic(scene, body, table, load, geometry, tread, solver)
     contact = Contact(law, normal_loss(scene, "tire", law, load / GRAVITY), None)
     asperities = _asperities(scene, geometry, load)
     deflection = float(approach_of_force(law, load)) + (0.0 if rigid_ring is None else load / rigid_ring.stiffness)
@@ -159,7 +160,8 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None) -> TirePa
 
 
 def _elastic(
-    scene: ResolvedScene, body: TireBody, table: TireTable | None, load: float, geometry: TireGeometry, tread: Tread | None
+    scene: ResolvedScene, body: TireBody, table: TireTable | None, load: float, geometry: TireGeometry, tread: Tread | None,
+    solver: type | None,
 ) -> tuple[ElasticLaw, float, FieldGrids | None]:  # fmt: skip
     """Normal law, length in [m] of the standing footprint, and the field.
 
@@ -168,7 +170,7 @@ def _elastic(
     for long.
     """
     settings = _field_settings(scene, body if tread is None else _at_once(body, tread))
-    field = None if settings is None else make_grids(settings, "tire")
+    field = None if settings is None else make_grids(settings._replace(solver=solver), "tire")
     if field is None and table is not None:
         return table.law(), geometry.footprint_length, None
     if field is None:

@@ -10,12 +10,15 @@ from typing import NamedTuple
 
 import numpy
 
+from contact_sim_lab.laws.one_mass import belt_slider, impact_works
+from contact_sim_lab.laws.one_mass.belt_slider import BeltSlider, run_with_friction
+from contact_sim_lab.laws.one_mass.impact_works import ImpactWorks
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate import dormand_prince
 from contact_sim_pkg.integrate.root_steps import EVENTS, REJECTED, STEPS, RootStepWorkspace, make_workspace
-from contact_sim_pkg.laws.one_mass.parameters import BeltSlider, ImpactWorks, PointContact
-from contact_sim_pkg.laws.one_mass.single import belt_slider, impact_works, point_contact, run, run_with_friction
+from contact_sim_pkg.laws.one_mass.parameters import PointContact
+from contact_sim_pkg.laws.one_mass.single import point_contact, run
 from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
 
 __all__ = ["OneMassCourse", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]

@@ -10,15 +10,29 @@ event functions: the approach x, the tension margin, the approach rate.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.integrate.interface import register_rig
 from contact_sim_pkg.laws.normal_force import normal_force
-from contact_sim_pkg.laws.one_mass.parameters import ImpactWorks
+from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.point_contact import _event_functions as contact_event_functions
 from contact_sim_pkg.laws.one_mass.point_contact import approach_of, free_flight
 
 STATES = 4
 EVENT_FUNCTIONS = 3
+
+
+class ImpactWorks(NamedTuple):
+    """A point contact whose force's works are integrated with it. State [z, v, work of closing,
+    work of opening] in [m, m/s, J, J].
+
+    Both works are counted from the start of the run: ``W = -integral F x' dt``, the first over all
+    closing phases (W_c <= 0), the second over all opening ones (W_r >= 0 where the contact never
+    pulls).
+    """
+
+    contact: PointContact
 
 
 @borrowing_kernel

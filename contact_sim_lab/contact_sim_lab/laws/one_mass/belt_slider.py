@@ -7,13 +7,31 @@ by v = v_b - x'. State [x, v_x, s]; event function: margin of stick or of slip, 
 
 from __future__ import annotations
 
-from contact_sim_pkg.compiled.jit import borrowing_kernel
+from typing import NamedTuple
+
+from contact_sim_pkg.compiled.arrays import Modes, Vector
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
+from contact_sim_pkg.compiled.vectors import copy_row
+from contact_sim_pkg.integrate import dormand_prince
 from contact_sim_pkg.integrate.interface import register_rig
 from contact_sim_pkg.laws.friction import STICK, following_deflection, friction_force, slip_event, stick_event
-from contact_sim_pkg.laws.one_mass.parameters import BeltSlider
+from contact_sim_pkg.laws.one_mass.single import undriven
+from contact_sim_pkg.laws.parameters import Friction
 
 STATES = 3
 EVENT_FUNCTIONS = 1
+
+
+class BeltSlider(NamedTuple):
+    """One mass on a spring, rubbed by a belt under a constant load. State [x, v, deflection of the
+    friction spring].
+    """
+
+    mass: float  # [kg]
+    spring: float  # [N/m]
+    belt_speed: float  # [m/s]
+    load: float  # [N]
+    friction: Friction
 
 
 @borrowing_kernel
@@ -51,3 +69,35 @@ def _need_rate(rig, mode):
 
 
 register_rig(BeltSlider, _rate, _event_functions, _mode_transition, _need_rate)
+
+_integrate = dormand_prince.integrate
+_set_event_directions = dormand_prince.set_event_directions
+
+
+@entry
+def run_with_friction(
+    rig: BeltSlider,
+    mode: Modes,
+    state: Vector,
+    scale: Vector,
+    work: dormand_prince.DormandPrinceWorkspace,
+    times: Vector,
+    out: Vector,
+) -> int:
+    """As ``single.run``, by the integrator of the driven rigs: friction events have no root of time beside
+    them that steps could use.
+
+    state, scale: [states]; times: [n] [s]; out: [n, states].
+    """
+    drive = undriven(times[0], times[-1])
+    _set_event_directions(rig, drive, mode, times[0], state, work)
+    copy_row(state, out[0])
+    # One segment between two output times after the other
+    status = 0
+    for i in range(times.shape[0] - 1):
+        drive = undriven(times[i], times[i + 1])
+        status = _integrate(rig, drive, mode, times[i + 1], state, scale, work)
+        if status != 0:
+            return status
+        copy_row(state, out[i + 1])
+    return status

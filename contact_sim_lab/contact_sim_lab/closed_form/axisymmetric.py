@@ -30,7 +30,7 @@ from collections.abc import Callable
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.pressure.closed_form.axisymmetric_profile import (
+from contact_sim_lab.closed_form.axisymmetric_profile import (
     AxisymmetricError,
     PowerProfile,
     Profile,

@@ -1,5 +1,5 @@
 """Profiles of rigid axisymmetric bodies: a power law, a slope, or a table, for
-`pressure/closed_form/axisymmetric.py`.
+`closed_form/axisymmetric.py`.
 """
 
 from __future__ import annotations

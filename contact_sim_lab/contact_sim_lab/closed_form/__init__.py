@@ -1,0 +1,1 @@
+"""Closed forms of a pressure that only papers and studies use: Lamé domains, axisymmetric profiles."""
