@@ -146,7 +146,7 @@ def polished(bodies: Bodies, points: Field) -> Field:
         for k, body in enumerate(bodies):
             own = slice(3 * k, 3 * k + 3)
             for constraint in numpy.flatnonzero(held[k]):
-                values[row], normal, turn = surface(body, constraint, pair[k])
+                values[row], normal, turn = surface(body, int(constraint), pair[k])
                 values[own] += unknowns[row] * normal
                 jacobian[own, own] += unknowns[row] * turn
                 jacobian[own, row] = jacobian[row, own] = normal
