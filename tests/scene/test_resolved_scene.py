@@ -8,7 +8,7 @@ from pydantic import ValidationError
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.rigs.backrest.schema import BackrestSection
-from contact_sim_pkg.rigs.vehicle.tire.schema import BrushSection, Envelopment, TireField, TireSection
+from contact_sim_pkg.rigs.vehicle.tire.schema import BrushSection, Envelopment, Inflation, TireField, TireSection
 from contact_sim_pkg.scene.resolved_scene import MAY_BE_LEFT_OUT, plain
 from contact_sim_pkg.scene.schema import general, road, vibration
 from contact_sim_pkg.scene.schema.fields import Section
@@ -51,7 +51,7 @@ def test_plain_keys_are_attributes_and_absent_ones_none(scene):
 def test_a_name_that_no_section_may_leave_out_is_refused():
     with pytest.raises(AttributeError, match="no key 'heigth'"):
         assert plain({"height": 1.0}).heigth
-    kinds = [*vars(general).values(), *vars(road).values(), *vars(vibration).values(), PressureFieldSection]
+    kinds = [*vars(general).values(), *vars(road).values(), *vars(vibration).values(), PressureFieldSection, Inflation]
     sections = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, Section)]
     optional = {
         name

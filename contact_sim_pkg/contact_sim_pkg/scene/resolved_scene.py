@@ -29,11 +29,12 @@ Kind = TypeVar("Kind", bound="Section")
 
 
 MAY_BE_LEFT_OUT = frozenset({
-    "angle", "at_least", "at_most", "cols", "corrector_passes", "coupling_length", "coupling_tolerance", "duration",
-    "header_line", "longitudinal", "octaves_per_minute", "period", "points", "rate", "relative_tolerance", "roughness",
-    "roughness_class", "rows", "sha256", "speed", "texture", "time_column", "time_unit", "tolerance", "unit",
+    "angle", "at_least", "at_most", "belt_width", "cols", "corrector_passes", "coupling_length", "coupling_tolerance",
+    "duration", "header_line", "longitudinal", "octaves_per_minute", "period", "points", "radius", "rate",
+    "relative_tolerance", "roughness", "roughness_class", "rows", "sha256", "sidewall_chord", "speed", "texture",
+    "time_column", "time_unit", "tolerance", "track_offset", "unit",
 })  # fmt: skip
-"""Keys without a value of their own, of all sections outside the effects and of a pressure field."""
+"""Keys without a value of their own in sections outside the effects, of a pressure field and of an inflated tire."""
 
 
 class _Plain(SimpleNamespace):
