@@ -14,6 +14,15 @@ class BeltSettings(NamedTuple):
     foundation: float  # [N/m^2] radial stiffness per length of circumference, > 0
 
 
+class SidewallArc(NamedTuple):
+    """Sidewalls of an inflated tire as arcs of fixed length, and the rigid ring that they carry."""
+
+    pressure: float  # [Pa] inflation
+    half_angle: float  # [rad] of the unloaded arc
+    chord: float  # [m] of it
+    ring_compliance: float  # [m/N] of the rigid ring against the rim, also where that is a body of its own
+
+
 class InflatedBelt(NamedTuple):
     """Belt of an inflated tire, an inextensible ring without its modes 0 and 1, rigid across its
     width (``rigs/vehicle/tire/inflated_belt.py``).
@@ -25,6 +34,7 @@ class InflatedBelt(NamedTuple):
     tangential: float  # [N/m^2]
     bending: float  # [N m^2]
     ring_compliance: float  # [m/N] of the rigid ring against the rim; 0 where that is a body of its own
+    arc: SidewallArc | None = None  # softens the foundation as the belt comes down; None: linear
 
 
 class FieldSettings(NamedTuple):

@@ -26,13 +26,15 @@ from contact_sim_pkg.pressure.field.halfspace import HalfSpace, make_half_space
 from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, refuse_bad_gap
 from contact_sim_pkg.pressure.field.window import Part
-from contact_sim_pkg.pressure.settings import FieldSettings, widened
+from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt, widened
 from contact_sim_pkg.rigs.vehicle.tire.envelopment import yielding_of
+from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import Softening
 from contact_sim_pkg.scene.errors import Fault, SceneError
 
 Field = NDArray[numpy.float64]
 TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law is laid
 TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
+SOFTENING_PASSES = 12  # most solutions at one instant of a belt whose sidewalls soften; each is closer by a factor of 7
 
 
 def effect_of(contact: str) -> str:
@@ -67,6 +69,9 @@ class PressureField:
         self.contact = contact
         self._field = (settings.solver or RollingField)(half_space_of(settings))
         self.whole: Held[Part] = self._field.whole
+        belt = settings.belt
+        softens = isinstance(belt, InflatedBelt) and belt.arc is not None
+        self.softening = Softening(belt, settings.rows, settings.cell_x) if softens else None
         self._row: int | None = None  # of the road under row 0, at the last solve
         self.pressure: Field = self._field.pressure
         self.load = 0.0
@@ -77,6 +82,8 @@ class PressureField:
         """Drop the previous solution."""
         self._field.reset()
         self._row, self.residual = None, 0.0
+        if self.softening is not None:
+            self.softening.reset()
 
     def roll_to(self, row: int) -> None:
         """Set ``row`` of the road under row 0 of the grid, before each solve.
@@ -94,8 +101,11 @@ class PressureField:
         reaches the edge or the solver does not converge.
         """
         s = self.settings
-        result = self._field.solve_at_approach(gap, approach, s.tolerance, s.maximum_iterations)
-        self._accept(result, gap)
+        for _ in range(SOFTENING_PASSES):
+            result = self._field.solve_at_approach(self._opened(gap), approach, s.tolerance, s.maximum_iterations)
+            self._accept(result, gap)
+            if self._has_settled(approach, s.tolerance):
+                break
         return self.load
 
     def solve_load(self, gap: Field, load: float, tolerance: float | None = None) -> float:
@@ -104,9 +114,24 @@ class PressureField:
         """
         s = self.settings
         requested = s.tolerance if tolerance is None else tolerance
-        result = self._field.solve_at_load(gap, load, requested, s.maximum_iterations)
-        self._accept(result, gap)
+        for _ in range(SOFTENING_PASSES):
+            result = self._field.solve_at_load(self._opened(gap), load, requested, s.maximum_iterations)
+            self._accept(result, gap)
+            if self._has_settled(float(result.approach), requested):
+                break
         return float(result.approach)
+
+    def _opened(self, gap: Field) -> Field:
+        """The gap as the sidewalls open it."""
+        return gap if self.softening is None else gap + self.softening.gap[:, None]
+
+    def _has_settled(self, approach: float, tolerance: float) -> bool:
+        """Whether the sidewalls bear what the last solution took them to bear, as height at an ``approach``
+        [m].
+        """
+        if self.softening is None:
+            return True
+        return self.softening.follow(self.pressure.sum(axis=1) * self.settings.cell_y) <= tolerance * abs(approach)
 
     def _accept(self, result: FieldResult, gap: Field) -> None:
         if result.status == BAD_INPUT:

@@ -5,21 +5,29 @@ import math
 import numpy
 import pytest
 from scipy.integrate import quad
-from scipy.optimize import brentq
+from scipy.optimize import brentq, fsolve
 from tests.rigs.vehicle.test_simulation import messages_of
 from tests.run.scenes import resolved
 
 from contact_sim_lab.twins.halfspace import dense_influence, pressure_at_approach
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, elastic_stiffness
-from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
+from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt, SidewallArc
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
 from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
+from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of, tire_body
 from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road, tire_table
-from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import belt_share, inflated_influence, membrane_stiffness
+from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import (
+    arc_force,
+    belt_share,
+    inflated_influence,
+    membrane_stiffness,
+)
+from contact_sim_pkg.rigs.vehicle.tire.property_file.fit import standing_on_belt
 from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation
 from contact_sim_pkg.rigs.vehicle.tire.size import read_size
+from contact_sim_pkg.rigs.vehicle.tire.static_stiffness import tire_stiffness
 
 RADIUS, TENSION, FOUNDATION = 0.316, 8756.0, 4.33e5
 BELT = InflatedBelt(RADIUS, TENSION, FOUNDATION, 4.4e5, 2.0, 0.0)
@@ -116,9 +124,17 @@ def table_of(*settings):
     return tire_table(body_of(resolved("tire_bump", *settings)))
 
 
+LINEAR = (
+    "effects.tire.inflation={sidewall_angle: 1.431, belt_width: 0.14, structure: 0, tangential: 4.4e5, "
+    "tread_modulus: 4.0e6, crown_radius: 2.0, shoulder: 8e-4, ring_stiffness: 1.4e6, pressure: %de3}"
+)
+"""A tire on linear sidewalls, once their arcs are left out."""
+
+
 @pytest.mark.parametrize("inflation", [120, 180, 220, 260, 300])
 def test_deflection_stiffness_and_footprint_are_those_of_another_program(inflation):
-    table = table_of(f"effects.tire.inflation.pressure={inflation}e3")
+    body = body_of(resolved("tire_bump", LINEAR % inflation))
+    table = tire_table(body._replace(belt=body.belt._replace(arc=None)))
     for load in (2000, 4000, 6000):
         sunk, stiffness, length, width, area, peak = ANOTHER_PROGRAM[inflation, load]
         approach = approach_of_force(table.law(), load)
@@ -132,13 +148,94 @@ def test_deflection_stiffness_and_footprint_are_those_of_another_program(inflati
         assert table.quarters[node].max() * 1e-3 == pytest.approx(peak, rel=0.02)
 
 
+# Size, inflation [kPa], load [N]: stiffness [kN/m], deflection, length, width [mm] by the public MF-Swift coefficients of
+# a 205/60 R15 car tire at 220 kPa (formulas of Besselink, Schmeitz and Pacejka 2010)
+SWIFT = {
+    (160, 2000): (161.6, 12.90, 99.1, 127.3), (160, 4000): (173.6, 24.83, 150.2, 146.7), (160, 6000): (184.9, 35.99, 193.5, 154.9),
+    (220, 2000): (197.3, 10.49, 87.4, 120.7), (220, 4000): (209.7, 20.31, 131.8, 141.2), (220, 6000): (221.3, 29.60, 169.0, 151.1),
+    (280, 2000): (233.0, 8.83, 78.9, 115.4), (280, 4000): (245.6, 17.19, 118.4, 136.2), (280, 6000): (257.5, 25.14, 151.5, 147.1),
+}  # fmt: skip
+MISFIT = 0.06, 0.06, 0.06, 0.14
+
+
+def test_the_usual_tire_on_the_size_of_a_published_one_follows_it_over_load_and_inflation():
+    """Fitted to these nine points, all of them at once: trends, not digits."""
+    for (inflation, load), published in SWIFT.items():
+        found = standing_on_belt(Inflation(size="205/60 R15", pressure=1e3 * inflation), load)
+        ours = 1e-3 * found.stiffness, 1e3 * found.deflection, 1e3 * found.length, 1e3 * found.width
+        for value, expected, most in zip(ours, published, MISFIT, strict=True):
+            assert value == pytest.approx(expected, rel=most), (inflation, load)
+
+
+def test_stiffness_over_inflation_goes_as_measured():
+    """0.63 by those coefficients, 0.50 to 0.63 of a measured 255/40 R17, at the standing load of 340 kg."""
+    soft, hard = (
+        standing_on_belt(Inflation(pressure=pressure), 340.0 * 9.80665).stiffness for pressure in (160e3, 280e3)
+    )
+    assert math.log(hard / soft) / math.log(280.0 / 160.0) == pytest.approx(0.63, abs=0.1)
+
+
+def test_a_body_of_its_own_or_not_the_ring_leaves_the_tire_as_stiff():
+    """Also for a ring that is softer than the usual one: 1e6 N/m at 220 kPa."""
+    for inflation, load in ((160, 2000.0), (220, 4000.0), (280, 6000.0)):
+        keys = f"effects.tire.inflation={{pressure: {inflation}e3, ring_stiffness: 1e6}}"
+        plain, ringed = (
+            build(resolved("tire_bump", keys, *ring)).rig for ring in ((), ("effects.tire.rigid_ring={}",))
+        )
+        assert plain.rigid_ring is None
+        alone = tire_stiffness(plain.tire_contact.elastic, None, load)
+        assert tire_stiffness(ringed.tire_contact.elastic, ringed.rigid_ring, load) == pytest.approx(alone, rel=5e-3)
+
+
+def test_the_arc_is_that_of_fixed_length_under_the_inflation():
+    """Against the arc itself, solved for its angle: from 20 mm of stretch to 40 of 97 mm."""
+    half_angle, chord, inflation = 0.863, 0.097, 220e3
+    closer, force = arc_force(SidewallArc(inflation, half_angle, chord, 1e-6))
+    unit = chord / (2.0 * math.sin(half_angle))  # the radius, which chord_force takes as 1
+    for way in (-0.004, 0.0, 0.005, 0.02, 0.04):
+        expected = 2.0 * inflation * unit * (chord_force(half_angle, 0.0) - chord_force(half_angle, way / unit))
+        assert numpy.interp(way, closer, force) == pytest.approx(expected, rel=1e-5, abs=1.0)
+
+
+def test_softening_sidewalls_leave_the_belt_in_balance():
+    """What stands under the road, by least squares of the dense problem with the arcs as they are: no fixed point of ours.
+
+    The residual is of w = G (q + D) + (F + sum D)/K_b, D = C p w - S(w), at the pressure that the field found.
+    """
+    body = body_of(resolved("tire_bump"))
+    rows, cell_x, cols, cell_y = 108, 0.0025, 24, 0.0075
+    settings = FieldSettings(rows, cols, cell_x, cell_y, body.modulus, 1e-7, 400, 0, body.belt)
+    x, y = (numpy.arange(rows) - rows // 2) * cell_x, (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y
+    field = PressureField(settings, "tire")
+    field.solve_load(gap_over_level_road(body.form, x, y), 4000.0)
+    arc, line = body.belt.arc, field.pressure.sum(axis=1) * cell_y
+    place = numpy.arange(rows)
+    along = inflated_influence(body.belt._replace(ring_compliance=0.0), rows, 1, cell_x, 1.0)[:, 0][
+        abs(place[:, None] - place)
+    ]
+    unit = arc.chord / (2.0 * math.sin(arc.half_angle))
+
+    def softer(closer):
+        slack = chord_force(arc.half_angle, 0.0) - chord_force(arc.half_angle, closer / unit)
+        return membrane_stiffness(arc.half_angle) * arc.pressure * closer - 2.0 * arc.pressure * unit * slack
+
+    def missed(w):
+        load = line + numpy.array([softer(closer) for closer in w])
+        return w - along @ load - load.sum() * cell_x * arc.ring_compliance
+
+    w = fsolve(missed, along @ line + 4e-3)
+    opened = w - along @ line - line.sum() * cell_x * arc.ring_compliance
+    assert opened.max() > 1e-3
+    assert field.softening.gap == pytest.approx(opened, abs=1e-3 * opened.max())
+
+
 def test_a_tire_that_an_engineer_recognises():
     table = table_of()
     approach = approach_of_force(table.law(), 4000.0)
     length, width, area = table.contact_at(4000.0)
     assert 180e3 <= elastic_stiffness(table.law(), approach) <= 250e3
-    assert 0.13 <= length <= 0.15
-    assert 0.14 <= width <= 0.16
+    assert 0.119 <= length <= 0.145
+    assert 0.127 <= width <= 0.155
     assert 165e-4 <= area <= 205e-4
     assert 4000.0 / area == pytest.approx(220e3, rel=0.2)
     quarter = table.quarters[round(approach / table.spacing / 4)]

@@ -12,7 +12,7 @@ from contact_sim_pkg.rigs.vehicle.tire.size import read_size
 from contact_sim_pkg.scene.resolved_scene import plain
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.rigs.vehicle.tire.schema import Envelopment, HertzElastic, Inflation
+    from contact_sim_pkg.rigs.vehicle.tire.schema import Envelopment, HertzElastic, Inflation, RigidRingSection
     from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["TireBody", "TireForm", "body_of", "tire_body"]
@@ -49,7 +49,7 @@ def tire_body(effects: dict[str, Any]) -> TireBody:
     """The tire of the plain data of the effects at its contact."""
     inflation: Inflation | None = plain(effects.get("inflation"))
     if inflation is not None:
-        return _inflated(inflation, effects.get("rigid_ring") is not None)
+        return _inflated(inflation, plain(effects.get("rigid_ring")))
     elastic: HertzElastic = plain(effects["normal_elastic"])
     envelopment: Envelopment | None = plain(effects.get("envelopment"))
     belt = None if envelopment is None else BeltSettings(envelopment.tension, envelopment.foundation)
@@ -60,14 +60,16 @@ def tire_body(effects: dict[str, Any]) -> TireBody:
     return TireBody(TireForm(elastic.radius_rolling, elastic.radius_lateral), modulus, elastic.poisson_ratio, belt)
 
 
-def _inflated(keys: Inflation, has_ring: bool) -> TireBody:
-    """``has_ring``: whether the rigid ring is a body of its own."""
+def _inflated(keys: Inflation, ring: RigidRingSection | None) -> TireBody:
+    """``ring``: the rigid ring where it is a body of its own."""
     size, chord, width = read_size(keys.size, keys.radius), keys.sidewall_chord, keys.belt_width
     assert chord is not None  # a resolved scene leaves neither open
     assert width is not None
+    stiffness = ring_stiffness(keys.ring_stiffness, keys.pressure) if ring is None else ring.stiffness
+    assert stiffness is not None
     belt = make_belt(
         keys.pressure, size.radius, keys.sidewall_angle, chord, width, keys.structure, keys.tangential, keys.bending,
-        None if has_ring else ring_stiffness(keys.ring_stiffness, keys.pressure),
+        stiffness, ring is not None,
     )  # fmt: skip
     form = TireForm(size.radius, keys.crown_radius, keys.shoulder, 0.5 * width, circular=True)
     modulus = keys.tread_modulus / (1.0 - keys.tread_poisson**2)

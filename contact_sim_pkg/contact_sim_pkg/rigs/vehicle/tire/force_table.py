@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.laws.parameters import TabulatedElastic
 from contact_sim_pkg.laws.tabulated_elastic import tabulated_approach_of_force, tabulated_law
-from contact_sim_pkg.pressure.field.rolling import RollingField
-from contact_sim_pkg.pressure.field.solver import CONVERGED
 from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import half_space_of
+from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, PressureField
+from contact_sim_pkg.rigs.vehicle.tire import inflated_belt
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import RANGE
 
@@ -29,7 +28,7 @@ Field = NDArray[numpy.float64]
 SPACING = 5e-4  # [m] between two approaches
 DEEPEST = 0.06  # [m]; beyond it the law is a straight line
 ROWS, COLS = 108, 72  # cells of the body's extent; the table's grid is half as long again
-TOLERANCE, ITERATIONS = 1e-7, 400
+TOLERANCE, ITERATIONS = 1e-6, 400
 MAP_EVERY = 4  # approaches from one kept footprint to the next
 
 
@@ -105,12 +104,12 @@ def tire_table(body: TireBody, solver: type | None = None) -> TireTable:
     """The table of a body, kept on disk; not so with another ``solver`` of a half-space."""
     if solver is not None:
         return _make(body, solver)
-    arrays = kept_arrays("tires", repr(body), [__file__], lambda: _make(body)._asdict())
+    arrays = kept_arrays("tires", repr(body), [__file__, inflated_belt.__file__], lambda: _make(body)._asdict())
     arrays["spacing"] = float(arrays["spacing"])  # type: ignore[assignment]
     return TireTable(**arrays)  # type: ignore[arg-type]
 
 
-def _make(body: TireBody, solver: type = RollingField) -> TireTable:
+def _make(body: TireBody, solver: type | None = None) -> TireTable:
     """Solve approach after approach, each from the one before, until the contact comes to the edge."""
     assert body.extent is not None
     cell_x, cell_y = body.extent[0] / ROWS, body.extent[1] / COLS
@@ -118,15 +117,16 @@ def _make(body: TireBody, solver: type = RollingField) -> TireTable:
     settings = FieldSettings(rows, cols, cell_x, cell_y, body.modulus, TOLERANCE, ITERATIONS, 0, body.belt)
     middle_row, middle_col = rows // 2, cols // 2
     x, y = (numpy.arange(rows) - middle_row) * cell_x, (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y
-    gap, field = gap_over_level_road(body.form, x, y), solver(half_space_of(settings))
+    gap, field = gap_over_level_road(body.form, x, y), PressureField(settings._replace(solver=solver), "tire")
     force, size = [0.0], [(0.0, 0.0, 0.0)]
     quarters: list[Field] = [numpy.zeros((rows - middle_row, cols - middle_col))]
     for node in range(1, round(DEEPEST / SPACING) + 1):
-        found = field.solve_at_approach(gap, node * SPACING, TOLERANCE, ITERATIONS)
-        if found.status != CONVERGED:
+        try:
+            load = field.solve(gap, node * SPACING)
+        except FieldError:
             break
         loaded = field.pressure > 0.0
-        force.append(found.load)
+        force.append(load)
         size.append(
             (loaded.any(axis=1).sum() * cell_x, loaded.any(axis=0).sum() * cell_y, loaded.sum() * cell_x * cell_y)
         )

@@ -21,6 +21,17 @@ above 0 the sum with the half-space is positive definite, and one solve finds bo
 Under a flat road the belt is straight, so it pushes with ``T / R + k_r w`` along the contact: a
 plateau of f p, and what the sidewalls add to it.
 
+``C p`` is the sidewalls' stiffness at rest. As the belt comes closer to the rim by w, the ring's
+translation included, their arcs keep the length L = phi c / sin phi and open:
+
+    S(w) = 2 p (h_0 - h),  h = L cos phi' / (2 phi'),  sin phi' / phi' = (c - w) / L
+
+What they bear less, ``D(x) = C p w - S(w)``, loads the belt beside the road:
+
+    w = G * (q + D) + (F + sum D) / K_b
+
+`Softening` finds D by fixed point.
+
 Valid for 120 to 300 kPa, deflections up to 40 mm, road slopes that are small, contact within 0.12 m
 of its middle. Sources: Gong, A study of in-plane dynamics of tires (1993), for the ring; Pacejka,
 Tire and Vehicle Dynamics, ch. 9, for the rigid ring; the membrane is derived in
@@ -35,12 +46,24 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.guards import require, require_positive
-from contact_sim_pkg.pressure.settings import InflatedBelt
+from contact_sim_pkg.pressure.settings import InflatedBelt, SidewallArc
 
-__all__ = ["belt_share", "inflated_influence", "make_belt", "membrane_stiffness", "ring_stiffness"]
+__all__ = [
+    "Softening", "arc_force", "belt_share", "inflated_influence", "make_belt", "membrane_stiffness", "ring_stiffness",
+]  # fmt: skip
+
+Field = NDArray[numpy.float64]
 
 MODES = 1000
 """Of the sum: 5e-8 of G at the force."""
+
+ARC_POINTS = 2000
+"""Of the table of S: straight lines between them miss 1e-6 of it."""
+
+OVER, LEFT = 1.12, 0.05
+"""Of a pass over the plain one, which leaves 0.09 to 0.16 of a change; and what it then leaves."""
+
+STRAIGHT, CLOSED = 0.02, 2.4  # [rad] ends of that table: the sidewall is straight, the belt near the rim
 
 NOMINAL_PRESSURE = 220e3  # [Pa]
 OF_STRUCTURE = 0.25
@@ -78,17 +101,17 @@ def ring_stiffness(nominal: float, pressure: float) -> float:
 
 def make_belt(
     pressure: float, radius: float, half_angle: float, chord: float, width: float, structure: float,
-    tangential: float, bending: float, ring: float | None,
+    tangential: float, bending: float, ring: float, ring_is_body: bool = False,
 ) -> InflatedBelt:  # fmt: skip
     """The belt of a tire of free ``radius`` [m] at an inflation of ``pressure`` [Pa].
 
     half_angle [rad], chord, width [m] of the sidewalls and the belt; structure: k_0, tangential: k_t
-    [N/m^2]; bending: B [N m^2]; ring: K_b [N/m], None where the rigid ring is a body of its own.
+    [N/m^2]; bending: B [N m^2]; ring: K_b [N/m]; ring_is_body: whether the rigid ring is a body of its own.
     """
     share = belt_share(half_angle, chord, width)
     return InflatedBelt(
         radius, share * pressure * width * radius, structure + membrane_stiffness(half_angle) * pressure, tangential,
-        bending, 0.0 if ring is None else 1.0 / ring,
+        bending, 0.0 if ring_is_body else 1.0 / ring, SidewallArc(pressure, half_angle, chord, 1.0 / ring),
     )  # fmt: skip
 
 
@@ -120,3 +143,55 @@ def inflated_influence(
     weight = numpy.sin(half) / half / rigidity / (math.pi * belt.radius)
     along = numpy.cos(numpy.outer(numpy.arange(rows) * cell_x / belt.radius, n)) @ weight
     return numpy.repeat(((along + belt.ring_compliance) * cell_x * cell_y)[:, None], cols, axis=1)
+
+
+def arc_force(arc: SidewallArc) -> tuple[Field, Field]:
+    """How much closer [m] the belt is to the rim, increasing, and the force S [N/m] of both sidewalls
+    against that, [points].
+    """
+    length = arc.half_angle * arc.chord / math.sin(arc.half_angle)
+    opened = numpy.linspace(STRAIGHT, CLOSED, ARC_POINTS)
+    closer = arc.chord - length * numpy.sin(opened) / opened
+    height = 0.5 * length * numpy.cos(opened) / opened
+    rest = 0.5 * length * math.cos(arc.half_angle) / arc.half_angle
+    return closer, 2.0 * arc.pressure * (rest - height)
+
+
+class Softening:
+    """What the sidewalls of a belt bear less than their linear foundation, on the rows of a grid:
+    `follow` a solution of the field, then solve again with the gap raised by `gap`.
+    """
+
+    def __init__(self, belt: InflatedBelt, rows: int, cell_x: float) -> None:
+        """Rows of ``cell_x`` [m] under a belt with an arc, unloaded."""
+        assert belt.arc is not None
+        self._arc, self._cell_x = belt.arc, cell_x
+        influence = inflated_influence(belt._replace(ring_compliance=0.0), rows, 1, cell_x, 1.0)[:, 0]
+        place = numpy.arange(rows)
+        self._along = influence[abs(place[:, None] - place)]
+        self._closer, self._force = arc_force(belt.arc)
+        self._linear = membrane_stiffness(belt.arc.half_angle) * belt.arc.pressure
+        self.load: Field = numpy.zeros(rows)  # [N/m] D
+        self.gap: Field = numpy.zeros(rows)  # [m] that it opens
+        self.bent: Field = numpy.zeros(rows)  # [m] of the belt beside that of its loads: of its memory
+
+    @property
+    def total(self) -> float:
+        """Sum of D [N]."""
+        return float(self.load.sum()) * self._cell_x
+
+    def reset(self) -> None:
+        """Reset to an unloaded belt."""
+        self.load.fill(0.0)
+        self.gap.fill(0.0)
+
+    def follow(self, line: Field) -> float:
+        """Take the line load ``line`` [N/m] [rows] of the road; returns about how far `gap` still is from
+        settled [m].
+        """
+        ring = (float(line.sum()) * self._cell_x + self.total) * self._arc.ring_compliance
+        closer = self._along @ (line + self.load) + ring + self.bent
+        softer = self._linear * closer - numpy.interp(closer, self._closer, self._force)
+        self.load = self.load + OVER * (softer - self.load)
+        before, self.gap = self.gap, self._along @ self.load + self.total * self._arc.ring_compliance
+        return LEFT * float(abs(self.gap - before).max())

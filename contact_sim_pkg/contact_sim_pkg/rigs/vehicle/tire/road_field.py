@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy
+from numpy.typing import NDArray
 
 from contact_sim_pkg.laws.parameters import Contact, TabulatedElastic
 from contact_sim_pkg.pressure.field.instant import grown_window
@@ -17,6 +18,8 @@ from contact_sim_pkg.rigs.vehicle.tire.footprint import clear_beyond, level_unde
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
 from contact_sim_pkg.run.errors import RunError
+
+Line = NDArray[numpy.float64]
 
 MOST_STEPS = 600
 """Of a tread that rolls in before the start; slower than that it is nearly relaxed."""
@@ -67,7 +70,8 @@ class RoadField(ContactField):
         self._tread_state.reset()
         relaxed = relaxed_grids(self.grids, self._tread)
         approach, field = self._stand_on(relaxed, load)
-        self._tread_state.settle(self.road_row(relaxed.wide.settings), self._on_wide(field.pressure))
+        row = self.road_row(relaxed.wide.settings)
+        self._tread_state.settle(row, self._on_wide(field.pressure), self._softer(field))
         return approach
 
     def roll_in(self, load: float, speed: float) -> float | None:
@@ -85,7 +89,7 @@ class RoadField(ContactField):
             for step in range(1, steps):
                 self._tread_state.roll(round(step * way) - round((step - 1) * way))
                 field.solve_load(self.gap(wide), load)
-                self._tread_state.store(self._on_wide(field.pressure))
+                self._tread_state.store(self._on_wide(field.pressure), self._softer(field))
             # The field of the start, which the run solves again and stores
             self._tread_state.roll(round(steps * way) - round((steps - 1) * way))
             return field.solve_load(self.gap(wide), load, AT_REST)
@@ -94,8 +98,20 @@ class RoadField(ContactField):
 
     def store(self) -> None:
         """See `ContactField`; the tread stores the pressure."""
-        if self._tread_state is not None and self.published is not None:
-            self._tread_state.store(self._on_wide(self.published.pressure))
+        if self._tread_state is not None and self.published is not None and self.grids is not None:
+            pressure = self.published.pressure
+            usual, wide = self.grids.both()
+            field = usual if pressure.shape == usual.pressure.shape else wide
+            self._tread_state.store(self._on_wide(pressure), self._softer(field))
+
+    def _softer(self, field: PressureField) -> Line | None:
+        """Line load [N/m] on the rows of the wide grid that softening sidewalls leave to the belt."""
+        if field.softening is None:
+            return None
+        line = numpy.zeros(len(self._pressed))
+        row = len(line) // 2 - field.settings.rows // 2
+        line[row : row + field.settings.rows] = field.softening.load
+        return line
 
     def _on_wide(self, pressure: Gap) -> Gap:
         """A pressure field on the wide grid, which both grids share their middle with."""
@@ -135,6 +151,9 @@ class RoadField(ContactField):
             whole = self._tread_state.gap
             row, col = whole.shape[0] // 2 - settings.rows // 2, (whole.shape[1] - settings.cols) // 2
             out += whole[row : row + settings.rows, col : col + settings.cols]
+            for field in () if self.grids is None else self.grids.both():
+                if field.softening is not None and field.settings.rows == settings.rows:
+                    field.softening.bent[:] = self._tread_state.bent[row : row + settings.rows]
         return out
 
     def is_clear(self, grids: FieldGrids, approach: float) -> bool:

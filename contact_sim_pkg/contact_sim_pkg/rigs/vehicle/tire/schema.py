@@ -70,28 +70,28 @@ class Inflation(Section):
         1e5, 4e5, "Pa", "inflation above the air outside; the model is for 120 to 300 kPa", default=220e3
     )
     sidewall_angle: float = number(
-        0.8, 1.57, "rad", "half angle of the inflated sidewall's arc; the one fitted value of its shape", default=1.431
+        0.6, 1.57, "rad", "half angle of the inflated sidewall's arc; 0.79 to 0.94 of car tires (fitted)", default=0.863
     )
     sidewall_chord: float | None = number(
         0.02, 0.6, "m", "chord of that arc; 0.887 of the section height by default", default=None
     )
     belt_width: float | None = number(
-        0.05, 0.4, "m", "belt under pressure; 0.683 of the section width by default", default=None
+        0.05, 0.4, "m", "belt under pressure; 0.839 of the section width by default", default=None
     )
-    structure: float = number(0.0, 1e7, "N/m^2", "radial stiffness of the sidewalls without inflation", default=0.0)
-    tangential: float = number(1e4, 1e8, "N/m^2", "tangential stiffness of the sidewalls", default=4.4e5)
+    structure: float = number(0.0, 1e7, "N/m^2", "radial stiffness of the sidewalls without inflation", default=1.02e5)
+    tangential: float = number(1e4, 1e8, "N/m^2", "tangential stiffness of the sidewalls", default=1.07e5)
     bending: float = number(0.0, 1e3, "N m^2", "bending stiffness of the belt along; 1 to 10", default=2.0)
     tread_modulus: float = number(
-        1e5, 1e9, "Pa", "modulus of the half-space for tread and cross bending of the belt (fitted)", default=4.0e6
+        1e5, 1e9, "Pa", "modulus of the half-space for tread and cross bending of the belt (fitted)", default=7.9e6
     )
     tread_poisson: float = number(0.0, 0.5, "", "Poisson's ratio of that half-space; rubber is 0.5", default=0.5)
-    crown_radius: float = number(0.1, 30.0, "m", "radius of the inflated crown across the tread", default=2.0)
+    crown_radius: float = number(0.1, 30.0, "m", "radius of the inflated crown across the tread", default=2.29)
     shoulder: float = number(
-        0.0, 0.02, "m", "fall of the shoulder's round, with the 6th power, at half the belt's width", default=8e-4
+        0.0, 0.02, "m", "fall of the shoulder's round, with the 6th power, at half the belt's width", default=1.5e-3
     )
     ring_stiffness: float = number(
         1e5, 1e8, "N/m", "rigid ring against the rim at 220 kPa; a quarter of it is there without inflation",
-        default=1.4e6,
+        default=1.19e6,
     )  # fmt: skip
 
     def open_values(self, scene: Scene) -> dict[str, Any]:

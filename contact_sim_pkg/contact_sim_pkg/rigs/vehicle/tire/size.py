@@ -12,8 +12,8 @@ INCH = 0.0254  # [m]
 LEAST_HEIGHT = 0.025  # [m] of a section
 CHORD = 0.887
 """Of the section height: chord of the sidewall's arc, 0.10 m for 205/55 R16; 0.08 to 0.11 m."""
-BELT = 0.683
-"""Of the section width: belt under pressure, 0.14 m for 205/55 R16; a choice, 0.13 to 0.16 m."""
+BELT = 0.839
+"""Of the section width: belt under pressure, 0.172 m for 205/55 R16 (fitted)."""
 
 
 class TireSize(NamedTuple):

@@ -115,11 +115,11 @@ class TreadState:
         self._belt = None if belt is None else _Memory(belt[1], step, (settings.rows, 1))
         self._along: Field = numpy.zeros((0, 0))
         if belt is not None:  # the ring's translation has no memory
-            column = inflated_influence(
-                belt[0]._replace(ring_compliance=0.0), settings.rows, 1, settings.cell_x, settings.cell_y
-            )[:, 0]
+            column = inflated_influence(belt[0]._replace(ring_compliance=0.0), settings.rows, 1, settings.cell_x, 1.0)[
+                :, 0
+            ]
             self._along = toeplitz(column)
-        self._row = 0
+        self._row, self._cell_y = 0, settings.cell_y
         self._displaced: Field = numpy.zeros(shape)
         self.gap: Field = numpy.zeros(shape)  # [m] to be added to the gap at the present instant
 
@@ -130,15 +130,20 @@ class TreadState:
             self._belt.settle(numpy.zeros((len(self.gap), 1)))
         self.gap.fill(0.0)
 
-    def settle(self, row: int, pressure: Field) -> None:
+    @property
+    def bent(self) -> Field:
+        """What the belt yields by its memory [rows] [m], a part of `gap`."""
+        return numpy.zeros(len(self.gap)) if self._belt is None else self._belt.gap[:, 0]
+
+    def settle(self, row: int, pressure: Field, beside: Field | None = None) -> None:
         """The tread has stood under `pressure` [Pa] for long, with its first row at lattice row
-        `row`.
+        `row`, and its belt under the line load ``beside`` it [N/m].
         """
         self._row = row
         displacement(self._relaxed, self._buffers, pressure, self._displaced)
         self._tread.settle(self._displaced)
         if self._belt is not None:
-            self._belt.settle(self._bent(pressure))
+            self._belt.settle(self._bent(pressure, beside))
         self._add_up()
 
     def move_to(self, row: int) -> None:
@@ -156,17 +161,20 @@ class TreadState:
         self.move_to(row + cells)
         self._row = row
 
-    def store(self, pressure: Field) -> None:
-        """Store the pressure [Pa] that was found with the present `gap`."""
+    def store(self, pressure: Field, beside: Field | None = None) -> None:
+        """Store the pressure [Pa] that was found with the present `gap`, and the line load ``beside`` it
+        [N/m] on the belt.
+        """
         displacement(self._relaxed, self._buffers, pressure, self._displaced)
         self._tread.store(self._displaced)
         if self._belt is not None:
-            self._belt.store(self._bent(pressure))
+            self._belt.store(self._bent(pressure, beside))
         self._add_up()
 
-    def _bent(self, pressure: Field) -> Field:
+    def _bent(self, pressure: Field, beside: Field | None) -> Field:
         """Displacement of the belt at long times [rows, 1] [m]."""
-        return numpy.asarray(self._along @ pressure.sum(axis=1))[:, None]
+        line = self._cell_y * pressure.sum(axis=1)
+        return numpy.asarray(self._along @ (line if beside is None else line + beside))[:, None]
 
     def _add_up(self) -> None:
         self.gap[:] = self._tread.gap

@@ -1,8 +1,7 @@
 """Inflated tire fitted to stiffness, deflection and contact of a property file.
 
 Sidewall angle, tread modulus, structural stiffness, crown radius and rigid ring change; where the
-file has the ring this is held back, and the bending of the belt changes too. The tire is more progressive than files say: of
-stiffness times deflection over load it has 1.3 where they have 1.0 to 1.1. So stiffness and
+file has the ring this is held back, and the bending of the belt changes too. Stiffness and
 deflection count alike, before the contact, and what the tire cannot be is left as a difference.
 """
 
