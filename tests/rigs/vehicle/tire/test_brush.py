@@ -503,3 +503,16 @@ def test_a_field_that_is_not_on_the_cells_of_the_bristles_is_refused():
     for fields in ((wrong, right, right, mode), (right, wrong, right, mode), (right, right, right, mode[:4].copy())):
         with pytest.raises(ValueError, match="not on the cells of the bristles"):
             advance_brush(COULOMB, state, grid, fields[0], rolling_step(0.01, 0.0, 0.0), *fields[1:])
+
+
+def test_bristles_that_a_falling_pressure_lets_go_lose_what_they_had_stored():
+    """Strained on a standing belt, then the pressure falls to a tenth: friction takes the difference of k u^2 / 2."""
+    contact = strip_contact(COULOMB, 20, uniform)
+    contact.step(RollingStep(0.0, 0.0, 0.0))
+    contact.step(RollingStep(1e-3, 0.0, 0.0))
+    area, before = contact.grid.cell_x * contact.grid.cell_y, contact.deflections.copy()
+    assert 0.1 * 0.9 * PEAK < STIFFNESS * before.max() < 0.9 * PEAK  # they stick
+    result = contact.step(RollingStep(0.0, 0.0, 0.0), 0.1 * contact.pressure)
+    lost = 0.5 * STIFFNESS * area * (before**2 - contact.deflections**2).sum()
+    assert lost > 0.0
+    assert result.dissipated == pytest.approx(lost, rel=1e-9)

@@ -42,6 +42,8 @@ class Track(NamedTuple):
     length: float  # [m] of the contact
     dissipated: float  # [J] by the bristles
     radius: float  # [m] effective rolling radius
+    works: Samples  # [intervals + 1, works] [J] of belt and rim, `belt_motion.WORKS`
+    kept: Samples  # [intervals + 1, 2] [J] kinetic energy of belt and rim, energy of the bristles
 
 
 def flat_track(load: float, speed: float, duration: float, *values: str) -> Track:
@@ -71,14 +73,17 @@ def track_of(scene: ResolvedScene, speed: float, duration: float, step: float = 
     rows, count, segments = [], round(duration / INTERVAL), round(INTERVAL / step)
     shear = RollingShear(friction, settings)
     shear.start(pressure, origin, 0.0, 0.0)
+    works, kept = [shear.works()], [shear.kept()]
     for n in range(1, count + 1):
         tire_step = TireStep(
             (n - 1) * INTERVAL, step, segments, speed * n * INTERVAL, 0.0, 0.0, friction.deflection, 1, 0
         )  # fmt: skip
         rows.append(shear.roll(tire_step, pressure, origin)[:segments].copy())
+        works.append(shear.works())
+        kept.append(shear.kept())
     samples, result = numpy.concatenate(rows), shear.publish(pressure).result
     length = float(pressure.any(axis=1).sum()) * settings.cell_x
     return Track(
         step * numpy.arange(len(samples), dtype=numpy.float64), samples[:, :3], samples[:, 3:7], samples[:, 7], length,
-        result.dissipated + result.released, friction.radius,
+        result.dissipated + result.released, friction.radius, numpy.array(works), numpy.array(kept),
     )  # fmt: skip

@@ -27,7 +27,7 @@ from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm, body_of
 from contact_sim_pkg.rigs.vehicle.tire.footprint import hertz_weights
 from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, gap_over_level_road, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import stiffened
-from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, Sidewalls, TreadViscoelasticity, WheelSpin
+from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, LoadFriction, Sidewalls, TreadViscoelasticity, WheelSpin
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import stiffening
 from contact_sim_pkg.run.contact_laws import normal_loss
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -95,6 +95,7 @@ class RollingFriction:
     """Bristles of the tire, the belt on its sidewalls, and what turns and steers the wheel."""
 
     brush: Brush
+    by_load: LoadFriction | None  # None: the same friction under any load
     unloaded: float  # [m] radius
     deflection: float  # [m] of the axle at the standing load
     slips: Programme  # longitudinal slip and slip angle [rad]
@@ -234,7 +235,12 @@ def _rolling_friction(
         if sidewalls is None
         else min(LONGEST_STEP, PART_OF_SWING / fastest(sidewalls, brush, unloaded, area))
     )
-    return RollingFriction(brush, unloaded, deflection, Programme.of(slips), sidewalls, Programme.of(torques), step)
+    by_load = None
+    if law.load_exponent > 0.0 or law.load_exponent_across > 0.0:
+        by_load = LoadFriction(law.nominal_load, law.load_exponent, law.load_exponent_across)
+    return RollingFriction(
+        brush, by_load, unloaded, deflection, Programme.of(slips), sidewalls, Programme.of(torques), step
+    )
 
 
 def fastest(sidewalls: Sidewalls, brush: Brush, radius: float, area: float) -> float:
@@ -265,7 +271,7 @@ def _sidewalls(scene: ResolvedScene, wheel: WheelSpin | None) -> Sidewalls | Non
     return Sidewalls(
         mass, keys.belt_inertia, yaw_inertia, along, keys.lateral, keys.rotational, keys.yaw,
         damping(along, mass), damping(keys.lateral, mass), damping(keys.rotational, keys.belt_inertia),
-        damping(keys.yaw, yaw_inertia), wheel,
+        damping(keys.yaw, yaw_inertia), wheel, keys.bending,
     )  # fmt: skip
 
 

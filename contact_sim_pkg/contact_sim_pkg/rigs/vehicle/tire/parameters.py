@@ -19,6 +19,16 @@ class Brush(NamedTuple):
     coefficient_static: float  # ratio of shear stress to pressure at which sticking ends, > 0
     coefficient_kinetic: float  # ratio while sliding fast, > 0, <= coefficient_static
     speed: float = 0.0  # [m/s] of that fall, >= 0; 0: kinetic at any speed
+    along: float = 1.0  # factor of both coefficients under the present load, for slip along the travel, > 0
+    across: float = 1.0  # sideways, > 0
+
+
+class LoadFriction(NamedTuple):
+    """Friction that falls with the load F: both coefficients times ``(F / nominal)^-exponent``."""
+
+    nominal: float  # [N]
+    along: float  # exponent for slip along the travel
+    across: float  # sideways
 
 
 class WheelSpin(NamedTuple):
@@ -44,6 +54,7 @@ class Sidewalls(NamedTuple):
     damping_twist: float  # [N m s/rad]
     damping_yaw: float  # [N m s/rad]
     wheel: WheelSpin | None  # None: the slip programme turns the rim
+    bending: float = 0.0  # [1/(m N)] curvature of the belt in the plane of the road per force across
 
 
 class TreadViscoelasticity(NamedTuple):

@@ -209,9 +209,9 @@ class BrushSection(Section):
     """
 
     stiffness_x: float = number(
-        1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (fitted)", default=7.1e7
+        1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (fitted)", default=8.4e7
     )
-    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; less work where equal", default=7.1e7)
+    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; less work where equal", default=8.4e7)
     coefficient_static: float = number(
         0.0, 5.0, "", "static friction; the peak of a dry road, 0.9 to 1.1, lies below it", above=True, default=1.15
     )
@@ -220,6 +220,19 @@ class BrushSection(Section):
     )
     sliding_speed: float = number(
         0.0, 1e3, "m/s", "of the fall from static to kinetic, exp(-v / sliding_speed); 0: at once", default=4.0
+    )
+    nominal_load: float = number(
+        1.0, 1e6, "N", "load at which the coefficients hold; heavier loaded tires have less friction", default=4000.0
+    )
+    load_exponent: float = number(
+        0.0,
+        1.0,
+        "",
+        "friction along falls with the load over the nominal one to this power; 0: it does not",
+        default=0.10,
+    )
+    load_exponent_across: float = number(
+        0.0, 1.0, "", "the same sideways; 7 and 10 % a doubling measured", default=0.15
     )
 
 
@@ -235,7 +248,11 @@ class SidewallComplianceSection(Section):
         1e3, 1e9, "N/m", "across; with the bristles in series 158 kN/m, a standing tire's", default=1.8e5
     )
     rotational: float = number(10.0, 1e8, "N m/rad", "about the axle", default=8.2e4)
-    yaw: float = number(10.0, 1e8, "N m/rad", "about the vertical", default=5000.0)
+    yaw: float = number(10.0, 1e8, "N m/rad", "about the vertical", default=6000.0)
+    bending: float = number(
+        0.0, 1.0, "1/(m N)", "curvature of the belt in the plane of the road per side force (fitted); 0: rigid",
+        default=1.2e-4,
+    )  # fmt: skip
     damping_ratio: float = number(0.0, 1.0, "", "of critical, of each motion alone", default=0.045)
     belt_mass: float | None = number(
         0.1, 1000.0, "kg", "belt and tread; that of rigid_ring by default, 7 without", default=None

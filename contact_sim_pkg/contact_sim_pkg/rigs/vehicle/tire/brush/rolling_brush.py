@@ -68,6 +68,9 @@ LEAST_WAY = 1e-12
 """Shorter ways of the belt [cells] in one step count as none: a locked wheel."""
 
 
+LEAST_SQUARE = 1e-200
+"""[m^2] of a slip that has a direction."""
+
 APART, STICKS, SLIPS = 0, 1, 2
 """What the bristle of a cell does: it carries no pressure, its tip holds to the road, or slides
 over it.
@@ -103,6 +106,7 @@ class RollingStep(NamedTuple):
     drift: float  # of the belt over the road, to the left: v tan(alpha) dt
     duration: float = 0.0  # [s]; 0: too short for any friction but the kinetic one
     turn: float = 0.0  # [rad] yaw of the belt, to the left
+    bend: float = 0.0  # [1/m] curvature of the belt in the plane of the road: it lies on y = -bend x^2 / 2
 
 
 class BrushResult(NamedTuple):
@@ -233,12 +237,19 @@ def settle_on(state: BrushState, grid: PatchGrid, pressure: Field, phase: float)
 
 @kernel
 def sliding_brush(brush: Brush, step: RollingStep) -> Brush:
-    """The brush with the sliding coefficient of the slip speed of `step` as its kinetic one."""
+    """The brush with the sliding coefficient of the slip speed of `step` as its kinetic one, and both as
+    the load leaves them in the direction of the slip.
+    """
     kinetic = brush.coefficient_kinetic
     if brush.speed > 0.0 and step.duration > 0.0:
         slip_speed = math.sqrt((step.belt - step.travel) ** 2 + step.drift**2) / step.duration
         kinetic += (brush.coefficient_static - kinetic) * math.exp(-slip_speed / brush.speed)
-    return Brush(brush.stiffness_x, brush.stiffness_y, brush.coefficient_static, kinetic, brush.speed)
+    static = brush.coefficient_static
+    if brush.along != 1.0 or brush.across != 1.0:
+        along, across = (step.belt - step.travel) ** 2, step.drift**2
+        factor = brush.along + (brush.across - brush.along) * across / max(along + across, LEAST_SQUARE)
+        static, kinetic = factor * static, factor * kinetic
+    return Brush(brush.stiffness_x, brush.stiffness_y, static, kinetic, brush.speed, brush.along, brush.across)
 
 
 @kernel
@@ -257,18 +268,20 @@ def advance_step(
         cells = 0.0
     over = cells if cells > 0.0 else 1.0
     turn = step.turn / over  # of the belt for each cell of way: its points move by -turn y, turn x
-    slide = Slide(
-        (step.belt - step.travel) / over + turn * grid.origin_y,
-        -step.drift / over - turn * (grid.origin_x - (PAD + phase) * grid.cell_x),
-        turn * grid.cell_y,
-        -turn * grid.cell_x,
-    )
+    # A point of a bent belt that rolls on by a cell moves sideways by bend x cell
+    aside = turn + (step.bend * math.copysign(grid.cell_x, step.belt) if cells > 0.0 else 0.0)
+    along, backward = (step.belt - step.travel) / over + turn * grid.origin_y, step.belt < 0.0
     remaining = cells
     dissipated, released = 0.0, 0.0
     while True:
-        # The pressure changes linearly over the step, the slide is the same in each segment.
-        segment = next_segment(phase, remaining, step.belt < 0.0)
+        # The pressure changes linearly over the step, the slide is that of the middle of each segment.
+        segment = next_segment(phase, remaining, backward)
         remaining -= segment.length
+        middle = PAD + 0.5 * (segment.start + segment.end)
+        slide = Slide(
+            along, -step.drift / over - aside * (grid.origin_x - middle * grid.cell_x), turn * grid.cell_y,
+            -aside * grid.cell_x,
+        )  # fmt: skip
         blend(state.before, pressure, end - (end - start) * remaining / over, window, state.bristles.pressure)
         work, energy = advance_bristles(brush, state.bristles, window, segment, slide)
         dissipated += work

@@ -16,6 +16,10 @@ from contact_sim_pkg.rigs.vehicle.tire.brush.belt_motion import (
     BELT_STATES,
     RIM,
     SPIN,
+    WORKS,
+    X_RATE,
+    Y_RATE,
+    YAW_RATE,
     BeltDrive,
     advance_belt,
 )
@@ -28,8 +32,12 @@ from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import (
     rolling_step,
 )
 from contact_sim_pkg.rigs.vehicle.tire.model import RollingFriction
+from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
 
 __all__ = ["RollingShear", "Sheared", "TireStep"]
+
+LEAST_LOAD = 0.1
+"""Of the nominal load: below it friction rises no more."""
 
 Field = NDArray[numpy.float64]
 
@@ -86,11 +94,13 @@ class RollingShear:
         self._samples: Field = numpy.zeros((0, BELT_SAMPLES))
         self._last: Field = numpy.zeros(BELT_SAMPLES)
         self._result = BrushResult(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        self._load = math.nan  # [N] smoothed
 
     def start(self, pressure: Field, origin: tuple[float, float], travel: float, slopes: float) -> None:
         """Lay the bristles under the first field, which stands at ``travel`` [m]."""
         self.reset()
         self._travel, self._slopes = travel, slopes
+        self._load, self._brush = self._smoothed(pressure, 0.0)
         step = rolling_step(0.0, *self._friction.slips.at(0.0))
         self._result = self._advance_bristles(self._lay(pressure, origin), step)
 
@@ -103,6 +113,7 @@ class RollingShear:
         grid, sidewalls = self._lay(pressure, origin), self._friction.sidewalls
         before, way = self._result, step.travel - self._travel
         speed = way / step.duration
+        self._load, self._brush = self._smoothed(pressure, way)
         # The slips in the middle of the coupling step act over all of it.
         slip, angle = self._friction.slips.at(step.start + 0.5 * step.duration)
         first, radius = math.isnan(self._speed), self._friction.radius_at(step.deflection)
@@ -126,7 +137,7 @@ class RollingShear:
             if len(self._samples) < rows:
                 self._samples = numpy.zeros((rows, BELT_SAMPLES))
             found = advance_belt(
-                self._friction.brush, sidewalls, self._bristles, self._belt, grid, self._pressure, drive, self._shear_x,
+                self._brush, sidewalls, self._bristles, self._belt, grid, self._pressure, drive, self._shear_x,
                 self._shear_y, self._state, self._samples,
             )  # fmt: skip
             samples = self._samples
@@ -149,6 +160,40 @@ class RollingShear:
             slip, angle, result, self._shear_x[part].copy(), self._shear_y[part].copy(), self._state[part].copy()
         )  # fmt: skip
 
+    def works(self) -> Field:
+        """Works of belt and rim since the start [J], `WORKS` of `belt_motion.py`; zeros for a rigid belt."""
+        return self._belt[WORKS].copy()
+
+    def kept(self) -> tuple[float, float]:
+        """Kinetic energy of belt and rim in the plane of the road, and energy in the bristles [J]."""
+        sidewalls, belt, brush = self._friction.sidewalls, self._belt, self._friction.brush
+        area, bristles = self._wide.cell_x * self._wide.cell_y, self._bristles.bristles
+        strained = 0.5 * area * float(
+            (brush.stiffness_x * bristles.deflection_x**2 + brush.stiffness_y * bristles.deflection_y**2).sum()
+        )  # fmt: skip
+        if sidewalls is None or math.isnan(self._speed):
+            return 0.0, strained
+        aside = self._speed * math.tan(self._friction.slips.at(self._time)[1]) + belt[Y_RATE]
+        kinetic = sidewalls.mass * ((self._speed + belt[X_RATE]) ** 2 + aside**2)
+        kinetic += sidewalls.inertia * belt[SPIN] ** 2 + sidewalls.yaw_inertia * belt[YAW_RATE] ** 2
+        if sidewalls.wheel is not None:
+            kinetic += sidewalls.wheel.inertia * belt[RIM] ** 2
+        return 0.5 * float(kinetic), strained
+
+    def _smoothed(self, pressure: Field, way: float) -> tuple[float, Brush]:
+        """Load [N], smoothed over a length of the contact, after a ``way`` [m] to a field ``pressure`` [Pa],
+        and the bristles with their friction under it.
+        """
+        by_load, brush = self._friction.by_load, self._friction.brush
+        if by_load is None:
+            return math.nan, brush
+        load = float(pressure.sum()) * self._wide.cell_x * self._wide.cell_y
+        if not math.isnan(self._load):
+            length = max(1, int((pressure > 0.0).any(axis=1).sum())) * self._wide.cell_x
+            load = self._load + (load - self._load) * -math.expm1(-abs(way) / length)
+        ratio = max(load, LEAST_LOAD * by_load.nominal) / by_load.nominal
+        return load, brush._replace(along=ratio**-by_load.along, across=ratio**-by_load.across)
+
     def _part(self, pressed: Field) -> tuple[slice, slice]:
         """The middle of the bristles' grid that a field covers."""
         rows, cols = pressed.shape
@@ -165,7 +210,7 @@ class RollingShear:
 
     def _advance_bristles(self, grid: PatchGrid, step: RollingStep) -> BrushResult:
         found: BrushResult = advance_brush(
-            self._friction.brush, self._bristles, grid, self._pressure, step, shear_x=self._shear_x,
+            self._brush, self._bristles, grid, self._pressure, step, shear_x=self._shear_x,
             shear_y=self._shear_y, mode=self._state,
         )  # fmt: skip
         return found

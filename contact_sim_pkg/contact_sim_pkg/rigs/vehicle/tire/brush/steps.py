@@ -80,6 +80,7 @@ class BeltSegment(NamedTuple):
     """A way of the belt within one cell, and what the road slides along it."""
 
     length: float  # [cells]
+    start: float  # phase at its start
     end: float  # phase at its end
     read: int  # a bristle m is found in row m - read
     write: int  # and left in row m - write
@@ -105,7 +106,7 @@ def next_segment(phase: float, remaining: float, backward: bool) -> BeltSegment:
     """
     if remaining <= 0.0:
         here = 1.0 if phase <= 0.5 else 0.0
-        return BeltSegment(0.0, phase, 0, 0, here, 1.0 - here)
+        return BeltSegment(0.0, phase, phase, 0, 0, here, 1.0 - here)
     if backward:
         start = phase if phase > 0.0 else 1.0  # phase 0 of one label is phase 1 of the next
         length = min(start, remaining)
@@ -117,7 +118,7 @@ def next_segment(phase: float, remaining: float, backward: bool) -> BeltSegment:
         end = start + length if remaining < 1.0 - start else 1.0
         read, write = 0, 1 if end >= 1.0 else 0
     here = min(abs(min(end, 0.5) - min(start, 0.5)), length)
-    return BeltSegment(length, end, read, write, here, length - here)
+    return BeltSegment(length, start, end, read, write, here, length - here)
 
 
 @kernel
@@ -169,8 +170,13 @@ def carry(
     new_x, new_y, slides, way = slide_onto(brush, grown_x, grown_y, slid, at_end)
     if way <= 0.0:
         return new_x, new_y, slides, 0.0
+    # The mean of the stress at which it began to slide, in this segment or before, and that at its end
     stress = brush.coefficient_kinetic * at_end
-    stress_before = shear_of(brush, x, y) if slid else stress  # the mean of both, if it slid before
+    if slid:
+        stress_before = shear_of(brush, x, y)
+    else:
+        held = brush.coefficient_static * max(here + segment.start * (following - here), at_end)
+        stress_before = max(min(shear_of(brush, grown_x, grown_y), held), stress)
     return new_x, new_y, slides, way * stress * 0.5 * (stress + stress_before)
 
 
