@@ -172,11 +172,10 @@ def carry(
         return new_x, new_y, slides, 0.0
     # The mean of the stress at which it began to slide, in this segment or before, and that at its end
     stress = brush.coefficient_kinetic * at_end
-    if slid:
-        stress_before = shear_of(brush, x, y)
-    else:
+    stress_before = shear_of(brush, x, y)
+    if not slid:
         held = brush.coefficient_static * max(here + segment.start * (following - here), at_end)
-        stress_before = max(min(shear_of(brush, grown_x, grown_y), held), stress)
+        stress_before = max(stress_before, min(shear_of(brush, grown_x, grown_y), held), stress)
     return new_x, new_y, slides, way * stress * 0.5 * (stress + stress_before)
 
 
