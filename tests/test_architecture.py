@@ -1,10 +1,11 @@
 """The order of imports between the rooms of the package."""
 
 import ast
+import re
 
 import pytest
 from tests.house.closures import folder_circles
-from tests.house.source import LABORATORY, PACKAGE, circles, imports, modules
+from tests.house.source import LABORATORY, PACKAGE, Module, circles, imports, modules
 
 ORDER = (
     ("requirements",),
@@ -106,6 +107,27 @@ def test_a_name_that_is_bound_twice_is_seen():
     assert bound_twice(ast.parse(twice)) == {"LIMIT"}
     assert bound_twice(ast.parse("def run(): ...\nrun, stop = 1, 2")) == {"run"}
     assert bound_twice(ast.parse("try:\n    import a as b\nexcept ImportError:\n    b = None\n")) == set()
+
+
+NAMED_PATH = re.compile(r"(?<![\w/.~<-])((?:[\w.-]+/)+[\w.-]*\w\.(?:py|md|yaml|msg|cpp|csv))\b")
+
+
+def paths_that_are_not_there(module):
+    """Paths of files in the docstrings of a module that stand in none of the folders that they may count from."""
+    project = PACKAGE.parents[1]
+    places = (project, PACKAGE, LABORATORY, PACKAGE.parent, project / "contact_msgs_defs", *module.path.parents)
+    nodes = (each for each in ast.walk(module.tree) if isinstance(each, ast.Module | ast.FunctionDef | ast.ClassDef))
+    named = {path for node in nodes for path in NAMED_PATH.findall(ast.get_docstring(node) or "")}
+    return {path for path in named if not any((place / path).exists() for place in places)}
+
+
+def test_files_that_docstrings_name_exist(tmp_path):
+    everywhere = [each for root in (PACKAGE, LABORATORY) for each in modules(root).values()]
+    assert {each.path: gone for each in everywhere if (gone := paths_that_are_not_there(each))} == {}
+    stray = Module(
+        "stray", tmp_path / "stray.py", "", ast.parse('"""See `laws/nowhere.py` and laws/elastic_law.py."""')
+    )
+    assert paths_that_are_not_there(stray) == {"laws/nowhere.py"}
 
 
 def test_no_modules_import_each_other(edges):
