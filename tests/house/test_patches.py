@@ -28,8 +28,8 @@ from contact_sim_pkg.bag.messages import decode, encode
 from contact_sim_pkg.records.messages import SolverCost
 
 given = {"block": 4, "wall_time": 0.1, "real_time_factor": 1.0}
-assert SolverCost(**given).longest_stretch == 0.0
-cost = SolverCost(**given, longest_stretch=0.25)
+assert SolverCost(**given).longest_coupling_step == 0.0
+cost = SolverCost(**given, longest_coupling_step=0.25)
 again = decode(SolverCost, encode(cost))
 assert all(numpy.array_equal(getattr(again, name), getattr(cost, name)) for name in cost._fields)
 """

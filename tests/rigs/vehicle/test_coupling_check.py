@@ -49,7 +49,7 @@ def estimated(outputs, name):
 
 
 def steps(outputs):
-    return int(column(outputs, "bench/cost", "stretches").sum())
+    return int(column(outputs, "bench/cost", "coupling_steps").sum())
 
 
 def test_the_way_follows_from_the_error_of_a_step():

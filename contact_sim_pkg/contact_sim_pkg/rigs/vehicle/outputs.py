@@ -69,8 +69,8 @@ class BlockRecord:
     field_iterations: int = 0
     field_residual: float = 0.0
     field_jump: float = 0.0
-    stretches: int = 0
-    stretches_repeated: int = 0
+    coupling_steps: int = 0
+    coupling_steps_repeated: int = 0
     coupling_error: float = 0.0  # over the standing load
     missed: Array | None = None  # [contacts, kinds] of `coupling/check.py`; None: not estimated
 
@@ -148,7 +148,8 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
         stamps, wall_time, _estimates(outputs, record.missed, model.bodies, stamps.period),
         steps=steps, rejected_steps=rejected, events=events,
         field_iterations=record.field_iterations, field_residual=record.field_residual, field_jump=record.field_jump,
-        stretches=record.stretches, stretches_repeated=record.stretches_repeated, coupling_error=record.coupling_error,
+        coupling_steps=record.coupling_steps, coupling_steps_repeated=record.coupling_steps_repeated,
+        coupling_error=record.coupling_error,
     )  # fmt: skip
     return [*outputs, Output("bench/cost", stamps.start, cost)]
 

@@ -240,9 +240,9 @@ class Coupling:
         if self._by_error and count > least and error > 1.0:
             self._proposed = max(float(least), min(self._proposed, AGAIN * count))
             self.bodies.restore(saved)
-            record.stretches_repeated += 1
+            record.coupling_steps_repeated += 1
             return False
-        record.stretches += 1
+        record.coupling_steps += 1
         if self.model.coupling is not None:
             record.coupling_error = max(record.coupling_error, outcome.error * self.model.coupling.tolerance)
         self._close(step, outcome, record, SLOPE if error <= 1.0 else 1.0)
