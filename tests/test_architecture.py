@@ -4,7 +4,7 @@ import ast
 import re
 
 import pytest
-from tests.house.closures import folder_circles
+from tests.house.closures import VEHICLE, arrows_back, folder_circles
 from tests.house.source import LABORATORY, PACKAGE, Module, circles, imports, modules
 
 ORDER = (
@@ -139,9 +139,6 @@ CIRCLES = [  # of neighbours, one of them a folder: a list that only gets shorte
      "identify.sweep"},
     {"rigid.body", "rigid.body_state", "rigid.contact", "rigid.forces", "rigid.geometry", "rigid.impact",
      "rigid.motion", "rigid.problem"},
-    {"rigs.vehicle.bodies", "rigs.vehicle.contact_field", "rigs.vehicle.coupling", "rigs.vehicle.drive",
-     "rigs.vehicle.entries", "rigs.vehicle.field_driver", "rigs.vehicle.lattice", "rigs.vehicle.model",
-     "rigs.vehicle.outputs", "rigs.vehicle.tire"},
 ]  # fmt: skip
 
 
@@ -149,6 +146,23 @@ def test_folders_import_their_neighbours_one_way(edges):
     found = [set(circle) for circle in folder_circles(edges)]
     assert [circle for circle in found if not any(circle <= known for known in CIRCLES)] == []
     assert len(CIRCLES) == len(found), "shorten the list"
+
+
+def test_rooms_of_the_vehicle_import_by_layer(edges):
+    assert arrows_back(edges, "rigs.vehicle", VEHICLE) == []
+
+
+def test_an_arrow_back_is_seen():
+    up_and_beside = {
+        "rigs.vehicle.seat.lean": {"rigs.vehicle.tire.model"},
+        "rigs.vehicle.field.driver": {"rigs.vehicle.motion"},
+    }
+    assert len(arrows_back(up_and_beside, "rigs.vehicle", VEHICLE)) == 2
+    down = {
+        "rigs.vehicle.tire.model": {"rigs.vehicle.seat.lean", "rigs.vehicle.tire.body"},
+        "rigs.vehicle": {"rigs.vehicle.run"},
+    }
+    assert arrows_back(down, "rigs.vehicle", VEHICLE) == []
 
 
 def test_nothing_of_the_product_imports_the_laboratory():

@@ -93,7 +93,12 @@ MUTANTS = (
     Mutant("rotation._OUTER", "0.0822", "0.0823", ("test_body",)),
     # Rigs and their integrator
     Mutant("biodynamics.rest_deflections", "+= lift", "-= lift", ("test_biodynamics",)),
-    Mutant("vehicle/motion._rate", "lost += lost_in_links + rubbed", "lost += lost_in_links", ("test_absent_effects",)),
+    Mutant(
+        "vehicle/motion/vehicle._rate",
+        "lost += lost_in_links + rubbed",
+        "lost += lost_in_links",
+        ("test_absent_effects",),
+    ),
     Mutant("order_5.step_of_order_5", "125.0 / 192.0", "125.0 / 191.0", ("test_orders",)),
     Mutant("order_5.error_of_order_5", "22.0 / 525.0", "21.0 / 525.0", ("test_orders",)),
     # Excitation and what is made of a recording

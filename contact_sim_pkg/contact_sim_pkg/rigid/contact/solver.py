@@ -21,14 +21,12 @@ from contact_sim_pkg.rigid.contact.cone_newton import GOOD, NewtonWorkspace, mak
 from contact_sim_pkg.rigid.contact.gauss_seidel import gauss_seidel
 from contact_sim_pkg.rigid.contact.lemke_contact import ContactLemke, make_contact_lemke, solve_by_lemke
 from contact_sim_pkg.rigid.contact.load_split import SplitWorkspace, make_split_workspace, split_load
-from contact_sim_pkg.rigid.contact.slide_direction import slide_in_one_direction
 from contact_sim_pkg.rigid.impact.planar_impact import contact_modes
 from contact_sim_pkg.rigid.parameters import PlanarContact
 from contact_sim_pkg.rigid.problem import DISC, PLANE, ContactProblem, residual, velocity_scale
 from contact_sim_pkg.rigid.results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, SPLIT_NOT_UNIQUE, UNIQUE
 
 MODES, GAUSS_SEIDEL, LEMKE, NEWTON = 0, 1, 2, 3
-REFINE = 4  # Newton's method alone, from the impulses that are given
 START_FACETS = 8  # of the polyhedral cone from which Newton's method starts on the true one
 TURNS = 30  # times the facets are turned to the slip where Newton's method alone does not settle
 SWEEPS = 20  # of Gauss-Seidel unless specified
@@ -110,17 +108,6 @@ def _turn_facets(problem, work, u):
 
 
 @borrowing_kernel
-def _by_direction(problem, solver, c):
-    """One contact that slides; ``c`` is kept where there is none."""
-    found = solver.newton.best
-    slides = slide_in_one_direction(problem.A, problem.q, problem.friction[0], problem.floor[0], found)
-    if not (slides and residual(problem, found, solver.newton.velocity) <= GOOD):
-        return NOT_CONVERGED
-    copy_row(found, c)
-    return SOLVED
-
-
-@borrowing_kernel
 def _exactly(problem, solver, start, attempts, c):
     """Newton's method from ``c`` (``start``) or a few sweeps; Lemke; on the true cone Newton from
     there, with facets turned.
@@ -142,10 +129,8 @@ def _exactly(problem, solver, start, attempts, c):
             status = solve_by_lemke(problem, solver.lemke, facets, c)
             if status != SOLVED or not on_disc:
                 break
-        # certified by its residual; one sliding contact has a bracketed equation of its own
+        # certified by its residual
         status, _residual = solve_by_newton(problem, solver.newton, c)
-        if status != SOLVED and on_disc and problem.friction.shape[0] == 1:
-            status = _by_direction(problem, solver, c)
         if status == SOLVED:
             break
         if on_disc:
@@ -269,8 +254,6 @@ def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Contact
         swept = gauss_seidel(problem, c, solver.sweeps, 0.0)
     elif solver.method == MODES and problem.q.shape[0] == PLANE and problem.width == PLANE:
         _by_modes(problem, c)
-    elif solver.method == REFINE:
-        status, _residual = solve_by_newton(problem, solver.newton, c)
     else:
         status = _by_passes(problem, solver, c)
     # no answer: no impulse either

@@ -19,7 +19,7 @@ from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import CONVERGED
 from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import half_space_of
+from contact_sim_pkg.rigs.vehicle.field.contact_field import half_space_of
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import RANGE
 

@@ -10,7 +10,7 @@ from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
 from contact_sim_pkg.records.table import number_of
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import requested
 from contact_sim_pkg.scene.schema.fields import given

@@ -29,12 +29,18 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.rigs.vehicle.bodies import LINEAR, Bodies, Corrections, CouplingStep, Saved
-from contact_sim_pkg.rigs.vehicle.contact_field import law_at
-from contact_sim_pkg.rigs.vehicle.coupling.check import CouplingCheck, Middle, MissedSoFar, middle_of
-from contact_sim_pkg.rigs.vehicle.coupling.rule import STRAIGHT, Allowance, MeasuredWay, bend_of, even_part, extent_of
-from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
-from contact_sim_pkg.rigs.vehicle.entries import (
+from contact_sim_pkg.rigs.vehicle.field.contact_field import law_at
+from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
+    STRAIGHT,
+    Allowance,
+    MeasuredWay,
+    bend_of,
+    even_part,
+    extent_of,
+)
+from contact_sim_pkg.rigs.vehicle.field.driver import ContactField, FieldRecord, Turn
+from contact_sim_pkg.rigs.vehicle.model import Model
+from contact_sim_pkg.rigs.vehicle.motion.entries import (
     FORCES,
     SEAT_NORMAL,
     TIRE_NORMAL,
@@ -43,9 +49,11 @@ from contact_sim_pkg.rigs.vehicle.entries import (
     lay_slopes,
     raise_to,
 )
-from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField, Turn
-from contact_sim_pkg.rigs.vehicle.model import Model
-from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord
+from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord
+from contact_sim_pkg.rigs.vehicle.run.bodies import LINEAR, Bodies, Corrections, CouplingStep, Saved
+from contact_sim_pkg.rigs.vehicle.run.coupling_check import CouplingCheck, Middle, MissedSoFar, middle_of
+from contact_sim_pkg.rigs.vehicle.run.drive import BlockDrive
+from contact_sim_pkg.rigs.vehicle.seat.cushion_field import CushionField
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, TireStep
 from contact_sim_pkg.rigs.vehicle.tire.road_field import RoadField
 from contact_sim_pkg.run.errors import RunError

@@ -16,18 +16,17 @@ from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.laws.contact_force import contact_energy, contact_force
 from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection
-from contact_sim_pkg.rigs.vehicle import motion as vehicle
-from contact_sim_pkg.rigs.vehicle import quarter_car
-from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
-from contact_sim_pkg.rigs.vehicle.seat.leaning import back_approach, back_energy, back_force, pan_friction, slid
-from contact_sim_pkg.rigs.vehicle.seat.motion import seat_energies, seat_mass, slide_index
-from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
+from contact_sim_pkg.rigs.vehicle.motion import quarter_car, vehicle
+from contact_sim_pkg.rigs.vehicle.motion.heights import effective_between
+from contact_sim_pkg.rigs.vehicle.motion.leaning import back_approach, back_energy, back_force, pan_friction, slid
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle
+from contact_sim_pkg.rigs.vehicle.motion.seat import seat_energies, seat_mass, slide_index
 
 TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
 SEAT_NORMAL, SEAT_TANGENTIAL, SEAT_APPROACH, SEAT_HEIGHT, SEAT_RATE = 4, 5, 6, 7, 8
 TIRE_PUSH = 9
 BACK_NORMAL, BACK_APPROACH = 10, 11
-TIRE_SLOPE = 12  # of the fields: filled in by `coupling/steps.py`, as is what follows
+TIRE_SLOPE = 12  # of the fields: filled in by `run/coupling.py`, as is what follows
 TIRE_SHEAR = 13  # and the columns behind it: those of a sample in `tire/brush/belt_motion.py`
 FORCES = 21
 

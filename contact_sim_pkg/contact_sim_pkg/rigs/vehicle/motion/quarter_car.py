@@ -1,7 +1,7 @@
 """The quarter car inside the vehicle rig: what drives it, wheel and body on their suspension, the
 belt on its sidewalls.
 
-Equations and state are those of ``rigs/vehicle/motion.py``; a part that the rig lacks is ``None``.
+Equations and state are those of ``rigs/vehicle/motion/vehicle.py``; a part that the rig lacks is ``None``.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, refuse_bad_gap
 from contact_sim_pkg.pressure.field.window import Part
 from contact_sim_pkg.pressure.settings import FieldSettings, widened
-from contact_sim_pkg.rigs.vehicle.tire.envelopment import yielding_of
+from contact_sim_pkg.rigs.vehicle.field.envelopment import yielding_of
 from contact_sim_pkg.scene.errors import Fault, SceneError
 
 Field = NDArray[numpy.float64]

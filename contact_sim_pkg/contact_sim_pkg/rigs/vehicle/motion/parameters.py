@@ -80,7 +80,7 @@ def rigid_occupant(mass: float, offset: int = 0) -> Seat:
 
 class Back(NamedTuple):
     """Seat back that the trunk of the occupant leans on, and the tilt of the pan before it
-    (``rigs/vehicle/seat/leaning.py``).
+    (``rigs/vehicle/motion/leaning.py``).
     """
 
     trunk: int  # number of the mass that leans

@@ -14,7 +14,7 @@ from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import ElasticLaw
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.coupling.rule import highest_speed
+from contact_sim_pkg.rigs.vehicle.field.coupling_rule import highest_speed
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import height_along
 from contact_sim_pkg.run.sources import make_surface, make_travel

@@ -19,7 +19,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.settings import BeltSettings, InflatedBelt
-from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import inflated_influence
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import inflated_influence
 
 __all__ = ["belt_influence", "relaxation_length", "yielding_of"]
 

@@ -9,9 +9,9 @@ for friction.
 * belt   ``m_r z_r'' = F_tire - m_r g - F_side``, ``F_side = k (z_r - z_w) + c (z_r' - z_w')``
 * body   ``m_b z_b'' = F_susp - m_b g - F_seat + m_b a_z(t)`` (a_z: what the drive line gives to the
   free body)
-* masses of the occupant, the first on the cushion: ``rigs/vehicle/seat/motion.py``
+* masses of the occupant, the first on the cushion: ``rigs/vehicle/motion/seat.py``
 * slide  ``M x'' = -M a_x(t) - F_t`` relative to the seat, M the whole occupant; against a seat back
-  ``rigs/vehicle/seat/leaning.py``
+  ``rigs/vehicle/motion/leaning.py``
 
 Approaches: tire ``h(t) - z_w`` (belt: ``h(t) - z_r``), h the effective road height; seat ``z_floor
 + h_c(t) - z_0``, h_c that of the cushion.
@@ -41,17 +41,7 @@ from contact_sim_pkg.laws.friction import (
     slip_event,
     stick_event,
 )
-from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
-from contact_sim_pkg.rigs.vehicle.quarter_car import (
-    body_power,
-    drive_at,
-    push_at,
-    rigid_ring_rates,
-    tire_approach,
-    tire_rates,
-    tread_velocity,
-)
-from contact_sim_pkg.rigs.vehicle.seat.leaning import (
+from contact_sim_pkg.rigs.vehicle.motion.leaning import (
     back_approach,
     back_force,
     back_lost_power,
@@ -63,7 +53,17 @@ from contact_sim_pkg.rigs.vehicle.seat.leaning import (
     slid,
     sliding_in,
 )
-from contact_sim_pkg.rigs.vehicle.seat.motion import (
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle
+from contact_sim_pkg.rigs.vehicle.motion.quarter_car import (
+    body_power,
+    drive_at,
+    push_at,
+    rigid_ring_rates,
+    tire_approach,
+    tire_rates,
+    tread_velocity,
+)
+from contact_sim_pkg.rigs.vehicle.motion.seat import (
     node_rate,
     seat_rates,
     settle_node,

@@ -5,7 +5,7 @@ import pytest
 
 from contact_sim_pkg.pressure.field.solver import make_workspace, solve_at_approach
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldEdgeError, PressureField, fit_tangent
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldEdgeError, PressureField, fit_tangent
 
 SETTINGS = FieldSettings(52, 48, 2e-3, 2e-3, 6e6, 1e-10, 900, 1)
 X = (numpy.arange(52)[:, None] - 25.0) * 2e-3

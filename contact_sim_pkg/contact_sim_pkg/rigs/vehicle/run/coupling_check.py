@@ -19,10 +19,11 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.bodies import Bodies, CouplingStep
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, FieldGrids, PressureField, make_grids
-from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, CushionField
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, FieldGrids, PressureField, make_grids
+from contact_sim_pkg.rigs.vehicle.field.driver import ContactField
 from contact_sim_pkg.rigs.vehicle.model import Model
+from contact_sim_pkg.rigs.vehicle.run.bodies import Bodies, CouplingStep
+from contact_sim_pkg.rigs.vehicle.seat.cushion_field import CushionField
 from contact_sim_pkg.rigs.vehicle.tire.road_field import RoadField
 from contact_sim_pkg.run.errors import RunError
 

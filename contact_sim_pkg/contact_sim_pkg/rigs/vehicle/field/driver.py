@@ -14,7 +14,7 @@ from contact_sim_pkg.laws.elastic_law import elastic_force
 from contact_sim_pkg.laws.normal_force import factor_of
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import (
+from contact_sim_pkg.rigs.vehicle.field.contact_field import (
     FieldEdgeError,
     FieldError,
     FieldGrids,
@@ -22,9 +22,6 @@ from contact_sim_pkg.rigs.vehicle.contact_field import (
     approach_at,
     correction_of,
 )
-from contact_sim_pkg.rigs.vehicle.model import seat_cells, seat_gap_on
-from contact_sim_pkg.rigs.vehicle.outputs import FieldRecord
-from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape
 from contact_sim_pkg.run.errors import RunError
 
 Gap = NDArray[numpy.float64]
@@ -35,6 +32,18 @@ AT_REST = 1e-8
 AS_PREDICTED = 0.1
 """Of the allowed height: a correction that differs by less from the expected one is as predicted.
 """
+
+
+class FieldRecord(NamedTuple):
+    """A pressure field at one instant."""
+
+    pressure: Gap  # [rows, cols], [Pa]
+    origin_x: float  # [m] of the centre of cell (0, 0)
+    origin_y: float  # [m]
+    approach: float  # [m]
+    travel: float  # [m] of the contact along the road
+    residual: float  # of its solution, relative
+    is_level: bool = False  # whether it rests on level road alone
 
 
 class Turn(NamedTuple):
@@ -248,26 +257,3 @@ class ContactField(ABC):
     @abstractmethod
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
         """Centre of cell (0, 0) in the contact's frame, x and y in [m]."""
-
-
-class CushionField(ContactField):
-    """Field of the cushion under the occupant, whose gap does not change."""
-
-    is_static = True
-
-    def __init__(self, grids: FieldGrids | None, contact: Contact | None, shape: SeatShape | None) -> None:
-        """As ``ContactField``; ``shape`` is the occupant's lower surface."""
-        super().__init__(grids, contact)
-        self._gaps = {} if grids is None or shape is None else {
-            field.settings.rows: seat_gap_on(shape, field.settings) for field in grids.both()
-        }  # fmt: skip
-        cells = {} if grids is None else {field.settings.rows: seat_cells(field.settings) for field in grids.both()}
-        self._origins = {rows: (float(x[0]), float(y[0])) for rows, (x, y) in cells.items()}
-
-    def gap(self, settings: FieldSettings) -> Gap:
-        """See `ContactField`."""
-        return self._gaps[settings.rows]
-
-    def origin(self, settings: FieldSettings) -> tuple[float, float]:
-        """See `ContactField`."""
-        return self._origins[settings.rows]

@@ -18,7 +18,7 @@ from __future__ import annotations
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.laws.contact_force import contact_energy, contact_force, contact_lost_power
 from contact_sim_pkg.laws.friction import STICK, friction_force
-from contact_sim_pkg.rigs.vehicle.seat.motion import seat_mass, slide_index
+from contact_sim_pkg.rigs.vehicle.motion.seat import seat_mass, slide_index
 
 
 @borrowing_kernel

@@ -8,59 +8,21 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from contact_sim_pkg.excitation.blocks import RoadLattice
-from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt, widened
+from contact_sim_pkg.pressure.settings import FieldSettings, widened
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.rig import Standing, TouchedBody
+from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
+from contact_sim_pkg.rigs.vehicle.seat.mass import occupant_mass
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, tire_body
 from contact_sim_pkg.scene.resolved_scene import plain
 
 if TYPE_CHECKING:
     from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection
     from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
-    from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 
-FIELD_ITERATIONS = 400
 FOLLOWER_CELLS = (64, 48)  # road lattice of a tire without pressure field
 FOLLOWER_REACH = 4.0  # its extent over the contact radius of a sphere with the tire's radius in that direction
 SIGHT = 1.0  # of the tire's radius: how far the road is looked at beyond the pressure grids
-
-
-def field_settings(
-    field: PressureFieldSection | None, modulus: float, belt: BeltSettings | InflatedBelt | None = None
-) -> FieldSettings | None:
-    """Grid and accuracy of a resolved pressure field over a ``modulus`` [Pa]; None where the scene
-    calls for none.
-    """
-    if field is None:
-        return None
-    # A resolved scene leaves none of these open.
-    length, width, rows, cols = field.length, field.width, field.rows, field.cols
-    tolerance, passes = field.tolerance, field.corrector_passes
-    assert length is not None
-    assert width is not None
-    assert rows is not None
-    assert cols is not None
-    assert tolerance is not None
-    assert passes is not None
-    return FieldSettings(
-        rows=rows,
-        cols=cols,
-        cell_x=length / rows,
-        cell_y=width / cols,
-        modulus=modulus,
-        tolerance=tolerance,
-        maximum_iterations=FIELD_ITERATIONS,
-        corrector_passes=passes,
-        belt=belt,
-    )
-
-
-def occupant_mass(occupant: OccupantSection) -> float:
-    """Mass of the whole occupant in [kg]."""
-    # A resolved scene leaves neither open.
-    assert occupant.frame_mass is not None
-    assert occupant.masses is not None
-    return occupant.frame_mass + sum(occupant.masses)
 
 
 def standing_load(tire: TireSection, occupant: OccupantSection | None) -> float:

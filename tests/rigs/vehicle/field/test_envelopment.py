@@ -10,8 +10,8 @@ from scipy.integrate import quad
 from scipy.linalg import solve_banded
 
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
-from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence, relaxation_length
+from contact_sim_pkg.rigs.vehicle.field.contact_field import PressureField
+from contact_sim_pkg.rigs.vehicle.field.envelopment import belt_influence, relaxation_length
 
 BELT = BeltSettings(9900.0, 6.3e5)
 CELL_X, CELL_Y = 5e-3, 7e-3

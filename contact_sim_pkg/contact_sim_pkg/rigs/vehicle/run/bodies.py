@@ -12,10 +12,10 @@ from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.held import hold
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
-from contact_sim_pkg.rigs.vehicle import entries
-from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
 from contact_sim_pkg.rigs.vehicle.model import Model, standing_state
-from contact_sim_pkg.rigs.vehicle.motion import event_count
+from contact_sim_pkg.rigs.vehicle.motion import entries
+from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
+from contact_sim_pkg.rigs.vehicle.run.drive import BlockDrive
 from contact_sim_pkg.run.errors import RunError
 
 Sampled = tuple[Vector, Vector, Vector]  # states, rates, forces; [samples, ...] each
@@ -157,7 +157,7 @@ class Bodies:
 
     def energies(self, height: float, cushion: float) -> Vector:
         """Energies in [J] of the state over given heights in [m] (order of
-        ``rigs/vehicle/entries.energies``).
+        ``rigs/vehicle/motion/entries.energies``).
         """
         return numpy.array(entries.energies_of(self._moving, height, cushion))
 
