@@ -7,6 +7,8 @@ import pytest
 from tests.house.closures import VEHICLE, arrows_back, folder_circles
 from tests.house.source import LABORATORY, PACKAGE, Module, circles, imports, modules
 
+from contact_sim_pkg.records.registry import kinds
+
 ORDER = (
     ("requirements",),
     ("files", "public", "python_process"), ("memory",),
@@ -174,3 +176,23 @@ def test_nothing_of_the_product_imports_the_laboratory():
 
 def test_no_modules_of_the_laboratory_import_each_other():
     assert circles(imports(modules(LABORATORY), LABORATORY.name)) == []
+
+
+def compared_with_a_kind(tree, names):
+    """Lines that compare a `kind` with the name of a road or a vibration."""
+    return [
+        node.lineno
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Compare) and re.search(r"""\.kind\b|\[?["']kind["']""", ast.unparse(node))
+        if names & {each.value for each in ast.walk(node) if isinstance(each, ast.Constant) and each.value != "kind"}
+    ]
+
+
+def test_nobody_compares_the_kind_of_a_road_or_a_vibration():
+    """Who wants to know asks the kind."""
+    names = {*kinds("road"), *kinds("vibration")}
+    everywhere = [each for root in (PACKAGE, LABORATORY) for each in modules(root).values()]
+    assert {each.path: lines for each in everywhere if (lines := compared_with_a_kind(each.tree, names))} == {}
+    assert compared_with_a_kind(
+        ast.parse('if road.kind in ("bump", "step") or scene.get("kind") == "sine": ...'), names
+    )

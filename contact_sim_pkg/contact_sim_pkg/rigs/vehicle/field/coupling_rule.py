@@ -206,7 +206,7 @@ def coupled_timing(scene: ResolvedScene, with_field: bool, footprint: float | No
 def request_cautions(scene: ResolvedScene, rule: CouplingRule | None, grids: FieldGrids | None) -> tuple[str, ...]:
     """A sentence where a scene requests less error of its tire than coupling steps and cells deliver."""
     asked, road = requested(scene.accuracy), scene.road
-    if rule is None or grids is None or road is None or road.kind == "flat" or asked >= DELIVERED:
+    if rule is None or grids is None or road is None or road.is_even or asked >= DELIVERED:
         return ()
     field, shortest = grids.usual.settings, rule.ways[1]
     steps = highest_speed(scene) / shortest

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.excitation.kinds import Obstacle
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import ElasticLaw
 from contact_sim_pkg.pressure.settings import FieldSettings
@@ -20,7 +21,6 @@ from contact_sim_pkg.rigs.vehicle.tire.footprint import height_along
 from contact_sim_pkg.run.sources import make_surface, make_travel
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.road import BumpRoad, CleatRoad, StepRoad
 
 __all__ = ["Landing", "SharpEdge", "edge_cautions", "landing_of", "refuse_high_walls", "sharp_edge"]
 
@@ -88,19 +88,16 @@ def sharp_edge(scene: ResolvedScene, field: FieldSettings | None) -> SharpEdge |
     """The corners of an obstacle on the cells of a field, or the obstacle where it has few of them; None
     where there are none, or no field.
     """
-    road = scene.road
-    if road is None or field is None or road.kind not in ("bump", "step", "cleat", "pothole"):
+    obstacle = None if scene.road is None else scene.road.obstacle()
+    if obstacle is None or field is None:
         return None
-    height = road.depth if road.kind == "pothole" else abs(road.height)
-    flank = (
-        road.edge if road.kind in ("cleat", "pothole") else road.length if road.kind == "step" else 0.5 * road.length
-    )
-    turn, whole = height / max(flank, field.cell_x), math.inf if road.kind == "step" else road.length
+    flank, whole = obstacle.flank, obstacle.length if obstacle.ends else math.inf
+    turn = abs(obstacle.height) / max(flank, field.cell_x)
     if turn < CORNER:
         return None
     if whole < CELLS_OF_PEAK * field.cell_x:
         return SharpEdge(whole, turn, whole < CELLS * field.cell_x, is_obstacle=True)
-    return None if road.kind == "bump" else SharpEdge(flank, turn, flank < CELLS * field.cell_x)
+    return SharpEdge(flank, turn, flank < CELLS * field.cell_x) if obstacle.has_corners else None
 
 
 def edge_cautions(scene: ResolvedScene, field: FieldSettings | None) -> tuple[str, ...]:
@@ -167,46 +164,44 @@ def refuse_high_walls(scene: ResolvedScene, form: TireForm, field: FieldSettings
     linear spring without damping, sinks in by a, and touches as far as ``road - z > h - a``.
     """
     road = scene.road
-    if field is not None and road is not None and road.kind in ("opencrg", "profile") and "road.file" in scene.files:
+    if field is not None and road is not None and "road.file" in scene.files:
         # What is wrong with the file says the source of the road, which may also be a bag.
         with suppress(ExcitationError):
             _refuse_high_places(scene, form, field, landing)
-    if field is None or road is None or road.kind not in ("bump", "cleat", "step") or road.height <= 0.0:
+    obstacle = None if road is None else road.obstacle()
+    if field is None or road is None or obstacle is None or obstacle.height <= 0.0:
         return
-    (rigid, reached, most), radius = _touched(scene, road, form, landing), form.radius_rolling
-    steepest = CLIMBED if road.height <= HIGHEST * radius else CLIMBED_HIGH
+    (rigid, reached, most), radius = _touched(scene, obstacle, form, landing), form.radius_rolling
+    steepest = CLIMBED if obstacle.height <= HIGHEST * radius else CLIMBED_HIGH
     if rigid > steepest * radius:
-        flank = "edge" if road.kind == "cleat" else "length"
         sentence = (
-            f"{road.height:g} m is a wall near the height of the axle, which stands {radius:.3g} m above the road, and no tire "
-            f"climbs it; at most {HIGHEST * radius:.2g} m, or flanks less steep: a longer road.{flank}"
+            f"{obstacle.height:g} m is a wall near the height of the axle, which stands {radius:.3g} m above the road, and no tire "
+            f"climbs it; at most {HIGHEST * radius:.2g} m, or flanks less steep: a longer road.{obstacle.flank_key}"
         )
         raise SceneError([Fault("scene", 0, 0, "road.height", sentence)])
     half = field.rows * field.cell_x  # of the wide grid
     if reached + RIM * field.cell_x > half:
         needed = math.ceil(100.0 * (most + ROOM * field.cell_x)) / 100.0
         sentence = (
-            f"the tire touches the {road.kind} of {road.height:g} m as far as {reached:.3g} m before its axle, and a field of "
+            f"the tire touches the {road.kind} of {obstacle.height:g} m as far as {reached:.3g} m before its axle, and a field of "
             f"{half:.3g} m sees no further than that; {needed:g} m are enough"
         )
         raise SceneError([Fault("scene", 0, 0, "effects.tire.contact_field.length", sentence)])
 
 
-def _touched(
-    scene: ResolvedScene, road: BumpRoad | CleatRoad | StepRoad, form: TireForm, landing: Landing
-) -> tuple[float, float, float]:
+def _touched(scene: ResolvedScene, obstacle: Obstacle, form: TireForm, landing: Landing) -> tuple[float, float, float]:
     """Furthest places before the axle [m] at which a rigid tire touches the obstacle within the run,
     and one that sinks in, at least and at most.
     """
     radius = form.radius_rolling
     seen = radius if form.circular else 2.0 * radius  # a parabola goes on
     start, end = make_travel(scene).extent(0.0, scene.duration)
-    if not start + radius < road.position < end + radius:
+    if not start + radius < obstacle.position < end + radius:
         return 0.0, 0.0, 0.0
     surface = make_surface(scene, SPACING)
     x = numpy.arange(0.0, seen, SPACING)
     height = numpy.array([height_along(form, float(each)) for each in x])
-    first, last = road.position - 0.5 * road.length - seen, road.position + 0.5 * road.length
+    first, last = obstacle.position - 0.5 * obstacle.length - seen, obstacle.position + 0.5 * obstacle.length
     spacing = max(SPACING, (last - first) / MOST_PLACES)
     line, phase = numpy.zeros(1), landing.frequency * spacing / max(highest_speed(scene), SPACING)
     below, swing, before = 0.0, 0.0, 0.0  # wheel below where it would rest, its speed over the frequency; lifted

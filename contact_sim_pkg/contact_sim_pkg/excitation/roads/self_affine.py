@@ -6,16 +6,20 @@ The irregular road of Tire/Road Contact (section 3), which gives no numbers: H 0
 Matter 17 (2005) R1, eq 6.
 """
 
+from collections.abc import Iterator
 from math import isfinite
-from typing import Any
+from typing import Any, Literal
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.iso8608_texture import Texture
+from contact_sim_pkg.excitation.kinds import RoadKind, Setting, Wave
+from contact_sim_pkg.records.breach import Breach, rising
+from contact_sim_pkg.records.fields import number
 
-__all__ = ["SelfAffineRoad"]
+__all__ = ["KIND", "SelfAffineRoad", "SelfAffineRoadSection"]
 
 STRIP = (2.0, 1.0)  # [m] along the road and across it
 
@@ -74,3 +78,36 @@ class SelfAffineRoad:
             "rms_m": surface.rms,
             "notes": [*self._notes, f"The road repeats after {STRIP[0]:g} m."],
         }
+
+
+class SelfAffineRoadSection(RoadKind):
+    """Random surface, equal in all directions, of spectrum q^-(2 + 2 hurst) between two wavelengths
+    (the irregular road of Tire/Road Contact).
+    """
+
+    kind: Literal["self_affine"]
+    hurst: float = number(0.0, 1.0, "", "Hurst's exponent; 0.8 for road surfaces", default=0.8)
+    rms: float = number(0.0, 0.05, "m", "root mean square of the heights", default=5e-4)
+    shortest_wavelength: float = number(
+        0.001, 1.0, "m", "shortest wavelength; at least two cells of the contact field are resolved", default=0.005
+    )
+    longest_wavelength: float = number(0.001, 1.0, "m", "longest wavelength", default=0.2)
+
+    def surface(self, setting: Setting) -> SelfAffineRoad:
+        """See RoadKind."""
+        waves = (self.longest_wavelength, self.shortest_wavelength)
+        return SelfAffineRoad(self.hurst, self.rms, *waves, setting.seed, lattice_cell=setting.cell)
+
+    def shortest_wave(self, limit: float) -> Wave:
+        """See RoadKind."""
+        return Wave(
+            self.shortest_wavelength, self.rms, f"the road has waves of {self.shortest_wavelength:g} m, shorter than"
+        )
+
+    def breaches(self, duration: float) -> Iterator[Breach]:
+        """See Kind."""
+        waves = (self.shortest_wavelength, "longest_wavelength", self.longest_wavelength)
+        yield from rising("road", "shortest_wavelength", *waves, "m")
+
+
+KIND = SelfAffineRoadSection

@@ -8,8 +8,9 @@ Source: ISO 8608:2016 (classes by their geometric mean); random phases and inver
 few sines.
 """
 
+from collections.abc import Iterator
 from math import ceil, floor, isfinite, sqrt
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy
 from numpy.typing import NDArray
@@ -17,7 +18,10 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.guards import require, require_not_negative, require_values
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.iso8608_texture import Texture
+from contact_sim_pkg.excitation.kinds import RoadKind, Setting, Wave
 from contact_sim_pkg.excitation.periodic import synthesise
+from contact_sim_pkg.records.breach import Breach, one_of, rising
+from contact_sim_pkg.records.fields import Section, choice, number
 
 REFERENCE_WAVE_NUMBER = 0.1  # [cycles/m] n0 of ISO 8608
 CLASS_ROUGHNESS = {  # [m^3] geometric mean of Gd(n0), ISO 8608:2016
@@ -26,6 +30,7 @@ CLASS_ROUGHNESS = {  # [m^3] geometric mean of Gd(n0), ISO 8608:2016
 # Error of the shortest wave 7.6e-7 of its amplitude, see excitation/periodic.py
 POINTS_PER_WAVE = 48
 MOST_POINTS = 1 << 24  # 256 MiB of values and slopes
+BYTES_PER_POINT = 16
 
 
 def roughness_of_class(name: str) -> float:
@@ -208,3 +213,107 @@ def _check(roughness: float, seed: int, length: float, exponent: float, shortest
             )
     if not isinstance(seed, int) or seed < 0:
         raise ExcitationError(f"seed of the random road is {seed!r}; allowed: a whole number from 0")
+
+
+RoughnessClass: TypeAlias = Literal["A", "B", "C", "D", "E", "F", "G", "H"]
+
+
+class TextureSection(Section):
+    """Fine surface below the shortest wavelength of an ISO 8608 profile, equal in all
+    directions.
+    """
+
+    shortest_wavelength: float = number(
+        0.001,
+        1.0,
+        "m",
+        "shortest wavelength of the texture; at least two cells of the contact field are resolved",
+        default=0.02,
+    )
+
+
+class Iso8608RoadSection(RoadKind):
+    """Random road with the spectrum G(n) = roughness (n / 0.1 c/m)^-exponent; `roughness_class` or
+    `roughness`.
+    """
+
+    kind: Literal["iso8608"]
+    roughness_class: RoughnessClass | None = choice("ISO 8608 class, taken at its geometric mean", default=None)
+    roughness: float | None = number(
+        0.0, 1.0, "m³", "spectral density at 0.1 cycles/m; class A is 16e-6, C is 256e-6", default=None
+    )
+    exponent: float = number(1.0, 4.0, "", "falling power of the spectrum; ISO 8608 takes 2", default=2.0)
+    length: float = number(
+        1.0, 1e6, "m", "the road repeats after this length; waves longer than it are left out", default=1000.0
+    )
+    shortest_wavelength: float = number(
+        0.001, 1000.0, "m", "shortest wave of the profile; ISO 8608 ends at 0.35 m", default=0.3
+    )
+    longest_wavelength: float = number(
+        0.001, 1e4, "m", "longest wave of the profile; ISO 8608 ends at 90.9 m", default=100.0
+    )
+    texture: TextureSection | None = choice(
+        "isotropic surface that continues the spectrum; without it the road is even across", default=None
+    )
+
+    @property
+    def spectrum(self) -> float:
+        """Gd(n0) in [m^3], as given or of its class."""
+        if self.roughness_class is not None:
+            return roughness_of_class(self.roughness_class)
+        assert self.roughness is not None
+        return self.roughness
+
+    def surface(self, setting: Setting) -> Iso8608Road:
+        """See RoadKind."""
+        return Iso8608Road(
+            self.spectrum, setting.seed, self.length, self.exponent,
+            shortest_wavelength=self.shortest_wavelength, longest_wavelength=self.longest_wavelength,
+            texture_wavelength=None if self.texture is None else self.texture.shortest_wavelength,
+            lattice_cell=setting.cell,
+        )  # fmt: skip
+
+    def shortest_wave(self, limit: float) -> Wave:
+        """See RoadKind."""
+        shortest = self.shortest_wavelength if self.texture is None else self.texture.shortest_wavelength
+        height = 0.0
+        if shortest < limit:
+            height = sqrt(float(band_variance(self.spectrum, self.exponent, 1.0 / limit, 1.0 / shortest)))
+        return Wave(shortest, height, f"the road has waves of {shortest:g} m, shorter than")
+
+    @property
+    def condition(self) -> str:
+        """See RoadKind."""
+        return f"class {self.roughness_class}"
+
+    @property
+    def _points(self) -> int:
+        return 1024 * ceil(POINTS_PER_WAVE * self.length / self.shortest_wavelength / 1024)
+
+    def memory(self) -> tuple[str, int]:
+        """See Kind."""
+        points = self._points
+        return (
+            (f"a random road of {points} points needs", points * BYTES_PER_POINT) if points <= MOST_POINTS else ("", 0)
+        )
+
+    def breaches(self, duration: float) -> Iterator[Breach]:
+        """See Kind."""
+        yield from one_of(
+            "road", "roughness_class", self.roughness_class is not None, "roughness", self.roughness is not None
+        )
+        shortest = self.shortest_wavelength
+        yield from rising("road", "shortest_wavelength", shortest, "longest_wavelength", self.longest_wavelength, "m")
+        yield from rising("road", "shortest_wavelength", shortest, "length", self.length, "m")
+        if self.texture is not None:  # which continues the profile to shorter waves
+            finest = self.texture.shortest_wavelength
+            yield from rising("road", "texture.shortest_wavelength", finest, "shortest_wavelength", shortest, "m")
+        if self._points > MOST_POINTS:
+            sentence = (
+                f"a road of {self.length:g} m with waves down to {shortest:g} m needs {self._points} points, limit "
+                f"{MOST_POINTS}; shorten it (it repeats) or raise shortest_wavelength"
+            )
+            yield Breach("road.length", sentence, ("road.shortest_wavelength",))
+
+
+KIND = Iso8608RoadSection
