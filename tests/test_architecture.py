@@ -113,8 +113,6 @@ def test_no_modules_import_each_other(edges):
 
 
 CIRCLES = [  # of neighbours, one of them a folder: a list that only gets shorter
-    {"identify.contact", "identify.diagnostics", "identify.geometry", "identify.motion", "identify.problem",
-     "identify.sweep"},
     {"rigid.body", "rigid.body_state", "rigid.contact", "rigid.forces", "rigid.geometry", "rigid.impact",
      "rigid.motion", "rigid.problem"},
 ]  # fmt: skip

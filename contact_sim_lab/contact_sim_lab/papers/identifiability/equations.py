@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact_sim_lab.records.paper import Equation, PaperError, Parameter
 from contact_sim_lab.twins.rigid_impact import energetic_by_path, newton_by_enumeration, poisson_by_enumeration
-from contact_sim_pkg.identify.geometry import box
+from contact_sim_pkg.identify.motion.geometry import box
 from contact_sim_pkg.identify.table import ImpactTable, estimate_from_impacts, problem_of_impacts
 from contact_sim_pkg.rigid import body as rigid_body
 from contact_sim_pkg.rigid.contact.lemke import complementarity_residual, lemke, make_lemke_workspace
