@@ -21,7 +21,7 @@ from contact_sim_pkg.rigid.contact.cone_newton import GOOD, NewtonWorkspace, mak
 from contact_sim_pkg.rigid.contact.gauss_seidel import gauss_seidel
 from contact_sim_pkg.rigid.contact.lemke_contact import ContactLemke, make_contact_lemke, solve_by_lemke
 from contact_sim_pkg.rigid.contact.load_split import SplitWorkspace, make_split_workspace, split_load
-from contact_sim_pkg.rigid.impact.planar_impact import contact_modes
+from contact_sim_pkg.rigid.contact.planar_impact import contact_modes
 from contact_sim_pkg.rigid.parameters import PlanarContact
 from contact_sim_pkg.rigid.problem import DISC, PLANE, ContactProblem, residual, velocity_scale
 from contact_sim_pkg.rigid.results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, SPLIT_NOT_UNIQUE, UNIQUE

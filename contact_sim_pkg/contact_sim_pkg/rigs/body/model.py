@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.records.fields import given
-from contact_sim_pkg.rigid.body import (
+from contact_sim_pkg.rigid.bodies.body import (
     Ground,
     Motion,
     RigidBody,

@@ -6,11 +6,10 @@ import numpy
 import pytest
 from tests.identify import motions
 
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact import wrench
+from contact_sim_pkg.identify import turning as free_fall
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.identify import Setup, identify
-from contact_sim_pkg.identify.motion import free_fall
+from contact_sim_pkg.identify.motion import geometry, wrench
 
 FORCE = (1.0, 2.0, 0.3)
 

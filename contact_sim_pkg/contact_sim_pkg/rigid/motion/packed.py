@@ -12,10 +12,10 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.rigid.bodies.motion import MotionWorkspace
 from contact_sim_pkg.rigid.contact.answers import contact_impulses
 from contact_sim_pkg.rigid.contact.solver import NEWTON, SWEEPS, ContactSolution, Solver, make_solver
 from contact_sim_pkg.rigid.impact.law import ImpactWorkspace, impact_impulses, make_impact_workspace
-from contact_sim_pkg.rigid.motion.motion import MotionWorkspace
 from contact_sim_pkg.rigid.problem import DISC, ContactProblem, make_problem
 from contact_sim_pkg.rigid.results import SOLVED, UNIQUE
 

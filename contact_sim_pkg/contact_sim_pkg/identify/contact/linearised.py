@@ -14,17 +14,17 @@ from typing import NamedTuple
 import numpy
 from scipy.linalg import block_diag, cholesky, solve_triangular
 
+from contact_sim_pkg.identify.contact.balance import Balance, Side, Split, balance, lasting_balance, split
 from contact_sim_pkg.identify.contact.coulomb import friction_balance
 from contact_sim_pkg.identify.contact.instant import impact_balance
-from contact_sim_pkg.identify.diagnostics.balance import Balance, Side, balance, lasting_balance
-from contact_sim_pkg.identify.diagnostics.noise import sample_noise
-from contact_sim_pkg.identify.diagnostics.rank import Split, split
+from contact_sim_pkg.identify.contact.noise import sample_noise
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.motion.flight import FlightMotion, FlightState, motion
 from contact_sim_pkg.identify.motion.rotation import Array, logarithm
 from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem
 
 __all__ = ["DIVERGES", "Linearised"]
+
 
 WHITE = 1e-13  # smallest pivot of a balance's covariance, relative
 

@@ -11,10 +11,9 @@ from __future__ import annotations
 import math
 
 from contact_sim_pkg.compiled.jit import entry, kernel
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, is_ridge, on_profile, point_arm
-from contact_sim_pkg.rigid.geometry.profile import time_to_kink
-from contact_sim_pkg.rigid.motion.flight import gap_change
-from contact_sim_pkg.rigid.motion.motion import (
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody, is_ridge, on_profile, point_arm
+from contact_sim_pkg.rigid.bodies.flight import gap_change
+from contact_sim_pkg.rigid.bodies.motion import (
     ACTIVE,
     SEPARATED,
     STICKING,
@@ -27,6 +26,7 @@ from contact_sim_pkg.rigid.motion.motion import (
     free_velocity,
     update_contacts,
 )
+from contact_sim_pkg.rigid.geometry.profile import time_to_kink
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.rotation import gyroscopic_rate, spin_in_body
 

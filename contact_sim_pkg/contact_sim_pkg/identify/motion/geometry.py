@@ -34,6 +34,7 @@ __all__ = [
     "sphere",
 ]
 
+
 SMALLEST, LARGEST = 1e-9, 1e6  # [m], size of a body
 SAME = 1e-9  # of the size: points closer than that are one
 FARTHEST = 1e9  # [m], height of the ground

@@ -5,8 +5,8 @@ import pytest
 from tests.identify import motions
 
 from contact_sim_lab.identify.twins.falling_body import FallingBody, fall
-from contact_sim_pkg.identify import geometry
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry
 from contact_sim_pkg.identify.motion.states import BodyStates
 
 COARSE = {"position": 1e-3, "rotation": 1e-3, "velocity": 1e-3, "spin": 1e-2}

@@ -7,11 +7,10 @@ import pytest
 from tests.identify import motions
 
 from contact_sim_lab.identify.twins.falling_body import FallingBody, fall
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact import wrench
-from contact_sim_pkg.identify.diagnostics.possible import OUTSIDE, impossible
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry, wrench
 from contact_sim_pkg.identify.motion.rotation import exponential
+from contact_sim_pkg.identify.warnings import OUTSIDE, impossible
 
 CUBE = geometry.box([motions.SIDE] * 3)
 

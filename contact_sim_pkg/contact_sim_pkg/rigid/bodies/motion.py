@@ -14,7 +14,7 @@ import numpy.typing
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
-from contact_sim_pkg.rigid.body import Ground, RigidBody, contact_count, contact_rows, fill_inverse_inertia
+from contact_sim_pkg.rigid.bodies.body import Ground, RigidBody, contact_count, contact_rows, fill_inverse_inertia
 from contact_sim_pkg.rigid.problem import DISC, INACTIVE, PLANE, ContactProblem, fill_delassus, make_problem
 from contact_sim_pkg.rigid.rotation import free_rotation, gyroscopic_step, orthonormalize, rotate_by, spin_in_body
 

@@ -5,13 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact import wrench
+from contact_sim_pkg.identify.contact.balance import Side, balance, lasting_balance
 from contact_sim_pkg.identify.contact.stacked import estimate
-from contact_sim_pkg.identify.diagnostics.balance import Side, balance, lasting_balance
-from contact_sim_pkg.identify.motion.flight import FlightModel, FlightState, motion, moved, plain_motion
+from contact_sim_pkg.identify.motion import geometry, wrench
+from contact_sim_pkg.identify.motion.flight import FlightModel, FlightState, motion, moved, plain_motion, turn
 from contact_sim_pkg.identify.motion.rotation import exponential
-from contact_sim_pkg.identify.motion.spin import turn
 from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
 from contact_sim_pkg.identify.problem import (
     ContactSpan,

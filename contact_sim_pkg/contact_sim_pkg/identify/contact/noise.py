@@ -1,8 +1,13 @@
-"""Noise of the samples, from the samples."""
+"""Noise of the samples, from the samples.
+
+Findings about single contacts, and their sentences.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import enum
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy
 
@@ -10,7 +15,20 @@ from contact_sim_pkg.identify.motion.rotation import Array, logarithm
 from contact_sim_pkg.identify.motion.segments import MEDIAN_OF_GAUSS, SHORTEST_FLIGHT
 from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
 
-__all__ = ["first_guess", "from_residuals", "limited", "roundings", "sample_noise", "shared_rounding"]
+__all__ = [
+    "FREE_MOTION_MISSING",
+    "SENTENCES",
+    "ContactNote",
+    "NoteKind",
+    "cure_without_flights",
+    "first_guess",
+    "from_residuals",
+    "limited",
+    "roundings",
+    "sample_noise",
+    "shared_rounding",
+]
+
 
 FLOOR = 1e-13  # of the largest value of a channel: rounding
 BESIDE = 1e-6  # of the largest relative noise of a channel: no other counts as more exact than that
@@ -136,3 +154,65 @@ def _step(values: Array) -> float:
 def _spread(differences: Array) -> float:
     centred = abs(differences - numpy.median(differences, axis=0))
     return float(numpy.median(centred, axis=0).max() / MEDIAN_OF_GAUSS / SECOND)
+
+
+class NoteKind(enum.Enum):
+    """Why a contact is not used, or what a lasting one does."""
+
+    NO_FLIGHT_BESIDE = enum.auto()
+    FLIGHT_TOO_SHORT = enum.auto()
+    NOTHING_TOUCHED = enum.auto()
+    SEVERAL_CORNERS = enum.auto()
+    FLIGHTS_MISS = enum.auto()
+    DOUBLE_IMPACT = enum.auto()
+    CONTRADICTS = enum.auto()
+    LASTING = enum.auto()
+    PRESSED_IN = enum.auto()
+    BELOW_GROUND = enum.auto()
+    ABOVE_GROUND = enum.auto()
+
+
+SENTENCES = {
+    NoteKind.NO_FLIGHT_BESIDE: "no flight of {samples} samples before or after it",
+    NoteKind.FLIGHT_TOO_SHORT: "the flight before does not come down: too short to locate the contact",
+    NoteKind.NOTHING_TOUCHED: "touches no known surface: the lowest point is {gap:.3g} m above the ground there",
+    NoteKind.SEVERAL_CORNERS: "touches with {corners} corners at once: where its impulse acts is not known",
+    NoteKind.FLIGHTS_MISS: "the flights before and after miss each other by {miss:.2g} m, and between them more than "
+    "one corner touches, or one more than once",
+    NoteKind.DOUBLE_IMPACT: "the flights before and after miss each other: more than one impact in between",
+    NoteKind.CONTRADICTS: "contradicts the other contacts by more than noise explains: more than one impact in between?",
+    NoteKind.LASTING: "lasting contact{depth}, {motion}",
+    NoteKind.PRESSED_IN: "lasting contact, presses into the ground",
+    NoteKind.BELOW_GROUND: "no free motion, {depth:.3g} m below the ground: check the shape, its axes, and the ground",
+    NoteKind.ABOVE_GROUND: "no free motion, up to {height:.3g} m above the ground: check gravity, wrench, axes of the "
+    "twist, and shape",
+}
+FREE_MOTION_MISSING = (NoteKind.BELOW_GROUND, NoteKind.ABOVE_GROUND)  # of what cannot be a contact
+
+
+class ContactNote(NamedTuple):
+    """One finding, with the values of its sentence."""
+
+    kind: NoteKind
+    values: Mapping[str, str | int | float] = {}
+
+    @property
+    def sentence(self) -> str:
+        """The finding in words."""
+        return SENTENCES[self.kind].format(**self.values)
+
+
+def cure_without_flights(*, no_friction: bool, no_force: bool) -> str:
+    """What to change where neither a flight nor a slide identifies anything.
+
+    Args:
+        no_friction: the friction coefficient of a slide is not known.
+        no_force: the force during a slide is not known.
+    """
+    record = "record faster, or a motion that leaves the ground"
+    unknown = [
+        name for name, lacks in (("the friction coefficient", no_friction), ("the known force", no_force)) if lacks
+    ]
+    if unknown:
+        return f"{record}, or give {' and '.join(unknown)} of a slide"
+    return f"{record}; no slide of the body on the given ground was found either: check the shape, its axes, and the ground"

@@ -4,10 +4,9 @@ import numpy
 import pytest
 from tests.identify import motions
 
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact import wrench
-from contact_sim_pkg.identify.diagnostics.rank import split
+from contact_sim_pkg.identify.contact.balance import split
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry, wrench
 
 FORCE, TORQUE = (0.0, 2.0, 3.0), (0.02, -0.03, 0.05)
 

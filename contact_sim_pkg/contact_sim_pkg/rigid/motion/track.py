@@ -9,8 +9,8 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel
-from contact_sim_pkg.rigid.body import RigidBody
-from contact_sim_pkg.rigid.motion.motion import STICKING
+from contact_sim_pkg.rigid.bodies.body import RigidBody
+from contact_sim_pkg.rigid.bodies.motion import STICKING
 
 # of the time left or of the longest sub-step: one below it was cut short by an event
 BRIEF = 1.0e-3

@@ -11,7 +11,7 @@ from tests.rigid.contact.contact_case import SPACE, contact_rows
 from tests.rigid.contact.test_closed_forms import closed
 
 from contact_sim_lab.twins.rigid_contact import coulomb_residual
-from contact_sim_pkg.rigid.body import box, placed, slope
+from contact_sim_pkg.rigid.bodies.body import box, placed, slope
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.results import SOLVED
 

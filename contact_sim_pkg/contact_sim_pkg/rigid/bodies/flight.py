@@ -11,8 +11,8 @@ import math
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import kernel
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, on_profile
-from contact_sim_pkg.rigid.motion.motion import (
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody, on_profile
+from contact_sim_pkg.rigid.bodies.motion import (
     SEPARATED,
     TOUCHING,
     MotionWorkspace,
