@@ -10,6 +10,7 @@ import pytest
 import scipy.integrate
 import scipy.signal
 from hypothesis import strategies as st
+from pydantic import ValidationError
 from tests.properties import Table, positive
 
 from contact_sim_pkg.excitation import signals, travel
@@ -62,7 +63,12 @@ def obstacle(shape, position, height, length, flank, period):
     size = {"depth": abs(height)} if shape == "pothole" else {"height": height}
     flanks = {} if shape == "bump" else {"edge": flank}
     keys = {"kind": shape, "position": position, "length": length, "period": period}
-    return kind_of("road", {**keys, **size, **flanks})
+    if shape == "bump" and not 0.0 <= flank <= 50.0:
+        raise ValueError("of cleat and pothole alone")
+    try:
+        return kind_of("road", {**keys, **size, **flanks})
+    except ValidationError as error:  # which the scene's rules turn into a sentence
+        raise ValueError(error.errors()[0]["msg"]) from None
 
 
 @holds(obstacle, shape=st.sampled_from(["bump", "cleat", "pothole"]), position=st.integers(-5, 5).map(float),

@@ -104,7 +104,7 @@ MUTANTS = (
     # Excitation and what is made of a recording
     Mutant("recorded.RecordedVibration._filtered", "** 8", "** 4", ("test_recorded",)),
     Mutant("iso8608.band_variance", "power)) / (exponent - 1.0)", "power)) / exponent", ("test_iso8608",)),
-    Mutant("obstacles.Obstacle._profile", "0.5 * self.height", "self.height", ("test_obstacles",)),
+    Mutant("bump.BumpRoad.profile", "0.5 * self.height", "self.height", ("test_obstacles",)),
     Mutant("weighting.response", "1.0 + s / omega_3", "1.0 - s / omega_3", ("test_weighting",)),
     Mutant("metrics.ride_metrics", "** 0.25", "** 0.5", ("test_metrics",)),
     # Impact and roller

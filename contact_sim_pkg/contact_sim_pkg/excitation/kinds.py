@@ -9,8 +9,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
-from pydantic import ValidationError
-
 from contact_sim_pkg.excitation.blocks import Signal, Surface
 from contact_sim_pkg.records.breach import Breach
 from contact_sim_pkg.records.fields import Section, number, text
@@ -140,15 +138,20 @@ class VibrationKind(Kind):
 
 
 def kind_of(section: str, data: Mapping[str, Any] | None) -> Any:
-    """The `road` or `vibration` of plain data that were checked before; None where there is none."""
-    return None if data is None else load(kinds(section)[data["kind"]]).model_validate(data)
+    """The `road` or `vibration` of plain data; None where there is none. ValueError: they fit no kind."""
+    if data is None:
+        return None
+    known = kinds(section)
+    if data.get("kind") not in known:
+        raise ValueError(f"{section}.kind is {data.get('kind')!r:.40}, it must be one of {', '.join(known)}")
+    return load(known[data["kind"]]).model_validate(data)
 
 
 def kind_known(section: str, data: object) -> Any:
     """As `kind_of` for the scene of any bag; None also where its kind is not there, or has other keys."""
     try:
         return kind_of(section, data) if isinstance(data, Mapping) else None
-    except (KeyError, TypeError, ValidationError):
+    except (TypeError, ValueError):
         return None
 
 
