@@ -22,6 +22,7 @@ from contact_sim_pkg.rigid.contact.gauss_seidel import gauss_seidel
 from contact_sim_pkg.rigid.contact.lemke_contact import ContactLemke, make_contact_lemke, solve_by_lemke
 from contact_sim_pkg.rigid.contact.load_split import SplitWorkspace, make_split_workspace, split_load
 from contact_sim_pkg.rigid.contact.planar_impact import contact_modes
+from contact_sim_pkg.rigid.contact.slide_direction import slide_in_one_direction
 from contact_sim_pkg.rigid.parameters import PlanarContact
 from contact_sim_pkg.rigid.problem import DISC, PLANE, ContactProblem, residual, velocity_scale
 from contact_sim_pkg.rigid.results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, SPLIT_NOT_UNIQUE, UNIQUE
@@ -108,6 +109,17 @@ def _turn_facets(problem, work, u):
 
 
 @borrowing_kernel
+def _by_direction(problem, solver, c):
+    """One contact that slides; ``c`` is kept where there is none."""
+    found = solver.newton.best
+    slides = slide_in_one_direction(problem.A, problem.q, problem.friction[0], problem.floor[0], found)
+    if not (slides and residual(problem, found, solver.newton.velocity) <= GOOD):
+        return NOT_CONVERGED
+    copy_row(found, c)
+    return SOLVED
+
+
+@borrowing_kernel
 def _exactly(problem, solver, start, attempts, c):
     """Newton's method from ``c`` (``start``) or a few sweeps; Lemke; on the true cone Newton from
     there, with facets turned.
@@ -129,8 +141,10 @@ def _exactly(problem, solver, start, attempts, c):
             status = solve_by_lemke(problem, solver.lemke, facets, c)
             if status != SOLVED or not on_disc:
                 break
-        # certified by its residual
+        # certified by its residual; one sliding contact has a bracketed equation of its own
         status, _residual = solve_by_newton(problem, solver.newton, c)
+        if status != SOLVED and on_disc and problem.friction.shape[0] == 1:
+            status = _by_direction(problem, solver, c)
         if status == SOLVED:
             break
         if on_disc:
