@@ -21,7 +21,7 @@ __all__ = [
 
 
 class Setting(NamedTuple):
-    """What a kind is told of the run that its surface or signal is made for."""
+    """The run that a kind makes its surface or signal for."""
 
     seed: int
     duration: float  # [s]

@@ -68,6 +68,14 @@ def test_two_texts_bound_a_metric_from_both_sides():
     assert verdicts("deepest sink > 40", "deepest sink < 60")["seat.sink"] == "good"
 
 
+def test_a_miss_counts_before_what_is_undecided():
+    assert verdicts("SEAT < 60", "SEAT > 70")["seat.factor"] == "outside"  # 58 ± 3
+    assert verdicts("SEAT > 70", "SEAT < 60")["seat.factor"] == "outside"
+    assert verdicts("SEAT < 60", "SEAT > 20")["seat.factor"] == "undecided"
+    (found, *_) = required(METRICS, read_requirements(["SEAT < 70", "SEAT > 20"]))
+    assert (found.verdict, found.remark) == ("good", "yours")
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [

@@ -133,20 +133,22 @@ def _places(metrics: Sequence[Metric], named: str) -> list[int]:
     places = places or [place for place, each in enumerate(metrics) if each.name.casefold() == named.casefold()]
     if not places:
         known = ", ".join(f"{each.key} ({each.name})" for each in metrics)
-        raise BagError(f"requirement of {named}: the run has no such metric; it has {known}")
+        raise BagError(f"requirement of {named}: the list has no such metric; it has {known}; --all lists more")
     return places
 
 
 def _judged(metric: Metric, requirement: Requirement) -> Metric:
-    """A metric with its band replaced; of several requirements the first that it misses stays."""
-    if metric.band is not None and metric.band.kind == REQUIRED and metric.verdict in (OUTSIDE, UNDECIDED):
-        return metric
+    """A metric with its band replaced; of several requirements that which it holds least stays, a miss before all."""
     band, value, spread = requirement.band, metric.value, metric.spread
     verdict = judged(value, band)
     ends = [end for end in (band.low, band.high) if math.isfinite(end)]
     if math.isfinite(value) and math.isfinite(spread) and any(abs(value - end) < spread for end in ends):
         verdict = UNDECIDED
-    return metric._replace(band=band, verdict=verdict, remark="; ".join(filter(None, ("yours", metric.remark))))
+    again = metric.band is not None and metric.band.kind == REQUIRED
+    if again and (metric.verdict == OUTSIDE or (metric.verdict == UNDECIDED and verdict != OUTSIDE)):
+        return metric
+    remark = metric.remark if again else "; ".join(filter(None, ("yours", metric.remark)))
+    return metric._replace(band=band, verdict=verdict, remark=remark)
 
 
 def exit_code(metrics: Sequence[Metric]) -> int:
