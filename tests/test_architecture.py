@@ -1,10 +1,13 @@
 """The order of imports between the rooms of the package."""
 
 import ast
+import re
 
 import pytest
-from tests.house.closures import folder_circles
-from tests.house.source import LABORATORY, PACKAGE, circles, imports, modules
+from tests.house.closures import VEHICLE, arrows_back, folder_circles
+from tests.house.source import LABORATORY, PACKAGE, Module, circles, imports, modules
+
+from contact_sim_pkg.records.registry import kinds
 
 ORDER = (
     ("requirements",),
@@ -108,25 +111,50 @@ def test_a_name_that_is_bound_twice_is_seen():
     assert bound_twice(ast.parse("try:\n    import a as b\nexcept ImportError:\n    b = None\n")) == set()
 
 
+NAMED_PATH = re.compile(r"(?<![\w/.~<-])((?:[\w.-]+/)+[\w.-]*\w\.(?:py|md|yaml|msg|cpp|csv))\b")
+
+
+def paths_that_are_not_there(module):
+    """Paths of files in the docstrings of a module that stand in none of the folders that they may count from."""
+    project = PACKAGE.parents[1]
+    places = (project, PACKAGE, LABORATORY, PACKAGE.parent, project / "contact_msgs_defs", *module.path.parents)
+    nodes = (each for each in ast.walk(module.tree) if isinstance(each, ast.Module | ast.FunctionDef | ast.ClassDef))
+    named = {path for node in nodes for path in NAMED_PATH.findall(ast.get_docstring(node) or "")}
+    return {path for path in named if not any((place / path).exists() for place in places)}
+
+
+def test_files_that_docstrings_name_exist(tmp_path):
+    everywhere = [each for root in (PACKAGE, LABORATORY) for each in modules(root).values()]
+    assert {each.path: gone for each in everywhere if (gone := paths_that_are_not_there(each))} == {}
+    stray = Module(
+        "stray", tmp_path / "stray.py", "", ast.parse('"""See `laws/nowhere.py` and laws/elastic_law.py."""')
+    )
+    assert paths_that_are_not_there(stray) == {"laws/nowhere.py"}
+
+
 def test_no_modules_import_each_other(edges):
     assert circles(edges) == []
 
 
-CIRCLES = [  # of neighbours, one of them a folder: a list that only gets shorter
-    {"identify.contact", "identify.diagnostics", "identify.geometry", "identify.motion", "identify.problem",
-     "identify.sweep"},
-    {"rigid.body", "rigid.body_state", "rigid.contact", "rigid.forces", "rigid.geometry", "rigid.impact",
-     "rigid.motion", "rigid.problem"},
-    {"rigs.vehicle.bodies", "rigs.vehicle.contact_field", "rigs.vehicle.coupling", "rigs.vehicle.drive",
-     "rigs.vehicle.entries", "rigs.vehicle.field_driver", "rigs.vehicle.lattice", "rigs.vehicle.model",
-     "rigs.vehicle.outputs", "rigs.vehicle.tire"},
-]  # fmt: skip
-
-
 def test_folders_import_their_neighbours_one_way(edges):
-    found = [set(circle) for circle in folder_circles(edges)]
-    assert [circle for circle in found if not any(circle <= known for known in CIRCLES)] == []
-    assert len(CIRCLES) == len(found), "shorten the list"
+    assert folder_circles(edges) == []
+
+
+def test_rooms_of_the_vehicle_import_by_layer(edges):
+    assert arrows_back(edges, "rigs.vehicle", VEHICLE) == []
+
+
+def test_an_arrow_back_is_seen():
+    up_and_beside = {
+        "rigs.vehicle.seat.lean": {"rigs.vehicle.tire.model"},
+        "rigs.vehicle.field.driver": {"rigs.vehicle.motion"},
+    }
+    assert len(arrows_back(up_and_beside, "rigs.vehicle", VEHICLE)) == 2
+    down = {
+        "rigs.vehicle.tire.model": {"rigs.vehicle.seat.lean", "rigs.vehicle.tire.body"},
+        "rigs.vehicle": {"rigs.vehicle.run"},
+    }
+    assert arrows_back(down, "rigs.vehicle", VEHICLE) == []
 
 
 def test_nothing_of_the_product_imports_the_laboratory():
@@ -138,3 +166,23 @@ def test_nothing_of_the_product_imports_the_laboratory():
 
 def test_no_modules_of_the_laboratory_import_each_other():
     assert circles(imports(modules(LABORATORY), LABORATORY.name)) == []
+
+
+def compared_with_a_kind(tree, names):
+    """Lines that compare a `kind` with the name of a road or a vibration."""
+    return [
+        node.lineno
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Compare) and re.search(r"""\.kind\b|\[?["']kind["']""", ast.unparse(node))
+        if names & {each.value for each in ast.walk(node) if isinstance(each, ast.Constant) and each.value != "kind"}
+    ]
+
+
+def test_nobody_compares_the_kind_of_a_road_or_a_vibration():
+    """Who wants to know asks the kind."""
+    names = {*kinds("road"), *kinds("vibration")}
+    everywhere = [each for root in (PACKAGE, LABORATORY) for each in modules(root).values()]
+    assert {each.path: lines for each in everywhere if (lines := compared_with_a_kind(each.tree, names))} == {}
+    assert compared_with_a_kind(
+        ast.parse('if road.kind in ("bump", "step") or scene.get("kind") == "sine": ...'), names
+    )

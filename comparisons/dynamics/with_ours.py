@@ -7,7 +7,7 @@ import math
 import numpy
 
 from comparisons.dynamics.problems import SIDE, Array, Start
-from contact_sim_pkg.rigid.body import box, placed, slope, sphere
+from contact_sim_pkg.rigid.bodies.body import box, placed, slope, sphere
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.parameters import ENERGETIC, NEWTON
 from contact_sim_pkg.rigid.results import SENTENCES, SOLVED

@@ -1,4 +1,4 @@
-"""A rig, an effect and a command of another package: by pip, or by colcon beside the bench."""
+"""Rig, effect, command, road, vibration, metric and format of another package: by pip, or by colcon beside the bench."""
 
 from setuptools import setup
 
@@ -16,5 +16,9 @@ setup(
         "contact_sim_pkg.rigs": ["bouncer = bouncer_rig:RIGS"],
         "contact_sim_pkg.effects": ["load_change = bouncer_rig:EFFECTS"],
         "contact_sim_pkg.commands": ["bounces = bouncer_rig.bounces"],
+        "contact_sim_pkg.roads": ["washboard = bouncer_rig.washboard"],
+        "contact_sim_pkg.vibrations": ["knock = bouncer_rig.knock"],
+        "contact_sim_pkg.metrics": ["impacts = bouncer_rig.metrics"],
+        "contact_sim_pkg.exports": ["md = bouncer_rig.markdown"],
     },
 )

@@ -149,7 +149,7 @@ ROUND_TRIPS = {
     "motion": motion_block(),
     "wrench": wrench_of((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)),
     "cost": SolverCost(
-        block=4, wall_time=0.01, real_time_factor=1.0, steps=5, field_residual=1e-7, stretches_repeated=2
+        block=4, wall_time=0.01, real_time_factor=1.0, steps=5, field_residual=1e-7, coupling_steps_repeated=2
     ),
     "recorded": BenchRecorded(block=-1, messages=7, closed=True, bag="bags/a", message="closed"),
 }

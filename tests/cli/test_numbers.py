@@ -23,7 +23,7 @@ def printed(capsys, *arguments):
 
 def test_the_list_ends_with_its_verdict(capsys, bag):
     status, out, _ = printed(capsys, "metrics", bag)
-    assert status == 0
+    assert status == 1
     assert out.splitlines()[-1].startswith("OUTSIDE: tire: time off the road ")
     assert "DOUBTFUL: " in out.splitlines()[-1]
 
@@ -70,10 +70,12 @@ def test_a_miss_ends_with_1_and_says_by_how_much(capsys, bag, tmp_path):
     [
         (("compare", "{bag}", "{bag}", "--junit"), "--junit needs --tolerances"),
         (("compare", "{bag}"), "a comparison needs at least two bags, 1 given"),
-        (("compare", "{bag}", "{bag}", "--tolerances", "none.yaml"), "cannot be read"),
+        (("compare", "{bag}", "{bag}", "--tolerances", "none.yaml"), "none.yaml: No such file"),
         (("metrics", "no_bag"), "no_bag"),
+        (("metrics", "{bag}", "--require", "none.yaml"), "none.yaml: No such file"),
+        (("metrics", "{bag}", "--require", "crest 9"), "is no requirement"),
         (("metrics", "{bag}", "--axis", "Wk"), "there is nothing to weight"),
-        (("export", "{bag}"), "Missing --csv, --parquet, --ros-std or --wall-time"),
+        (("export", "{bag}"), "Missing --csv, --parquet, --ros-std, --format or --wall-time"),
     ],
 )  # fmt: skip
 def test_bad_input_is_one_sentence_and_status_2(capsys, bag, tmp_path, monkeypatch, arguments, words):

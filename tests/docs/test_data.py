@@ -140,16 +140,16 @@ MADE = {
         lambda at: wavfile.write(at / "ride.wav", 200, np.int16(Z / 50.0 * 32768)), "bag: 800 messages"
     ),
     "bench import ride.mf4 --out bag": Made(lambda at: daq_file(at / "ride.mf4"), "bag: 800 messages", library="asammdf"),
-    "bench metrics imu": Made(lambda at: imu_bag(at / "imu"), "1.24 m/s²"),
+    "bench metrics imu": Made(lambda at: imu_bag(at / "imu"), "1.24 m/s²", code=1),
     "bench metrics lidar --unit g": Made(
-        lambda at: imu_bag(at / "lidar", lambda a: (a.x / G, a.y / G, a.z / G)), "1.24 m/s²"
+        lambda at: imu_bag(at / "lidar", lambda a: (a.x / G, a.y / G, a.z / G)), "1.24 m/s²", code=1
     ),
     "bench metrics camera": Made(
-        lambda at: imu_bag(at / "camera", lambda a: (a.x, -a.z, a.y)), "gravity lies on y, so y points down"
+        lambda at: imu_bag(at / "camera", lambda a: (a.x, -a.z, a.y)), "gravity lies on y, so y points down", code=1
     ),
-    "bench metrics split": Made(foreign.split, "1.24 m/s²"),
-    "bench metrics ride.db3": Made(lambda at: foreign.sqlite_file(at).rename(at / "ride.db3"), "1.24 m/s²"),
-    "bench metrics ride.bag": Made(foreign.ros1, "1.24 m/s²"),
+    "bench metrics split": Made(foreign.split, "1.24 m/s²", code=1),
+    "bench metrics ride.db3": Made(lambda at: foreign.sqlite_file(at).rename(at / "ride.db3"), "1.24 m/s²", code=1),
+    "bench metrics ride.bag": Made(foreign.ros1, "1.24 m/s²", code=1),
     "bench recover cut.mcap saved": Made(
         lambda at: cut_bag(at / "cut.mcap"), "saved: ", code=3
     ),

@@ -5,10 +5,13 @@ import pytest
 
 from contact_sim_pkg.excitation.blocks import RoadBlocks, VibrationBlocks
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.iso8608 import Iso8608Road
-from contact_sim_pkg.excitation.obstacles import Obstacle
-from contact_sim_pkg.excitation.signals import AxisSignal, NoiseSignal, Sine
+from contact_sim_pkg.excitation.kinds import Setting
+from contact_sim_pkg.excitation.roads.cleat import CleatRoad
+from contact_sim_pkg.excitation.roads.iso8608 import Iso8608Road
+from contact_sim_pkg.excitation.signals import AxisSignal
 from contact_sim_pkg.excitation.travel import Travel
+from contact_sim_pkg.excitation.vibrations.noise import NoiseSignal
+from contact_sim_pkg.excitation.vibrations.sine import Sine
 
 
 class Plane:
@@ -121,6 +124,8 @@ def test_a_rate_that_does_not_fit_the_block_is_refused():
 
 @pytest.mark.parametrize(("length", "noted"), [(0.005, True), (0.05, False)])
 def test_an_obstacle_that_can_fall_between_the_nodes_is_noted(length, noted):
-    road = RoadBlocks(Obstacle("cleat", 1.0, 0.02, length), Travel([(0.0, 5.0)]), 0.01, 0.006, 0.006, 0.2, 9)
+    cleat = CleatRoad(kind="cleat", position=1.0, height=0.02, length=length)
+    surface = cleat.surface(Setting(1, 1.0, 0.01, None, cell=0.006))
+    road = RoadBlocks(surface, Travel([(0.0, 5.0)]), 0.01, 0.006, 0.006, 0.2, 9)
     notes = road.describe()["notes"]
     assert any("falls between two nodes" in note for note in notes) == noted

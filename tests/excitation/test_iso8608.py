@@ -8,7 +8,7 @@ import pytest
 from scipy import integrate
 
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.iso8608 import CLASS_ROUGHNESS, Iso8608Road, band_variance, roughness_of_class
+from contact_sim_pkg.excitation.roads.iso8608 import CLASS_ROUGHNESS, Iso8608Road, band_variance, roughness_of_class
 
 CENTRE = numpy.zeros(1)
 STEP, LENGTH = 0.05, 2000.0

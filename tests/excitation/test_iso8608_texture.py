@@ -7,8 +7,8 @@ import pytest
 from scipy import integrate
 
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.iso8608 import Iso8608Road
 from contact_sim_pkg.excitation.iso8608_texture import Texture
+from contact_sim_pkg.excitation.roads.iso8608 import Iso8608Road
 
 LONGEST, SHORTEST = 0.3, 0.04
 X = 8.0 * numpy.arange(2048) / 2048

@@ -5,7 +5,7 @@ import pytest
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.self_affine import STRIP, SelfAffineRoad
+from contact_sim_pkg.excitation.roads.self_affine import STRIP, SelfAffineRoad
 from contact_sim_pkg.run.sources import make_surface
 from contact_sim_pkg.scene.errors import SceneError
 

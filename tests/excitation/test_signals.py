@@ -8,7 +8,11 @@ import pytest
 from scipy import signal, stats
 
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.signals import AxisSignal, HalfSine, NoiseSignal, Sine, SweepSignal
+from contact_sim_pkg.excitation.signals import AxisSignal
+from contact_sim_pkg.excitation.vibrations.half_sine import HalfSine
+from contact_sim_pkg.excitation.vibrations.noise import NoiseSignal
+from contact_sim_pkg.excitation.vibrations.sine import Sine
+from contact_sim_pkg.excitation.vibrations.sweep import SweepSignal
 
 TIME = numpy.linspace(-0.5, 3.0, 1234)
 

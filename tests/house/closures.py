@@ -16,9 +16,15 @@ NODES = tuple(
     f"nodes.{name}"
     for name in ("road_profile", "vibration", "contact_simulator", "bag_logger", "bag_replay", "excitation")
 )
-FRAME = (*RUN, *NODES)
+FRAME = (*RUN, *NODES, "excitation.roads", "excitation.vibrations")
 """Roots of what runs, reports and replays, without a rig."""
 LISTS_RIGS = "rigs"
+VEHICLE = (
+    ("motion", "field"), ("seat",), ("tire",), ("model", "work"), ("outputs",), ("run",), ("simulation",), ("other_half",),
+)  # fmt: skip
+"""Layers of `rigs/vehicle`: a room imports from those before it, and from none beside it."""
+FOLDERS_OF_KINDS = ("excitation.roads", "excitation.vibrations")
+"""Each module in them is a kind, found by its place."""
 
 
 def closure(found: dict[str, Module], roots: Iterable[str], package: str = PACKAGE.name) -> set[str]:
@@ -34,6 +40,8 @@ def closure(found: dict[str, Module], roots: Iterable[str], package: str = PACKA
             continue
         reached[name] = whole
         ahead += ((target, True) for target in edges[name])
+        if name in FOLDERS_OF_KINDS:
+            ahead += ((each, True) for each in found if each.startswith(f"{name}."))
         ahead += ((".".join(name.split(".")[:depth]), False) for depth in range(1, name.count(".") + 1))
         if whole and name != LISTS_RIGS:
             ahead += ((target, True) for target in named(found[name], package))
@@ -86,3 +94,19 @@ def folder_circles(edges: dict[str, set[str]]) -> list[list[str]]:
                 beside.setdefault(second, set())
     found = [group for beside in levels.values() for group in circles(beside)]
     return [group for group in found if any(name in folders for name in group)]
+
+
+def arrows_back(edges: dict[str, set[str]], folder: str, layers: tuple[tuple[str, ...], ...]) -> list[str]:
+    """Imports between the rooms of a folder that go up or sideways; what the folder's own `__init__` lists is left out.
+
+    KeyError: a room without a layer.
+    """
+    rank = {room: at for at, rooms in enumerate(layers) for room in rooms}
+    return sorted(
+        f"{name} <- {target}"
+        for name, targets in edges.items()
+        for target in targets
+        if name.startswith(f"{folder}.") and target.startswith(f"{folder}.")
+        for one, other in [(name[len(folder) + 1 :].partition(".")[0], target[len(folder) + 1 :].partition(".")[0])]
+        if one != other and rank[other] >= rank[one]
+    )

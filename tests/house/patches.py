@@ -14,6 +14,7 @@ class Patch(NamedTuple):
 
     before: str
     wanted: str
+    whole: bool = False  # whether all of its files count, new ones included
 
 
 PATCHES = {
@@ -21,6 +22,8 @@ PATCHES = {
     "effect": Patch("10 to 20", "1 to 3"),
     "topic": Patch("14", "3"),
     "column": Patch("15", "3"),
+    "obstacle": Patch("6", "1", whole=True),
+    "metric": Patch("closed", "1", whole=True),
 }
 
 
@@ -30,9 +33,10 @@ def text_of(name: str) -> str:
 
 
 def shared_files(name: str) -> list[str]:
-    """Files that exist without the patch and that it edits, tests and generated pages left out.
+    """Files that exist without the patch and that it edits (all of its files where the patch counts `whole`), tests and
+    generated pages left out.
 
     What commands write from the same definitions (`records/messages.pyi`, `config/sros2_policy.xml`) is in no patch.
     """
-    edited = re.findall(r"^--- a/(\S+)$", text_of(name), re.MULTILINE)
+    edited = re.findall(rf"^{r'[+]{3} b' if PATCHES[name].whole else '--- a'}/(\S+)$", text_of(name), re.MULTILINE)
     return [path for path in edited if not path.startswith(("tests/", "docs/"))]

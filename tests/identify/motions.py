@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from contact_sim_lab.identify.twins.falling_body import FallingBody, fall
 from contact_sim_pkg.identify.motion.rotation import exponential
 from contact_sim_pkg.identify.motion.states import BodyStates
-from contact_sim_pkg.rigid.body import RigidBody, box, placed, slope
+from contact_sim_pkg.rigid.bodies.body import RigidBody, box, placed, slope
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.rigid.results import SOLVED

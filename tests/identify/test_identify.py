@@ -5,11 +5,10 @@ import pytest
 from tests.identify import motions
 
 from contact_sim_lab.identify.twins.falling_body import FallingBody, fall
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact import wrench
-from contact_sim_pkg.identify.contact.modes import REVERSED
+from contact_sim_pkg.identify.contact.instant import REVERSED
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry, wrench
 from contact_sim_pkg.identify.motion.states import BodyStates
 
 SQUARE = Setup(geometry.box([motions.SIDE] * 3))

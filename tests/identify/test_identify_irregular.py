@@ -7,7 +7,7 @@ import pytest
 from tests.identify import foreign_bag, motions
 
 from contact_sim_pkg.cli.main import main
-from contact_sim_pkg.identify.diagnostics.noise import roundings
+from contact_sim_pkg.identify.contact.noise import roundings
 from contact_sim_pkg.identify.motion.states import BodyStates
 
 INERTIA = 600.0

@@ -10,13 +10,12 @@ import pytest
 from tests.identify import foreign_bag, motions
 
 from contact_sim_pkg.cli.main import main
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact import wrench
+from contact_sim_pkg.identify.contact.balance import Side
 from contact_sim_pkg.identify.contact.coulomb import friction_balance
 from contact_sim_pkg.identify.contact.stacked import estimate
-from contact_sim_pkg.identify.diagnostics.balance import Side
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry, wrench
 from contact_sim_pkg.identify.motion.flight import FlightModel, FlightState, moved
 from contact_sim_pkg.identify.motion.rotation import exponential
 from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise

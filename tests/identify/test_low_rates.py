@@ -3,8 +3,8 @@
 import pytest
 from tests.identify import motions
 
-from contact_sim_pkg.identify import geometry
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry
 
 
 def deviations(seed, rate, *, noise):

@@ -4,9 +4,9 @@ import numpy
 import pytest
 from tests.identify import motions
 
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.diagnostics.noise import shared_rounding
+from contact_sim_pkg.identify.contact.noise import shared_rounding
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry
 from contact_sim_pkg.identify.motion.states import BodyStates
 
 STEP = 1e-3

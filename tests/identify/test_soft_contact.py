@@ -5,9 +5,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 from tests.identify import soft_motions as soft
 
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact import wrench
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry, wrench
 from contact_sim_pkg.identify.motion.states import BodyStates
 
 SQUARE = Setup(geometry.box([0.1] * 3))

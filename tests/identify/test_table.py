@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contact_sim_lab.identify.twins.block_impacts import random_block_impacts
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact.two_point import one_impact, two_point
+from contact_sim_pkg.identify.contact.coulomb import one_impact, two_point
 from contact_sim_pkg.identify.errors import IdentificationError
+from contact_sim_pkg.identify.motion import geometry
 from contact_sim_pkg.identify.motion.rotation import exponential
 from contact_sim_pkg.identify.naming import unobservable
 from contact_sim_pkg.identify.table import ImpactTable, estimate_from_impacts, problem_of_impacts

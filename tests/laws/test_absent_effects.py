@@ -7,9 +7,9 @@ from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
-from contact_sim_pkg.rigs.vehicle import entries
-from contact_sim_pkg.rigs.vehicle.motion import event_count
-from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.motion import entries
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 from contact_sim_pkg.studies.effects.effect_cost import HandWritten, bounce, rigs
 
 FRICTION = Friction(2.0e4, 200.0, 0.4, 0.35)

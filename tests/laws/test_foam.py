@@ -26,7 +26,7 @@ from contact_sim_pkg.laws.foam_hysteresis import (
 )
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.parameters import FoamElastic, FoamHysteresis, NormalDissipative, NormalElastic
-from contact_sim_pkg.rigs.vehicle.entries import energies
+from contact_sim_pkg.rigs.vehicle.motion.entries import energies
 from contact_sim_pkg.scene.resolve import load_resolved
 
 FOAM = FoamElastic(0.12, 0.08, 4.0e4, 3.0e3, 150.0, 3.0)

@@ -93,13 +93,18 @@ MUTANTS = (
     Mutant("rotation._OUTER", "0.0822", "0.0823", ("test_body",)),
     # Rigs and their integrator
     Mutant("biodynamics.rest_deflections", "+= lift", "-= lift", ("test_biodynamics",)),
-    Mutant("vehicle/motion._rate", "lost += lost_in_links + rubbed", "lost += lost_in_links", ("test_absent_effects",)),
+    Mutant(
+        "vehicle/motion/vehicle._rate",
+        "lost += lost_in_links + rubbed",
+        "lost += lost_in_links",
+        ("test_absent_effects",),
+    ),
     Mutant("order_5.step_of_order_5", "125.0 / 192.0", "125.0 / 191.0", ("test_orders",)),
     Mutant("order_5.error_of_order_5", "22.0 / 525.0", "21.0 / 525.0", ("test_orders",)),
     # Excitation and what is made of a recording
     Mutant("recorded.RecordedVibration._filtered", "** 8", "** 4", ("test_recorded",)),
     Mutant("iso8608.band_variance", "power)) / (exponent - 1.0)", "power)) / exponent", ("test_iso8608",)),
-    Mutant("obstacles.Obstacle._profile", "0.5 * self.height", "self.height", ("test_obstacles",)),
+    Mutant("bump.BumpRoad.profile", "0.5 * self.height", "self.height", ("test_obstacles",)),
     Mutant("weighting.response", "1.0 + s / omega_3", "1.0 - s / omega_3", ("test_weighting",)),
     Mutant("metrics.ride_metrics", "** 0.25", "** 0.5", ("test_metrics",)),
     # Impact and roller

@@ -11,11 +11,13 @@ import pytest
 import scipy.signal
 from tests.bench_process import messages, needs_ros
 from tests.plugins.bench_beside import Bench
+from tests.report.synthetic_bag import seat_bag
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.records.plugins import OFF, VARIABLE
 
 EXAMPLE = Path(__file__).parents[2] / "examples/plugin_rig"
+OUTSIDE = 1  # exit code: a metric of so short a run lies outside its band
 
 
 @pytest.fixture
@@ -220,3 +222,127 @@ def test_no_plug_in_is_looked_for_where_a_scene_uses_none():
 
     assert plugin_environment(ResolvedScene({})) == {VARIABLE: OFF}
     assert plugin_environment(ResolvedScene({"plugins": "a 1.0, b 2.1"})) == {VARIABLE: "a,b"}
+
+
+@pytest.fixture(scope="module")
+def washboard(example):
+    """A run of our tire over its road."""
+    example(
+        "run", "tire_bump", "--offline", "--out", "washboard", "--set", "road={kind: washboard, wavelength: 0.5}",
+        "--set", "duration=0.05", "--set", "effects.tire.contact_field=null",
+    )  # fmt: skip
+    return example
+
+
+def test_its_road_is_the_sine_that_it_says(washboard):
+    bag = open_bag(washboard.work / "washboard")
+    seen = 0
+    for _time, patch in bag.decoded("road/patch"):
+        height = numpy.reshape(patch.height, (-1, patch.cols))
+        x = (patch.first_row + numpy.arange(len(height))) * patch.cell_x
+        expected = (0.005 * numpy.exp(4j * math.pi * x)).imag
+        assert height == pytest.approx(numpy.repeat(expected[:, None], patch.cols, axis=1), abs=1e-9)
+        seen += 1
+    assert seen == 5
+    assert "plugins: bouncer_rig 0.1.0" in bag.metadata["scene"]
+
+
+def test_its_metric_and_its_format_are_those_of_the_bench(washboard):
+    assert "tire.impacts" in washboard("metrics", "washboard", "--json", status=OUTSIDE)
+    assert "impacts" in washboard("metrics", "washboard", "--all", status=OUTSIDE)
+    washboard("export", "washboard", "--format", "md", "--topic", "tire/force", "--out", "tables")
+    header, rule, *rows = (washboard.work / "tables/tire_force.md").read_text().splitlines()
+    assert header.startswith("| time [s] | ")
+    assert set(rule) <= set("|- ")
+    normal = open_bag(washboard.work / "washboard").columns("tire/force", ("normal",))["normal"].ravel()
+    assert len(rows) == len(normal)
+    column = header.split(" | ").index("normal [N]")
+    assert [float(row.split(" | ")[column].strip("| ")) for row in rows] == normal.tolist()
+    assert "there is no format mat; formats are csv, parquet, md" in washboard(
+        "export", "washboard", "--format", "mat", status=2
+    )
+
+
+def test_its_vibration_is_the_one_that_it_says(example):
+    printed, _said = example.python(
+        "import math; from contact_sim_pkg.run.sources import make_vibration\n"
+        "from contact_sim_pkg.scene.resolve import load_resolved\n"
+        "scene = load_resolved('seat_slap', 'vibration={kind: knock, amplitude: 3.0, frequency: 7.0, decay: 0.2, axis: x}')\n"
+        "block = make_vibration(scene).block(4)\n"
+        "t = [0.04 + i / 1000 for i in range(len(block.acceleration_x))]\n"
+        "wave = [3.0 * math.exp(-each / 0.2) * math.sin(14.0 * math.pi * each) for each in t]\n"
+        "print(max(abs(a - b) for a, b in zip(wave, block.acceleration_x)) < 1e-12, block.acceleration_z.any())\n"
+        "print(scene.data['plugins'])\n"
+    )
+    assert printed == "True False\nbouncer_rig 0.1.0\n"
+
+
+@pytest.mark.parametrize(
+    ("road", "sentence"),
+    [
+        ("{kind: washboard, amplitude: 0.2}", "road.amplitude: 0.2 m is above 0.1 m; allowed are 0 to 0.1 m"),
+        (
+            "{kind: washboard, amplitude: 0.1, wavelength: 0.1}",
+            "slopes of 6.3, at most 0.5 is allowed; take longer waves",
+        ),
+        ("{kind: washbord}", "'washbord' is not a kind of road; allowed: bump"),
+    ],
+)
+def test_bad_values_of_its_road_are_refused_in_a_sentence(example, road, sentence):
+    text = example("run", "tire_bump", "--offline", "--no-record", "--set", f"road={road}", status=2)
+    assert sentence in text
+    assert "Traceback" not in text
+
+
+def test_without_it_its_road_is_unknown(washboard):
+    text = washboard("show", "tire_bump", "--set", "road={kind: washboard}", plugins=OFF, status=2)
+    assert "'washboard' is not a kind of road; allowed: bump, cleat" in text
+    assert "washboard" not in text.partition("allowed: ")[2]
+    again = washboard("run", "--from-bag", "washboard", "--offline", "--no-record", plugins=OFF, status=2)
+    assert "uses the plug-in bouncer_rig 0.1.0, which is not installed" in again
+    assert "impacts" not in washboard("metrics", "washboard", "--all", plugins=OFF, status=OUTSIDE)
+
+
+KIND = """
+from typing import Literal
+from contact_sim_pkg.excitation.kinds import RoadKind
+
+class Mud(RoadKind):
+    kind: Literal["{}"]
+    {}
+
+KIND = Mud
+"""
+SURFACE = "def surface(self, setting): return self"
+
+
+@pytest.mark.parametrize(
+    ("module", "cause"),
+    [
+        (KIND.format("mud", "pass"), "road mud: mud:KIND has no surface"),
+        (KIND.format("dirt", SURFACE), 'road mud: mud:KIND needs the key kind: Literal["mud"]'),
+        ("KIND = 3", "road mud: mud:KIND is no class below RoadKind"),
+        ("import nothing_of_this_name", "road mud: mud:KIND does not load (ModuleNotFoundError"),
+    ],
+)
+def test_a_kind_that_is_none_is_a_line_and_left_out(bench, module, cause):
+    bench.add("mud", module, roads="mud = mud")
+    text = bench("show", "tire_bump")
+    assert text.count("plug-in mud 1.2 is left out") == 1
+    assert cause in text
+
+
+def test_kinds_metrics_and_formats_of_equal_names_are_refused_and_both_named(bench):
+    bench.add("first", KIND.format("flat", SURFACE), roads="flat = first")
+    text = bench("show", "tire_bump", status=2)
+    assert "two roads are named flat: the bench's own and that of plug-in first 1.2" in text
+    assert "Traceback" not in text
+    assert "kind: bump" in bench("show", "tire_bump", plugins=OFF)
+
+
+def test_a_metric_that_fails_is_a_line_and_left_out(bench, tmp_path):
+    bag = seat_bag(tmp_path / "seat").path
+    bench.add("spoilt", "def metrics(recording):\n    raise KeyError('gone')\n", metrics="spoilt = spoilt")
+    text = bench("metrics", bag, status=OUTSIDE)
+    assert text.count("the metrics spoilt of a plug-in, spoilt:metrics, are left out: 'gone'") == 1
+    assert "SEAT" in text

@@ -177,8 +177,8 @@ def _cost(block: int, _blocks: int, stamp: int) -> bytes:
         field_iterations=30,
         field_residual=1e-7,
         field_jump=jump,
-        stretches=4,
-        stretches_repeated=1,
+        coupling_steps=4,
+        coupling_steps_repeated=1,
         coupling_error=2e-3,
     )
     return encode(cost, stamp)

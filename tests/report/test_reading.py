@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.report import uneven_bag as known
 
-from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.reading import cost_series, read_recording
 from contact_sim_pkg.report.summary import summarise_recording
 
 
@@ -84,13 +84,19 @@ def test_the_summary_takes_the_largest_residual_of_the_energy_and_the_work_at_th
 
 def test_the_summary_adds_counts_and_takes_the_largest_of_errors(recording):
     solver, costs = summarise_recording(recording)["solver"], known.COSTS
-    for name in ("steps", "rejected_steps", "events", "field_iterations", "stretches", "stretches_repeated"):
+    for name in ("steps", "rejected_steps", "events", "field_iterations", "coupling_steps", "coupling_steps_repeated"):
         assert solver[name] == costs[name].sum()
     for name, unit in (("field_residual", ""), ("field_jump", "_N"), ("coupling_error", "")):
         key = f"{name}_max{unit}"
         assert solver[key] == costs[name].max()
     simulated = costs["real_time_factor"] @ costs["wall_time"]
     assert solver["physics_real_time_factor"] == pytest.approx(simulated / costs["wall_time"].sum())
+
+
+def test_costs_of_an_earlier_release_are_read_by_their_old_names():
+    series = cost_series({"time": [0.0, 0.1], "stretches": [3, 5], "stretches_repeated": [1, 0]})
+    assert series["coupling_steps"].tolist() == [3.0, 5.0]
+    assert series["coupling_steps_repeated"].tolist() == [1.0, 0.0]
 
 
 def test_pressure_and_area_err_no_less_than_the_force_that_makes_them(recording):

@@ -92,8 +92,8 @@ def test_energy_that_appears_in_a_rig_at_rest_is_a_residual():
 def test_solver_counts_are_sums_over_the_blocks(summary):
     assert summary["solver"] == {
         "blocks": 1000, "steps": 12_000, "rejected_steps": 1000, "events": 2000, "field_iterations": 30_000,
-        "field_residual_max": 1e-7, "field_jump_max_N": 2.5, "stretches": 4000,
-        "stretches_repeated": 1000, "coupling_error_max": 2e-3, "physics_wall_s": pytest.approx(2.0),
+        "field_residual_max": 1e-7, "field_jump_max_N": 2.5, "coupling_steps": 4000,
+        "coupling_steps_repeated": 1000, "coupling_error_max": 2e-3, "physics_wall_s": pytest.approx(2.0),
         "physics_real_time_factor": pytest.approx(5.0),
     }  # fmt: skip
 

@@ -105,7 +105,9 @@ COSTS = {
     "coupling_error": _drawn(1e-4, 9e-4, BLOCKS),
 } | {
     name: 10 * (place + 1) + _RANDOM.permutation(BLOCKS)
-    for place, name in enumerate(("steps", "rejected_steps", "events", "field_iterations", "stretches", "stretches_repeated"))
+    for place, name in enumerate(
+        ("steps", "rejected_steps", "events", "field_iterations", "coupling_steps", "coupling_steps_repeated")
+    )
 }  # fmt: skip
 EPISODES = {
     name: _drawn(0.1, 0.9, 5)

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from contact_sim_pkg.rigid.body import (
+from contact_sim_pkg.rigid.bodies.body import (
     box,
     contact_rows,
     fill_inverse_inertia,

@@ -51,7 +51,7 @@ def test_the_residual_is_supplied_energy_that_is_nowhere():
 
 def test_missing_columns_of_cost_are_zero():
     cost = solver_cost(STAMPS, 0.005, steps=7)
-    assert (cost.real_time_factor, cost.steps, cost.stretches, cost.field_residual) == (2.0, 7, 0, 0.0)
+    assert (cost.real_time_factor, cost.steps, cost.coupling_steps, cost.field_residual) == (2.0, 7, 0, 0.0)
 
 
 def test_the_largest_of_a_column_is_over_all_topics_of_its_kind():

@@ -1,5 +1,8 @@
 """What is told of an excitation before a run."""
 
+import subprocess
+import sys
+
 import numpy
 import pytest
 from tests.run.scenes import resolved
@@ -27,3 +30,18 @@ def test_the_largest_gap_between_a_sine_and_its_straight_lines_is_reported_with_
     assert f"up to {off:.2g} of its amplitude off" in note
     assert f"vibration.sample_rate: {rate} leaves" in note
     assert notes(*values, f"vibration.sample_rate={rate}") == []
+
+
+def test_a_sine_is_made_without_readers_of_files_and_without_a_compiler():
+    """As the node of the vibration starts: from the resolved scene of its supervisor."""
+    text = resolved("seat_slap").to_yaml()
+    code = (
+        "import sys; import contact_sim_pkg.run.sources as sources; "
+        "from contact_sim_pkg.scene.resolved_scene import ResolvedScene; "
+        "made = sources.make_vibration(ResolvedScene.from_own_yaml(sys.stdin.read(), {})).block(0); "
+        "late = ('numba', 'scipy', 'contact_sim_pkg.excitation.recorded', 'contact_sim_pkg.excitation.opencrg', "
+        "'contact_sim_pkg.excitation.table_files', 'contact_sim_pkg.excitation.roads.iso8608'); "
+        "sys.exit(' '.join(name for name in late if name in sys.modules) or 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], input=text, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")

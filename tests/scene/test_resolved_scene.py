@@ -7,11 +7,11 @@ import pytest
 from pydantic import ValidationError
 from tests.run.scenes import resolved
 
+from contact_sim_pkg.records.fields import Section
 from contact_sim_pkg.rigs.backrest.schema import BackrestSection
 from contact_sim_pkg.rigs.vehicle.tire.schema import BrushSection, Envelopment, Inflation, TireField, TireSection
 from contact_sim_pkg.scene.resolved_scene import MAY_BE_LEFT_OUT, plain
-from contact_sim_pkg.scene.schema import general, road, vibration
-from contact_sim_pkg.scene.schema.fields import Section
+from contact_sim_pkg.scene.schema import general, travel
 from contact_sim_pkg.scene.schema.laws import HuntCrossley
 from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 
@@ -45,13 +45,13 @@ def test_plain_keys_are_attributes_and_absent_ones_none(scene):
     assert scene.outputs.force_rate == scene.data["outputs"]["force_rate"]
     assert scene.vibration is None
     assert plain({"a": {"b": 2.0}}).a.b == 2.0
-    assert plain({"height": 1.0}).period is None
+    assert plain({"speed": 1.0}).points is None
 
 
 def test_a_name_that_no_section_may_leave_out_is_refused():
     with pytest.raises(AttributeError, match="no key 'heigth'"):
         assert plain({"height": 1.0}).heigth
-    kinds = [*vars(general).values(), *vars(road).values(), *vars(vibration).values(), PressureFieldSection, Inflation]
+    kinds = [*vars(general).values(), *vars(travel).values(), PressureFieldSection, Inflation]
     sections = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, Section)]
     optional = {
         name
@@ -65,7 +65,7 @@ def test_a_name_that_no_section_may_leave_out_is_refused():
 def test_the_keys_of_every_scene_are_read_without_the_schema():
     code = (
         "import sys; from contact_sim_pkg.scene.resolved_scene import ResolvedScene as Scene;"
-        "scene = Scene({'rig': 'seat', 'vibration': {'sample_rate': 5.0}}); assert scene.vibration.sample_rate == 5.0;"
+        "scene = Scene({'rig': 'seat', 'travel': {'speed': 5.0}}); assert scene.travel.speed == 5.0;"
         "sys.exit('pydantic' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -53,7 +53,7 @@ def test_an_imported_file_is_what_another_library_reads(tmp_path):
 
 def test_every_command_takes_an_imported_bag(tmp_path, capsys):
     import_recording(table(tmp_path / "a.csv"), tmp_path / "bag")
-    assert main(["metrics", str(tmp_path / "bag")]) == 0
+    assert main(["metrics", str(tmp_path / "bag")]) == 1  # a ride beyond a limit
     said = capsys.readouterr()
     assert "y not recorded" in said.err
     assert main(["export", str(tmp_path / "bag"), "--csv", "--out", str(tmp_path / "out")]) == 0

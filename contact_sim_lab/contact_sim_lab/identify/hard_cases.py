@@ -12,10 +12,9 @@ from contact_sim_lab.identify.twins.block_impacts import random_block_impacts
 from contact_sim_lab.identify.twins.falling_body import FallingBody, Record, fall
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact import wrench
 from contact_sim_pkg.identify.contact.stacked import ParameterEstimate
 from contact_sim_pkg.identify.identify import Identification, Setup, identify
+from contact_sim_pkg.identify.motion import geometry, wrench
 from contact_sim_pkg.identify.motion.rotation import Array, exponential
 from contact_sim_pkg.identify.motion.states import BodyStates
 from contact_sim_pkg.identify.naming import unobservable

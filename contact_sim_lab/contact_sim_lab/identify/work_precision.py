@@ -14,8 +14,8 @@ import numpy
 
 from contact_sim_lab.identify.twins.block_impacts import random_block_impacts
 from contact_sim_lab.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, row
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact.two_point import one_impact, two_point
+from contact_sim_pkg.identify.contact.coulomb import one_impact, two_point
+from contact_sim_pkg.identify.motion import geometry
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.table import ImpactTable, estimate_from_impacts, problem_of_impacts
 

@@ -17,9 +17,9 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
-from contact_sim_pkg.rigs.vehicle import entries
-from contact_sim_pkg.rigs.vehicle.motion import event_count
-from contact_sim_pkg.rigs.vehicle.parameters import Vehicle, rigid_occupant
+from contact_sim_pkg.rigs.vehicle.motion import entries
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle, rigid_occupant
+from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 
 MASS, SPRING, BELT_SPEED, LOAD = 1.0, 100.0, 0.1, 9.81
 STATIC, KINETIC = 0.4, 0.3

@@ -40,9 +40,9 @@ APPEARS = {
 """By name or kind of topic: when it appears, for those that no rig publishes."""
 EXIT_CODES = {
     DONE: "done, or ended by the user",
-    FAULT: "failed while running",
+    FAULT: "failed while running, or what is judged misses its band, limit or tolerance",
     REFUSED: "refused before anything started: scene, file, option, parameter or graph",
-    LOSS: "finished, and messages are missing in the bag",
+    LOSS: "finished, and messages are missing in the bag, or what is judged cannot be decided",
 }
 
 

@@ -1,7 +1,7 @@
 """Impact of one planar contact the slow way: all index sets of the complementarity problem, and the
 impulse path by scipy.
 
-Twin of `rigid/impact/planar_impact.py`, with which it shares no code. Source: Identifiability eq 9;
+Twin of `rigid/contact/planar_impact.py`, with which it shares no code. Source: Identifiability eq 9;
 Stronge 1990.
 """
 

@@ -1,18 +1,23 @@
-"""Texts that stand in a bag, read as data within the limits of `scene/yaml/document.py`: whoever
-made the bag is a stranger.
+"""Texts that stand in a bag, or in a file given beside one, read as data within the limits of
+`scene/yaml/document.py`: whoever made them is a stranger.
 """
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.files import read_regular_file
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.renamed_keys import with_new_names
 from contact_sim_pkg.scene.yaml.document import parse_json, parse_plain
 
 MOST_VALUES = 30_000  # of a `metadata.yaml`, which may list many topics
 
-__all__ = ["excitation_of_text", "scene_of_text", "values_of_text"]
+LARGEST_TABLE = 100_000
+"""[bytes] of a file of tolerances or requirements"""
+
+__all__ = ["excitation_of_text", "scene_of_text", "table_of_file", "values_of_text"]
 
 
 def values_of_text(text: str, where: str, read: Callable[..., Any] = parse_plain, **limits: int) -> Any:
@@ -23,6 +28,19 @@ def values_of_text(text: str, where: str, read: Callable[..., Any] = parse_plain
         return read(text, where, **limits)
     except SceneError as error:
         raise BagError(str(error.faults[0])) from None
+
+
+def table_of_file(path: Path, of: str, cure: str) -> dict[str, Any]:
+    """Key and value of each line of a YAML file of tolerances, or of what else it is a table ``of``.
+
+    Raises:
+        BagError: the file is no such table, with the ``cure``. FileRefusedError: it cannot be read.
+    """
+    content = read_regular_file(path, LARGEST_TABLE, f"it is no file of {of}")
+    given = values_of_text(content.decode("utf-8", "replace"), str(path))
+    if not isinstance(given, dict) or not given:
+        raise BagError(f"{path}: holds no {of}; {cure}")
+    return {str(key): value for key, value in given.items()}
 
 
 def scene_of_text(text: str | None, where: str) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 Names are relative (a namespace puts itself in front) except `/clock` and `/diagnostics`, which ROS
 shares between all nodes. The topics of a contact are declared in its record, the bench's own here.
 The rank is the position in the table; at equal stamps, a bag holds the messages of a block in order
-of rank. `docs/interfaces.md` shows the table, made by `nodes/processes/interface_reference.py`.
+of rank. `docs/interfaces.md` shows the table, made by `pages/interface_reference.py` of the laboratory.
 """
 
 from contact_sim_pkg.bag.errors import BagError

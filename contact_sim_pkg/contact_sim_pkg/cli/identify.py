@@ -11,9 +11,9 @@ from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.identify.contact.wrench import ExternalWrench
-    from contact_sim_pkg.identify.geometry import Shape
     from contact_sim_pkg.identify.identify import Identification
+    from contact_sim_pkg.identify.motion.geometry import Shape
+    from contact_sim_pkg.identify.motion.wrench import ExternalWrench
     from contact_sim_pkg.identify.readers.axes import Axes
     from contact_sim_pkg.identify.readers.body_states import RecordedStates
     from contact_sim_pkg.records.table import Section
@@ -110,11 +110,11 @@ def command(
     ratio -u_n+/u_n- of normal speeds (JSON: newton_restitution), which with friction is not the e
     of an energetic or Poisson rule.
     """
-    from contact_sim_pkg.identify.contact.wrench import constant
     from contact_sim_pkg.identify.errors import IdentificationError
-    from contact_sim_pkg.identify.geometry import plane
     from contact_sim_pkg.identify.identify import Setup, identify
+    from contact_sim_pkg.identify.motion.geometry import plane
     from contact_sim_pkg.identify.motion.states import SampleNoise
+    from contact_sim_pkg.identify.motion.wrench import constant
     from contact_sim_pkg.identify.readers.body_states import read_body_states
     from contact_sim_pkg.identify.report import rows as identification_rows
     from contact_sim_pkg.records.table import Section
@@ -153,7 +153,7 @@ def command(
 
 
 def _shape(box: tuple[float, float, float] | None, sphere: float | None, hull: Path | None) -> Shape:
-    from contact_sim_pkg.identify import geometry
+    from contact_sim_pkg.identify.motion import geometry
     from contact_sim_pkg.identify.report.input import hull_of_file
 
     if sum(each is not None for each in (box, sphere, hull)) != 1:
@@ -172,7 +172,7 @@ def _check_wrench_options(constant: bool, topic: str | None, axes: Axes) -> None
 
 def _wrench(bag: Path, recorded: RecordedStates, topic: str, axes: Axes) -> tuple[RecordedStates, ExternalWrench]:
     """The wrench of a topic, and the states with what is to report about it."""
-    from contact_sim_pkg.identify.contact.wrench import sampled
+    from contact_sim_pkg.identify.motion.wrench import sampled
     from contact_sim_pkg.identify.readers.wrenches import read_wrench
 
     samples, notes, reading = read_wrench(bag, topic, recorded, axes)

@@ -106,19 +106,9 @@ def _refusing(name: str, error: Exception, text: str, short: str) -> click.Comma
 
 def _foreign() -> dict[str, str]:
     """Commands that plug-ins bring, ``module:name`` by name; ours are never replaced."""
-    from contact_sim_pkg.records.plugins import CURE, plugins
-    from contact_sim_pkg.records.rig import PluginError
+    from contact_sim_pkg.records.registry import announced
 
-    found: dict[str, str] = {}
-    origin: dict[str, object] = {}
-    for plugin in plugins():
-        for name, place in plugin.commands.items():
-            if name in COMMANDS or name in LABORATORY or name in found:
-                other = f"that of plug-in {origin[name]}" if name in found else "the bench's own"
-                raise PluginError(f"two commands are named {name}: {other} and that of plug-in {plugin}; {CURE}")
-            origin[name] = plugin
-            found[name] = place
-    return found
+    return announced("commands", (*COMMANDS, *LABORATORY))
 
 
 def _foreign_command(name: str, place: str) -> click.Command:

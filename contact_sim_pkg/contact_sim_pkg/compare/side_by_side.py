@@ -12,14 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.texts import values_of_text
-from contact_sim_pkg.files import FileRefusedError, open_regular_file
+from contact_sim_pkg.bag.texts import table_of_file
 from contact_sim_pkg.records.metric import OUTSIDE, Metric
 
 __all__ = ["Compared", "ComparedMetric", "Curve", "Miss", "Tolerance", "misses", "read_tolerances", "side_by_side"]
 
-LARGEST_FILE = 100_000
-"""[bytes] of a file of tolerances"""
 KEYS = ("absolute", "relative", "from", "to")
 FloatArray = NDArray[np.float64]
 
@@ -127,17 +124,8 @@ def read_tolerances(path: Path) -> list[Tolerance]:
     Raises:
         BagError: the file is no such table. FileRefusedError: it cannot be read.
     """
-    try:
-        with open_regular_file(path) as file:
-            text = file.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise FileRefusedError(path, "cannot be read; give a YAML file of tolerances") from error
-    if len(text) > LARGEST_FILE:
-        raise BagError(f"{path}: is larger than {LARGEST_FILE} bytes, so it is no file of tolerances")
-    given = values_of_text(text.decode("utf-8", "replace"), str(path))
-    if not isinstance(given, dict) or not given:
-        raise BagError(f"{path}: holds no tolerances; write lines such as `seat.factor: {{absolute: 2}}`")
-    return [_tolerance(path, str(key), values) for key, values in given.items()]
+    given = table_of_file(path, "tolerances", "write lines such as `seat.factor: {absolute: 2}`")
+    return [_tolerance(path, key, values) for key, values in given.items()]
 
 
 def _tolerance(path: Path, key: str, values: object) -> Tolerance:

@@ -57,9 +57,6 @@ AHEAD = 0.2
 """[s] of the travel that block 0 shows at least: the mean slope over it decides how fast a rig begins to rise
 (decision 0034).
 """
-SHORT_KINDS = ("bump", "cleat", "pothole")
-LEAST_NODES = 3.0
-"""Cells along an obstacle below which a note is due."""
 
 
 class RoadBlocks:
@@ -184,16 +181,8 @@ class RoadBlocks:
         self.surface.heights(numpy.array([first, last]) * self.cell_x, self._y)
 
     def describe(self) -> dict[str, Any]:
-        """What the surface says about itself, and what its lattice may miss."""
-        described = self.surface.describe()
-        length = described.get("length_m")
-        if described.get("kind") in SHORT_KINDS and length is not None and length < LEAST_NODES * self.cell_x:
-            note = (
-                f"The {described['kind']} of {length:g} m is shorter than {LEAST_NODES:g} cells of the road's lattice "
-                f"({self.cell_x:.3g} m each): its size is seen coarsely, or not at all where it falls between two nodes."
-            )
-            described = {**described, "notes": [*described["notes"], note]}
-        return described
+        """What the surface says about itself."""
+        return self.surface.describe()
 
 
 class VibrationBlocks:

@@ -3,18 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, ClassVar, Literal, Protocol, TypeAlias
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.excitation.kinds import RoadKind, Wave
 
-__all__ = ["BORDERS", "FileRoad", "TurnedBeginning", "bring_inside"]
+__all__ = [
+    "BEYOND_THE_ENDS", "BORDERS", "BORDER_NAMES", "Border", "FileRoad", "FileRoadKind", "TurnedBeginning", "bring_inside",
+]  # fmt: skip
 
 BORDERS = ("none", "zero", "constant", "repeat", "reflect")  # in the order of BORDER_MODE 0 to 4 of OpenCRG
 
+Border: TypeAlias = Literal["refuse", "zero", "keep", "repeat", "reflect"]
+BORDER_NAMES = {"refuse": "none", "zero": "zero", "keep": "constant", "repeat": "repeat", "reflect": "reflect"}
+"""Words of a scene, by which a road goes on, as `BORDERS` names them."""
+BEYOND_THE_ENDS = "after the end of the road, and before its beginning where start is negative"
+
 Array = NDArray[numpy.float64]
+
+
+class FileRoadKind(RoadKind):
+    """The road of a file: measured, with waves of any length."""
+
+    largest_file: ClassVar[int] = 512 << 20
+
+    def shortest_wave(self, limit: float) -> Wave:
+        """See RoadKind."""
+        return Wave(0.0, float("inf"), "a measured road holds waves below")
 
 
 class FileRoad(Protocol):

@@ -8,25 +8,29 @@ import numpy
 
 from contact_sim_pkg.identify.contact.contacts import ContactFinding, findings
 from contact_sim_pkg.identify.contact.coulomb import along_the_cone
+from contact_sim_pkg.identify.contact.noise import first_guess, limited, roundings
 from contact_sim_pkg.identify.contact.slides import slides_of
 from contact_sim_pkg.identify.contact.stacked import ParameterEstimate
-from contact_sim_pkg.identify.contact.wrench import NO_WRENCH, ExternalWrench
-from contact_sim_pkg.identify.diagnostics.noise import first_guess, limited, roundings
-from contact_sim_pkg.identify.diagnostics.possible import HIDDEN, against_the_wrench, made_up
-from contact_sim_pkg.identify.diagnostics.warnings import consistency_warnings
 from contact_sim_pkg.identify.errors import IdentificationError
-from contact_sim_pkg.identify.geometry import GroundPlane, Shape, flattened, gaps, plane
-from contact_sim_pkg.identify.motion.continuity import refuse_jumps
 from contact_sim_pkg.identify.motion.flight import FlightModel
-from contact_sim_pkg.identify.motion.plane import body_axis, plane_of_motion
+from contact_sim_pkg.identify.motion.geometry import GroundPlane, Shape, flattened, gaps, plane
 from contact_sim_pkg.identify.motion.rotation import Array
-from contact_sim_pkg.identify.motion.segments import gap_uncertainty, inverse_mass_guess, segments, velocity_noise
-from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise, checked
-from contact_sim_pkg.identify.motion.tumbling import tumbling_start
-from contact_sim_pkg.identify.motion.turning import rate_of_turn
+from contact_sim_pkg.identify.motion.segments import (
+    body_axis,
+    gap_uncertainty,
+    inverse_mass_guess,
+    plane_of_motion,
+    segments,
+    tumbling_start,
+    velocity_noise,
+)
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise, checked, refuse_jumps
+from contact_sim_pkg.identify.motion.wrench import NO_WRENCH, ExternalWrench
 from contact_sim_pkg.identify.naming import hidden_by_noise, parameter_names, unobservable
 from contact_sim_pkg.identify.problem import IdentificationProblem, planar_basis, spatial_basis, starting_parameters
 from contact_sim_pkg.identify.search import Search
+from contact_sim_pkg.identify.turning import rate_of_turn
+from contact_sim_pkg.identify.warnings import HIDDEN, against_the_wrench, consistency_warnings, made_up
 
 __all__ = ["Identification", "Parameter", "Setup", "identify"]
 

@@ -6,22 +6,25 @@ from __future__ import annotations
 
 import numpy
 
-from contact_sim_pkg.identify.contact.impacts import ContactEvent, locate
-from contact_sim_pkg.identify.contact.lasting import lasting_note, nothing_to_identify_from, with_steps
+from contact_sim_pkg.identify.contact.lasting import (
+    ContactEvent,
+    lasting_note,
+    locate,
+    nothing_to_identify_from,
+    with_steps,
+)
+from contact_sim_pkg.identify.contact.linearised import Linearised
+from contact_sim_pkg.identify.contact.noise import FREE_MOTION_MISSING, ContactNote, NoteKind, from_residuals, limited
 from contact_sim_pkg.identify.contact.slides import with_slides
 from contact_sim_pkg.identify.contact.stacked import ParameterEstimate, estimate
-from contact_sim_pkg.identify.diagnostics.agreement import agreeing, contradicts
-from contact_sim_pkg.identify.diagnostics.noise import from_residuals, limited
-from contact_sim_pkg.identify.diagnostics.notes import FREE_MOTION_MISSING, ContactNote, NoteKind
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.motion.flight import plain_motion, state_at
-from contact_sim_pkg.identify.motion.heights import gap_deviation
-from contact_sim_pkg.identify.motion.linearised import Linearised
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.motion.segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments, gap_uncertainty
 from contact_sim_pkg.identify.motion.states import SampleNoise
-from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem
-from contact_sim_pkg.identify.sweep import pressed, sweep
+from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem, pressed, sweep
+from contact_sim_pkg.identify.turning import gap_deviation
+from contact_sim_pkg.identify.warnings import agreeing, contradicts
 
 __all__ = ["Search"]
 

@@ -9,12 +9,12 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.identify.contact.stacked import ParameterEstimate, estimate
-from contact_sim_pkg.identify.contact.wrench import NO_WRENCH
 from contact_sim_pkg.identify.errors import IdentificationError
-from contact_sim_pkg.identify.geometry import GroundPlane, Shape, flattened, gaps, plane
 from contact_sim_pkg.identify.motion.flight import FlightModel
+from contact_sim_pkg.identify.motion.geometry import GroundPlane, Shape, flattened, gaps, plane
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
+from contact_sim_pkg.identify.motion.wrench import NO_WRENCH
 from contact_sim_pkg.identify.problem import (
     ContactSpan,
     IdentificationProblem,

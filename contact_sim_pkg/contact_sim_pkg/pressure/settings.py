@@ -25,7 +25,7 @@ class SidewallArc(NamedTuple):
 
 class InflatedBelt(NamedTuple):
     """Belt of an inflated tire, an inextensible ring without its modes 0 and 1, rigid across its
-    width (``rigs/vehicle/tire/inflated_belt.py``).
+    width (``rigs/vehicle/field/inflated_belt.py``).
     """
 
     radius: float  # [m]

@@ -9,10 +9,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-__all__ = ["CLOSED_FORM", "GOOD", "LIMIT", "NO_BAND", "OUTSIDE", "USUAL", "Band", "Metric", "Published", "judged"]
+__all__ = [
+    "CLOSED_FORM", "GOOD", "LIMIT", "NO_BAND", "OUTSIDE", "REQUIRED", "UNDECIDED", "USUAL", "Band", "Metric", "Published",
+    "judged",
+]  # fmt: skip
 
-GOOD, USUAL, OUTSIDE, NO_BAND = "good", "usual", "outside", "no band"
-LIMIT, USUAL_RANGE, CLOSED_FORM = "limit", "usual", "closed form"
+GOOD, USUAL, OUTSIDE, UNDECIDED, NO_BAND = "good", "usual", "outside", "undecided", "no band"
+LIMIT, USUAL_RANGE, CLOSED_FORM, REQUIRED = "limit", "usual", "closed form", "yours"
 ROUNDING = 1e-9
 """of an end of a band: forty cells of 3.75 mm are 150 mm"""
 
@@ -24,7 +27,7 @@ class Band(NamedTuple):
     high: float
     """-inf or inf where it is open"""
     kind: str
-    """limit, usual or closed form"""
+    """limit, usual, closed form, or yours: required of the run by who judges it"""
     source: str
     conditions: str = ""
     """in words; empty where it holds always"""
@@ -57,7 +60,7 @@ class Metric(NamedTuple):
     """in `unit`; nan where it is not defined"""
     unit: str
     verdict: str
-    """good, usual, outside or no band"""
+    """good, usual, outside, undecided (a limit of one's own lies within the spread) or no band"""
     band: Band | None
     remark: str = ""
     """what the verdict means in words, or why there is no band"""
@@ -73,7 +76,7 @@ class Metric(NamedTuple):
 
 
 def judged(value: float, band: Band | None) -> str:
-    """The verdict on a value: a limit or a closed form that holds is good, a usual range usual."""
+    """The verdict on a value: a limit, a closed form or a limit of one's own that holds is good, a usual range usual."""
     if band is None or not math.isfinite(value):
         return NO_BAND
     if not band.holds(value):

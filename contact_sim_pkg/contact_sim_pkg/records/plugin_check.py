@@ -14,7 +14,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.definitions import texts
@@ -22,7 +22,10 @@ from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.rig import Rig, load
 from contact_sim_pkg.records.topic import ContactTopic
 
-__all__ = ["RESERVED", "fault_of_place", "faults_of_effects", "faults_of_rig", "places_of_effects", "places_of_rig"]
+__all__ = [
+    "KINDS", "RESERVED", "fault_of_place", "faults_of_effects", "faults_of_kind", "faults_of_rig", "places_of_effects",
+    "places_of_rig",
+]  # fmt: skip
 
 RESERVED = frozenset(
     {
@@ -31,7 +34,10 @@ RESERVED = frozenset(
     }
 )  # fmt: skip
 """Names that no contact has: keys of a scene, and what the bench's own topics begin with."""
-_SECTION = "contact_sim_pkg.scene.schema.fields:Section"
+KINDS = {"road": "roads", "vibration": "vibrations"}
+"""Sections of a scene that have kinds: the folder of ours in `excitation`, and the entry-point group of others'."""
+_SECTION = "contact_sim_pkg.records.fields:Section"
+_BASE = "contact_sim_pkg.excitation.kinds:{}Kind"
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 _MADE_WHILE_IMPORTED = re.compile(r"import +\(? *\*|__getattr__|globals\(\)")
 """Names of a module that its source does not show."""
@@ -92,6 +98,25 @@ def faults_of_effects(where: str, effects: Iterable[Effect]) -> Iterator[str]:
         yield from _faults_of_places(here, [effect.observer] if effect.observer else [])
         if effect.topic is not None:
             yield from _faults_of_topic(here, effect.topic)
+
+
+def faults_of_kind(section: str, name: str, place: str) -> Iterator[str]:
+    """What is wrong with a kind of a ``section`` of the scene by its name, a phrase each."""
+    where = f"{section} {name}"
+    base: Any = load(_BASE.format(section.title()))
+    yield from _faults_of_name(where, name)
+    try:
+        found: Any = load(place)
+        if not isinstance(found, type(base)) or not issubclass(found, base):
+            yield f"{where}: {place} is no class below {base.__name__}"
+            return
+        found.model_rebuild()
+        if get_args(found.model_fields["kind"].annotation) != (name,):
+            yield f'{where}: {place} needs the key kind: Literal["{name}"]'
+        if missing := sorted(found.__abstractmethods__):
+            yield f"{where}: {place} has no {missing[0]}"
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a stranger's module raises
+        yield f"{where}: {place} does not load ({type(error).__name__}: {error})"
 
 
 def _faults_of_topic(where: str, topic: ContactTopic) -> Iterator[str]:

@@ -3,8 +3,9 @@
 An entry point of the group `contact_sim_pkg.rigs` names a module, or a package, whose `RIGS` holds
 `records.rig.Rig`; its folder `scenes` holds their scenes. One of `contact_sim_pkg.effects` names
 ``module:mapping`` of contact -> `records.effect.Effect`s that act there. One of
-`contact_sim_pkg.commands` is a command of `bench` by its name. One of `contact_sim_pkg.studies` is
-for the laboratory. `docs/extend.md` shows each.
+`contact_sim_pkg.studies` is for the laboratory. Those of the other groups are known by the name of
+the entry point: `contact_sim_pkg.commands` of `bench`, `.roads` and `.vibrations` of a scene,
+`.metrics` of a recording, `.exports` of a table. `docs/extend.md` shows each.
 
 `CONTACT_BENCH_PLUGINS` chooses: unset, all that are installed; `off`, none; else the names of
 packages, separated by commas, as the nodes of a run get it from its supervisor.
@@ -23,14 +24,19 @@ from contact_sim_pkg.files import printable
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.guests import LONGEST_IMPORT, GuestError, guest
 from contact_sim_pkg.records.plugin_check import (
+    KINDS,
     fault_of_place,
     faults_of_effects,
+    faults_of_kind,
     faults_of_rig,
     places_of_effects,
     places_of_rig,
 )  # fmt: skip
 from contact_sim_pkg.records.rig import BRINGERS, PluginError, Rig, load
 from contact_sim_pkg.requirements import canonical
+
+NAMED = {"commands": "command", "roads": "KIND", "vibrations": "KIND", "metrics": "metrics", "exports": "export"}
+"""Groups whose entries are known by their name, and the object of the module that counts where none is named."""
 
 __all__ = ["CURE", "OFF", "VARIABLE", "Plugin", "plugins"]
 
@@ -49,7 +55,7 @@ class Plugin(NamedTuple):
     version: str
     rigs: dict[str, tuple[Rig, ...]]  # by the module that exports them
     effects: dict[str, tuple[Effect, ...]]  # by contact
-    commands: dict[str, str]  # by name: module:object
+    named: dict[str, dict[str, str]]  # module:object by its name, in each group of `NAMED`
     studies: list[str]  # module:object
 
     def __str__(self) -> str:
@@ -97,7 +103,7 @@ def _loaded(distribution: Distribution, name: str, entries: Iterable[EntryPoint]
     """A package that announces something, checked; None, with a line on standard error, where it
     does not load.
     """
-    plugin = Plugin(name, distribution.version, {}, {}, {}, [])
+    plugin = Plugin(name, distribution.version, {}, {}, {group: {} for group in NAMED}, [])
     _loading.append(plugin)
     try:
         with guest(LONGEST_IMPORT) as printed:
@@ -146,8 +152,13 @@ def _faults(plugin: Plugin, entries: Iterable[EntryPoint]) -> Iterator[str]:
             yield from faults_of_rig(package, rig)
     for contact, effects in plugin.effects.items():
         yield from faults_of_effects(f"contact {contact}", effects)
-    commands = ((f"command {name}", place) for name, place in plugin.commands.items())
-    for where, place in (*commands, *(("studies", place) for place in plugin.studies)):
+    for section, group in KINDS.items():
+        for name, place in plugin.named[group].items():
+            yield from faults_of_kind(section, name, place)
+    named = (
+        (f"{group.removesuffix('s')} {name}", place) for group in NAMED for name, place in plugin.named[group].items()
+    )
+    for where, place in (*named, *(("studies", place) for place in plugin.studies)):
         if fault := fault_of_place(place):
             yield f"{where}: {fault}"
 
@@ -162,8 +173,8 @@ def _add(plugin: Plugin, entry: EntryPoint) -> None:
         named: Mapping[str, Iterable[Effect]] = load(f"{module}:{attribute or 'EFFECTS'}")
         for contact, effects in named.items():
             plugin.effects[contact] = (*plugin.effects.get(contact, ()), *_all_of(Effect, effects))
-    elif kind == "commands":
-        plugin.commands[entry.name] = f"{module}:{attribute or 'command'}"
+    elif kind in NAMED:
+        plugin.named[kind][entry.name] = f"{module}:{attribute or NAMED[kind]}"
     elif kind == "studies":
         plugin.studies.append(f"{module}:{attribute or 'STUDIES'}")
 

@@ -11,17 +11,20 @@ from dataclasses import replace
 from functools import cache
 from operator import itemgetter
 from pathlib import Path
+from pkgutil import iter_modules
+from typing import Any
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
+from contact_sim_pkg.records.plugin_check import KINDS
 from contact_sim_pkg.records.plugins import CURE, Plugin, plugins
 from contact_sim_pkg.records.report import ContactReport
 from contact_sim_pkg.records.rig import PluginError, Rig, load
 from contact_sim_pkg.records.topic import COMMON, Topic, recorded_topic
 
 __all__ = [
-    "contact_reports", "contact_topics", "contacts", "effects", "plugins_of", "refused_sections", "regime_names", "rig_names",
-    "rigs", "shipped_scenes",
+    "announced", "contact_reports", "contact_topics", "contacts", "effects", "kinds", "plugins_of", "refused_sections",
+    "regime_names", "rig_names", "rigs", "shipped_scenes",
 ]  # fmt: skip
 
 _log = logging.getLogger(__name__)
@@ -86,18 +89,48 @@ def _extended(contact: Contact) -> Contact:
     return replace(contact, effects=(*contact.effects, *more), topics=(*contact.topics, *topics))
 
 
-def plugins_of(rig: str, effects_by_contact: Mapping[str, Iterable[str]]) -> list[Plugin]:
-    """Plug-ins that bring a rig, or one of the effects named for its contacts."""
+def plugins_of(data: Mapping[str, Any]) -> list[Plugin]:
+    """Plug-ins that bring the rig of a scene's plain data, one of its effects, its road or its vibration."""
     return [
         plugin
         for plugin in plugins()
-        if any(each.name == rig for brought in plugin.rigs.values() for each in brought)
+        if any(each.name == data["rig"] for brought in plugin.rigs.values() for each in brought)
         or any(
-            effect.name in effects_by_contact.get(contact, ())
+            effect.name in (data["effects"].get(contact) or ())
             for contact, brought in plugin.effects.items()
             for effect in brought
         )
+        or any((data.get(section) or {}).get("kind") in plugin.named[group] for section, group in KINDS.items())
     ]
+
+
+@cache
+def kinds(section: str) -> dict[str, str]:
+    """Kinds of the section `road` or `vibration` of a scene by name, each a ``module:class`` below
+    `excitation.kinds.Kind`: a module each of our folder, then those of plug-ins.
+
+    Raises:
+        PluginError: two have the same name.
+    """
+    folder = f"contact_sim_pkg.excitation.{KINDS[section]}"
+    ours = {each.name: f"{folder}.{each.name}:KIND" for each in iter_modules(load(folder).__path__)}
+    return {**ours, **announced(KINDS[section], ours)}
+
+
+def announced(group: str, ours: Iterable[str] = ()) -> dict[str, str]:
+    """What plug-ins announce in an entry-point group by name, each as ``module:object``.
+
+    Raises:
+        PluginError: two have the same name, or one has that of ``ours``.
+    """
+    found: dict[str, str] = {}
+    origin = dict.fromkeys(ours, "the bench's own")
+    for plugin in plugins():
+        for name, place in plugin.named[group].items():
+            if name in origin:
+                raise PluginError(f"two {group} are named {name}: {origin[name]} and that of plug-in {plugin}; {CURE}")
+            found[name], origin[name] = place, f"that of plug-in {plugin}"
+    return found
 
 
 def rig_names() -> tuple[str, ...]:

@@ -40,6 +40,8 @@ PATCH = "contact_msgs_defs/msg/ContactPatch"
 MOTION = "contact_msgs_defs/msg/BodyMotion"
 ENERGY = "contact_msgs_defs/msg/EnergyLedger"
 COST = "contact_msgs_defs/msg/SolverCost"
+NAMES_OF_COSTS = {"stretches": "coupling_steps", "stretches_repeated": "coupling_steps_repeated"}
+"""Of a column of `bench/cost`: what an earlier release called it -> what it is called now."""
 EPISODES = "contact_msgs_defs/msg/ContactEpisodes"
 POINTS = "contact_msgs_defs/msg/ContactPoints"
 CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
@@ -91,7 +93,7 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
         fields={contact_of[name]: field.finish() for name, field in fields.items()},
         motion=motion,
         ledger=ledger,
-        cost=None if costs is None else _cost(costs),
+        cost=None if costs is None else cost_series(costs),
         duration=_duration([*contacts.values(), *([motion] if motion else [])], scene, bag),
         episodes=episodes,
         points=next((each.finish() for each in points.values()), None),
@@ -343,11 +345,11 @@ def _episodes(stack: Stack | None) -> EpisodeSeries:
     return episode_series({name: [] for name in EpisodeSeries._fields} if stack is None else stack.columns())
 
 
-def _cost(columns: dict[str, Any]) -> CostSeries:
+def cost_series(columns: dict[str, Any]) -> CostSeries:
+    """Of each block; a bag of an earlier release holds some columns under their old names."""
+    columns = {NAMES_OF_COSTS.get(name, name): column for name, column in columns.items()}
     names = [field.name for field in definition_of("SolverCost").fields if field.type != HEADER and not field.is_array]
-    return {
-        name: np.asarray(columns[name], dtype=np.float64) for name in ("time", *names) if name in columns
-    }  # fmt: skip
+    return {name: np.asarray(columns[name], dtype=np.float64) for name in ("time", *names) if name in columns}
 
 
 def _estimates(columns: dict[str, Any]) -> list[Estimate]:

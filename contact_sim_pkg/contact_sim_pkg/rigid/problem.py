@@ -14,7 +14,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import kernel
-from contact_sim_pkg.rigid.contact.cone import project_on_base
+from contact_sim_pkg.rigid.cone import project_on_base
 
 PLANE, SPACE = 2, 3  # rows of a contact
 # friction of a contact that takes no part: its rows of A are 1 on the diagonal and 0 beside it

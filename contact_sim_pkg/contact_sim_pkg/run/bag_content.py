@@ -18,8 +18,9 @@ EXCITATION_KEY = "excitation"
 
 def input_names(scene: ResolvedScene) -> list[str]:
     """Excitation topics that the scene calls for."""
-    names = ["road/patch"] if scene.road is not None and scene.travel is not None else []
-    return names + (["platform/vibration"] if scene.vibration is not None else [])
+    given = {name for name in ("road", "travel", "vibration") if scene.data.get(name) is not None}
+    names = ["road/patch"] if given >= {"road", "travel"} else []
+    return names + (["platform/vibration"] if "vibration" in given else [])
 
 
 def result_names(scene: ResolvedScene) -> list[str]:

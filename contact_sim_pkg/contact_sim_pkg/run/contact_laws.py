@@ -25,10 +25,10 @@ from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, coefficient
 from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
 from contact_sim_pkg.pressure.cushion.foam_layer import CushionError, FoamGrid, FoamLayer
 from contact_sim_pkg.pressure.cushion.force_table import ForceTable, kept_table, make_table
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.run.compilation import note_computation
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.schema.laws import (
     STIFFEST,
     THICKEST,

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.records.work import Work
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 
 __all__ = ["BOUND", "estimated_work", "refuse_long"]

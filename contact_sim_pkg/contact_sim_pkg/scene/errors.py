@@ -6,6 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from contact_sim_pkg.files import RefusedError
+from contact_sim_pkg.records.breach import Breach
+
+__all__ = ["Breach", "Fault", "SceneError"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,20 +43,3 @@ class SceneError(RefusedError, ValueError):
     def __init__(self, faults: Iterable[Fault]) -> None:
         self.faults = sorted(faults, key=lambda fault: (fault.line == 0, fault.line, fault.column))
         super().__init__("\n".join(str(fault) for fault in self.faults))
-
-
-@dataclass(frozen=True, slots=True)
-class Breach:
-    """A rule that ties several keys together and does not hold; becomes a `Fault` when its place is
-    looked up.
-
-    Attributes:
-        where: dotted path of the key that the fault is shown at.
-        sentence: what is wrong, the values, what is allowed.
-        uses: further keys that the rule looked at; a breach is not reported where one of them has a
-            fault of its own.
-    """
-
-    where: str
-    sentence: str
-    uses: tuple[str, ...] = ()

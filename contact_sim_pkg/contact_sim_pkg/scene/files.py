@@ -7,9 +7,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from contact_sim_pkg.scene.schema.road import OpenCrgRoadSection, ProfileRoadSection
+from contact_sim_pkg.excitation.kinds import Kind
 from contact_sim_pkg.scene.schema.scene import Scene
-from contact_sim_pkg.scene.schema.vibration import RecordedSection
 
 SHIPPED = Path(__file__).resolve().parent.parent / "excitation"
 """Folder whose `data/` holds the input files of the shipped scenes."""
@@ -18,22 +17,24 @@ PACKAGE_PREFIX = "data/"
 
 class InputFile(NamedTuple):
     """A file that a scene names: the dotted path of the key, the name, the checksum if the scene
-    states one.
+    states one, and what reads it.
     """
 
     where: str
     name: str
     sha256: str | None
+    reader: Kind
+
+
+def excitations(scene: Scene) -> dict[str, Kind]:
+    """Road and vibration of a scene by the names of their sections, those that it has."""
+    return {name: kind for name, kind in (("road", scene.road), ("vibration", scene.vibration)) if kind is not None}
 
 
 def input_files(scene: Scene) -> list[InputFile]:
     """The files that a scene names."""
-    named = []
-    if isinstance(scene.road, OpenCrgRoadSection | ProfileRoadSection):
-        named.append(InputFile("road.file", scene.road.file, scene.road.sha256))
-    if isinstance(scene.vibration, RecordedSection):
-        named.append(InputFile("vibration.file", scene.vibration.file, scene.vibration.sha256))
-    return named
+    found = ((f"{name}.file", kind.input_file(), kind) for name, kind in excitations(scene).items())
+    return [InputFile(where, *file, kind) for where, file, kind in found if file is not None]
 
 
 def candidates(name: str, folder: Path) -> list[Path]:

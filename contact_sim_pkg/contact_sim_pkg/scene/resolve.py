@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from contact_sim_pkg.records.fields import Section
 from contact_sim_pkg.records.registry import plugins_of, rigs
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.files import find_file, input_files
@@ -22,7 +23,6 @@ from contact_sim_pkg.scene.renamed_keys import use_new_names
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, leaves_of, sha256_of
 from contact_sim_pkg.scene.schema.accuracy import integration_tolerance, requested
 from contact_sim_pkg.scene.schema.clock import whole_duration
-from contact_sim_pkg.scene.schema.fields import Section
 from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.validate import validate
@@ -107,7 +107,7 @@ def explicit(scene: Scene) -> dict[str, Any]:
     whole = Scene.model_validate({**_dump(scene), **absent})  # the schema fills in the defaults
     data = _dump(whole)
     data["duration"] = whole_duration(scene)
-    used = plugins_of(scene.rig, {name: tuple(effects or ()) for name, effects in data["effects"].items()})
+    used = plugins_of(data)
     data.pop("plugins", None)
     if used:
         data["plugins"] = ", ".join(map(str, used))

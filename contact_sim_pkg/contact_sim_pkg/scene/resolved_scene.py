@@ -20,19 +20,17 @@ from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.errors import Fault, SceneError
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.scene.schema.fields import Section
+    from contact_sim_pkg.excitation.kinds import RoadKind, VibrationKind
+    from contact_sim_pkg.records.fields import Section
     from contact_sim_pkg.scene.schema.general import Integrator, Outputs
-    from contact_sim_pkg.scene.schema.road import Road, Slip, TravelSection
-    from contact_sim_pkg.scene.schema.vibration import Vibration
+    from contact_sim_pkg.scene.schema.travel import Slip, TravelSection
 
 Kind = TypeVar("Kind", bound="Section")
 
 
 MAY_BE_LEFT_OUT = frozenset({
     "angle", "at_least", "at_most", "belt_width", "cols", "corrector_passes", "coupling_length", "coupling_tolerance",
-    "duration", "header_line", "longitudinal", "octaves_per_minute", "period", "points", "radius", "rate",
-    "relative_tolerance", "roughness", "roughness_class", "rows", "sha256", "sidewall_chord", "speed", "texture",
-    "time_column", "time_unit", "tolerance", "track_offset", "unit",
+    "longitudinal", "points", "radius", "relative_tolerance", "rows", "sidewall_chord", "speed", "tolerance",
 })  # fmt: skip
 """Keys without a value of their own in sections outside the effects, of a pressure field and of an inflated tire."""
 
@@ -136,15 +134,19 @@ class ResolvedScene:
         return slip
 
     @property
-    def road(self) -> Road | None:
+    def road(self) -> RoadKind | None:
         """Road under the rig."""
-        road: Road | None = plain(self.data.get("road"))
+        from contact_sim_pkg.excitation.kinds import kind_of
+
+        road: RoadKind | None = kind_of("road", self.data.get("road"))
         return road
 
     @property
-    def vibration(self) -> Vibration | None:
+    def vibration(self) -> VibrationKind | None:
         """Vibration of the floor."""
-        vibration: Vibration | None = plain(self.data.get("vibration"))
+        from contact_sim_pkg.excitation.kinds import kind_of
+
+        vibration: VibrationKind | None = kind_of("vibration", self.data.get("vibration"))
         return vibration
 
     def section(self, kind: type[Kind]) -> Kind:

@@ -7,11 +7,10 @@ import pytest
 from scipy.stats import chi2
 from tests.identify import motions
 
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact import wrench
+from contact_sim_pkg.identify.contact.balance import Side, balance
 from contact_sim_pkg.identify.contact.instant import impact_balance, instant
-from contact_sim_pkg.identify.diagnostics.balance import Side, balance
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry, wrench
 from contact_sim_pkg.identify.motion.flight import FlightModel, FlightState, moved, rates, state_at
 from contact_sim_pkg.identify.motion.rotation import exponential, logarithm
 from contact_sim_pkg.identify.problem import spatial_basis

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact.modes import REVERSED, SLIDE, STICK, classify
+from contact_sim_pkg.identify.contact.instant import REVERSED, SLIDE, STICK, classify
+from contact_sim_pkg.identify.motion import geometry
 
 FLAT = geometry.plane()
 FRICTION, EFFORT = 0.3, 0.6

@@ -8,12 +8,12 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 from tests.identify import motions
 
-from contact_sim_pkg.identify import geometry
 from contact_sim_pkg.identify.contact.lasting import lasting_note
-from contact_sim_pkg.identify.contact.wrench import NO_WRENCH
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry
 from contact_sim_pkg.identify.motion.flight import FlightModel
 from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
+from contact_sim_pkg.identify.motion.wrench import NO_WRENCH
 from contact_sim_pkg.identify.problem import IdentificationProblem, spatial_basis
 
 FRICTION, GRAVITY, RADIUS = 0.4, 9.81, 0.05

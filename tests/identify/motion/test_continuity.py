@@ -5,9 +5,8 @@ import pytest
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.identify.errors import IdentificationError
-from contact_sim_pkg.identify.motion.continuity import refuse_jumps
 from contact_sim_pkg.identify.motion.rotation import exponential
-from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise, refuse_jumps
 from contact_sim_pkg.identify.readers.stamped import _refuse_early_stamp
 
 NOISE = SampleNoise(1e-6, 1e-6, 1e-3, 1e-2)

@@ -4,12 +4,12 @@ import numpy
 import pytest
 from tests.identify import motions
 
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.diagnostics.noise import first_guess
+from contact_sim_pkg.identify.contact.noise import first_guess
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry
 from contact_sim_pkg.identify.motion.rotation import exponential
-from contact_sim_pkg.identify.motion.turning import missing_spin_rate, rate_of_turn, spin_scale
+from contact_sim_pkg.identify.turning import missing_spin_rate, rate_of_turn, spin_scale
 
 NOISES = {"exact": None, "fine": (1e-4, 1e-3, 1e-3, 1e-2), "coarse": (5e-4, 3.5e-3, 1e-2, 5e-2)}
 SQUARE = Setup(geometry.box([motions.SIDE] * 3))

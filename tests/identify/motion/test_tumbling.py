@@ -6,12 +6,12 @@ from scipy.spatial.transform import Rotation
 from tests.identify import motions
 
 from contact_sim_lab.identify.twins.falling_body import FallingBody, fall
-from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact.wrench import NO_WRENCH
 from contact_sim_pkg.identify.identify import Setup, identify
+from contact_sim_pkg.identify.motion import geometry
 from contact_sim_pkg.identify.motion.flight import FlightModel
+from contact_sim_pkg.identify.motion.segments import tumbling_start
 from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
-from contact_sim_pkg.identify.motion.tumbling import tumbling_start
+from contact_sim_pkg.identify.motion.wrench import NO_WRENCH
 from contact_sim_pkg.identify.problem import spatial_basis
 
 LENGTHS = numpy.array([0.10, 0.14, 0.20])

@@ -5,7 +5,7 @@ import pytest
 from contact_sim_lab.papers.registry import figure_of, paper_of, values_of
 from contact_sim_lab.papers.tire_road import figures
 from contact_sim_lab.records.paper import PaperError
-from contact_sim_pkg.excitation.obstacles import Obstacle
+from contact_sim_pkg.excitation.obstacle import ObstacleRoad
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 
 
@@ -54,8 +54,8 @@ def test_a_wrong_input_of_the_solver_is_outside(number, mutation, monkeypatch):
 
 
 def test_a_bump_that_is_a_dip_in_the_product_is_outside(monkeypatch):
-    heights = Obstacle.heights
-    monkeypatch.setattr(Obstacle, "heights", lambda self, x, y: -heights(self, x, y))
+    heights = ObstacleRoad.heights
+    monkeypatch.setattr(ObstacleRoad, "heights", lambda self, x, y: -heights(self, x, y))
     assert any("clearance" in each for each in _outside("2"))
     assert any("dense solution" in each for each in _outside("4"))
 

@@ -10,7 +10,7 @@ from contact_sim_lab.papers.identifiability import system_axes
 from contact_sim_lab.papers.identifiability.system_axes import Moments, axes, moments_of
 from contact_sim_lab.papers.registry import paper_of
 from contact_sim_lab.records.paper import PaperError
-from contact_sim_pkg.identify.contact.two_point import impact_equations
+from contact_sim_pkg.identify.contact.coulomb import impact_equations
 
 MOMENTS = numpy.array([0.004, 0.007, 0.009])
 TURN = rotation_about(numpy.array([0.3, -0.2, 0.4]))

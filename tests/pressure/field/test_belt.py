@@ -7,7 +7,7 @@ from contact_sim_pkg.pressure.field.belt import factor_belt, keep_lines, make_be
 from contact_sim_pkg.pressure.field.halfspace import make_buffers, make_half_space, part_of, precondition
 from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import CONVERGED
-from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import inflated_influence, make_belt
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import inflated_influence, make_belt
 
 BELT = make_belt(220e3, 0.316, 1.2, 0.06, 0.15, 1e5, 4.4e5, 2.0, 1.4e6)
 CELL = 4e-3

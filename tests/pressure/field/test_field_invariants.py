@@ -12,7 +12,7 @@ from contact_sim_lab.twins import halfspace as reference
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.solver import CONVERGED, EDGE
 from contact_sim_pkg.pressure.settings import BeltSettings
-from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
+from contact_sim_pkg.rigs.vehicle.field.envelopment import belt_influence
 
 SIDE, CELLS, MODULUS = 24, (1.0e-3, 1.4e-3), 6.58e6
 GRID = make_half_space(SIDE, SIDE, *CELLS, MODULUS)

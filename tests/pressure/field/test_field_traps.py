@@ -11,7 +11,7 @@ from contact_sim_lab.twins import halfspace as reference
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, NOT_CONVERGED, refuse_bad_gap
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldEdgeError, FieldError, PressureField
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldEdgeError, FieldError, PressureField
 
 SIDE, CELL, MODULUS = 24, 0.01, 4.0e6
 GRID = make_half_space(SIDE, SIDE, CELL, CELL, MODULUS)

@@ -18,7 +18,7 @@ from contact_sim_pkg.pressure.field.halfspace import (
     part_of,
 )
 from contact_sim_pkg.pressure.settings import BeltSettings
-from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
+from contact_sim_pkg.rigs.vehicle.field.envelopment import belt_influence
 
 MODULUS = 3.7e6
 

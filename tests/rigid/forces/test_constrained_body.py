@@ -9,7 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.compiled.jit import entry
-from contact_sim_pkg.rigid.body import (
+from contact_sim_pkg.rigid.bodies.active_contacts import path_acceleration
+from contact_sim_pkg.rigid.bodies.body import (
     RigidBody,
     box,
     contact_count,
@@ -21,7 +22,6 @@ from contact_sim_pkg.rigid.body import (
     slope,
     sphere,
 )
-from contact_sim_pkg.rigid.motion.active_contacts import path_acceleration
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
 
 ROOF = [0.0, 1.0, 0.0]  # faces of 45 degrees about a peak at x = 0

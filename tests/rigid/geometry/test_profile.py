@@ -7,7 +7,7 @@ import math
 import numpy
 import pytest
 
-from contact_sim_pkg.rigid.body import (
+from contact_sim_pkg.rigid.bodies.body import (
     RigidBody,
     box,
     contact_count,

@@ -5,8 +5,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from tests.rigid.contact.contact_case import COORDINATES, PLANE, SPACE, contact_rows, problem_of, random_case
 
+from contact_sim_pkg.rigid.contact.planar_impact import planar_impact
 from contact_sim_pkg.rigid.impact.law import impact_impulses, make_impact_workspace
-from contact_sim_pkg.rigid.impact.planar_impact import planar_impact
 from contact_sim_pkg.rigid.parameters import ENERGETIC, NEWTON, POISSON, PlanarContact
 from contact_sim_pkg.rigid.results import SOLVED
 

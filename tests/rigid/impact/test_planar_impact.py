@@ -8,7 +8,7 @@ import numpy
 import pytest
 
 from contact_sim_lab.twins.rigid_impact import energetic_by_path, newton_by_enumeration, poisson_by_enumeration
-from contact_sim_pkg.rigid.impact.planar_impact import planar_impact
+from contact_sim_pkg.rigid.contact.planar_impact import planar_impact
 from contact_sim_pkg.rigid.parameters import ENERGETIC, NEWTON, POISSON, PlanarContact
 from contact_sim_pkg.rigid.results import REVERSE, SEPARATE, SLIDE, STICK
 

@@ -10,7 +10,7 @@ import pytest
 
 from contact_sim_pkg.compiled.results import DONE, NOT_FINITE
 from contact_sim_pkg.laws.parameters import NormalElastic
-from contact_sim_pkg.rigid.body import box, height_field, placed, regular_block, slope, sphere
+from contact_sim_pkg.rigid.bodies.body import box, height_field, placed, regular_block, slope, sphere
 from contact_sim_pkg.rigid.motion.compliant import (
     CompliantMotion,
     compliant_contact,

@@ -7,7 +7,7 @@ import math
 import numpy
 import pytest
 
-from contact_sim_pkg.rigid.body import RigidBody, least_gap, placed, slope
+from contact_sim_pkg.rigid.bodies.body import RigidBody, least_gap, placed, slope
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.results import SOLVED, SPIN_TOO_FAST

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from contact_sim_pkg.rigid.body import box, height_field, placed, regular_block, slope, sphere
+from contact_sim_pkg.rigid.bodies.body import box, height_field, placed, regular_block, slope, sphere
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.results import REVERSE, SEPARATE, SLIDE, SOLVED, STICK
 

@@ -8,7 +8,7 @@ import numpy
 import pytest
 from scipy.integrate import solve_ivp
 
-from contact_sim_pkg.rigid.body import RigidBody, placed, slope
+from contact_sim_pkg.rigid.bodies.body import RigidBody, placed, slope
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.problem import SPACE
 from contact_sim_pkg.rigid.results import SOLVED

@@ -8,7 +8,7 @@ import numpy
 import pytest
 from scipy.spatial.transform import Rotation
 
-from contact_sim_pkg.rigid.body import RigidBody, placed, slope
+from contact_sim_pkg.rigid.bodies.body import RigidBody, placed, slope
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.rigid.results import SOLVED

@@ -20,7 +20,16 @@ from tests.rigid.motion.turning_paths import (
     top_path,
 )
 
-from contact_sim_pkg.rigid.body import Motion, RigidBody, box, height_field, least_gap, placed, regular_block, slope
+from contact_sim_pkg.rigid.bodies.body import (
+    Motion,
+    RigidBody,
+    box,
+    height_field,
+    least_gap,
+    placed,
+    regular_block,
+    slope,
+)
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.rigid.results import SOLVED

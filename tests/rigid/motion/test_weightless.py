@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.laws.parameters import NormalElastic
-from contact_sim_pkg.rigid.body import box, placed, regular_block, slope, sphere
+from contact_sim_pkg.rigid.bodies.body import box, placed, regular_block, slope, sphere
 from contact_sim_pkg.rigid.motion.compliant import CompliantMotion, compliant_contact
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.results import SOLVED

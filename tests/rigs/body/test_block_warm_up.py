@@ -26,7 +26,7 @@ make_simulation(resolve(load_scene(sys.argv[1], [set_value(value) for value in s
 print(*sorted({entry.__module__.partition(".rigid.")[2] for entry in never_called() if ".rigid." in entry.__module__}))
 """
 LAW = "effects.block.rigid_contact"
-PLANE, SPACE = "impact.planar_impact", "impact.path"  # each for one number of axes alone
+PLANE, SPACE = "contact.planar_impact", "impact.path"  # each for one number of axes alone
 SPRINGS = "motion.compliant"
 
 
@@ -42,8 +42,8 @@ SPRINGS = "motion.compliant"
 def test_the_warm_up_leaves_out_other_models_alone(scene, others):
     """In a process of its own: here another test may have called what the warm-up did not."""
     done = subprocess.run([sys.executable, "-c", LEFT_OUT, *scene], capture_output=True, text=True, check=True)
-    # of `body`: gaps at a pose, for pictures and the springs
-    assert set(done.stdout.split()) - {"body"} <= others
+    # of `bodies.body`: gaps at a pose, for pictures and the springs
+    assert set(done.stdout.split()) - {"bodies.body"} <= others
 
 
 STRAIGHT = (

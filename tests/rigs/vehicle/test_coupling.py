@@ -99,21 +99,21 @@ def test_the_error_follows_the_tolerance():
 
 def test_a_flat_road_asks_for_no_more_than_the_footprint_does():
     _force, costs = run("road={kind: flat}")
-    assert sum(cost.stretches_repeated for cost in costs) == 0
+    assert sum(cost.coupling_steps_repeated for cost in costs) == 0
     assert max(cost.coupling_error for cost in costs) < 5e-3  # what the field solver's tolerance of 1e-2 leaves
     later = costs[10:]  # a run begins with short steps, before any was checked
-    assert max(cost.stretches for cost in later) == min(cost.stretches for cost in later) <= 4
+    assert max(cost.coupling_steps for cost in later) == min(cost.coupling_steps for cost in later) <= 4
 
 
 def test_a_wheel_that_stands_is_solved_once_a_field():
     _force, costs = run("travel={speed: 0.0}", ROADS["pothole"])
-    assert all(cost.stretches == 1 for cost in costs)
+    assert all(cost.coupling_steps == 1 for cost in costs)
 
 
 def test_coupling_steps_are_shorter_over_an_edge():
     _force, costs = run(ROADS["kerb"])
-    assert sum(cost.stretches_repeated for cost in costs) > 0
-    assert max(cost.stretches for cost in costs) > min(cost.stretches for cost in costs)
+    assert sum(cost.coupling_steps_repeated for cost in costs) > 0
+    assert max(cost.coupling_steps for cost in costs) > min(cost.coupling_steps for cost in costs)
 
 
 def test_samples_keep_their_instants_where_coupling_steps_end_between_them():

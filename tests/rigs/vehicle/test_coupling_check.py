@@ -11,10 +11,10 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.rigs.vehicle.coupling.rule import AIM, UNLUCKIER, UNLUCKY, Allowance, MeasuredWay
-from contact_sim_pkg.rigs.vehicle.field_driver import CushionField
+from contact_sim_pkg.rigs.vehicle.field.coupling_rule import AIM, UNLUCKIER, UNLUCKY, Allowance, MeasuredWay
+from contact_sim_pkg.rigs.vehicle.motion.heights import effective_between
+from contact_sim_pkg.rigs.vehicle.seat.cushion_field import CushionField
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
-from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
 from contact_sim_pkg.run.outputs import largest_of
 from contact_sim_pkg.run.sources import make_sources
 
@@ -49,7 +49,7 @@ def estimated(outputs, name):
 
 
 def steps(outputs):
-    return int(column(outputs, "bench/cost", "stretches").sum())
+    return int(column(outputs, "bench/cost", "coupling_steps").sum())
 
 
 def test_the_way_follows_from_the_error_of_a_step():

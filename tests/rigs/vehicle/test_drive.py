@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from contact_sim_pkg.integrate.drive import Drive
-from contact_sim_pkg.rigs.vehicle.quarter_car import drive_at
+from contact_sim_pkg.rigs.vehicle.motion.quarter_car import drive_at
 
 START, LENGTH = 2.0, 0.25
 ENDS = numpy.array([START, START + LENGTH])

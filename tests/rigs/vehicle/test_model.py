@@ -8,7 +8,7 @@ from contact_sim_lab.twins import general_law
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipative
 from contact_sim_pkg.pressure.settings import BeltSettings
 from contact_sim_pkg.rigs.vehicle.model import build
-from contact_sim_pkg.rigs.vehicle.parameters import RigidRing
+from contact_sim_pkg.rigs.vehicle.motion.parameters import RigidRing
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
 
 TIRE = "effects.tire"

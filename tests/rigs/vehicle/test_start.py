@@ -11,7 +11,7 @@ from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.excitation.blocks import AHEAD, RoadBlocks
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.records.messages import ContactForce
-from contact_sim_pkg.rigs.vehicle.drive import rate_at_start
+from contact_sim_pkg.rigs.vehicle.run.drive import rate_at_start
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.sources import make_road, make_sources
 

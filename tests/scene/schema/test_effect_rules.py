@@ -1,118 +1,47 @@
-"""Which effects go together: all subsets, against a table that is written out here."""
+"""Which effects go together: pairs and triples of every contact's effects, as their records say."""
 
-from itertools import combinations, pairwise
+from itertools import combinations
 
 import pytest
 
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.records.registry import contacts, effects
 
-EFFECTS = (
-    "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
-    "cushion", "half_space_field", "softening", "shell_modes", "contact_search", "rigid_ring", "envelopment",
-    "tread_viscoelasticity", "brush", "sidewall_compliance", "wheel_spin", "asperity_impulses", "inflation",
-    "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
-    "rigid_contact", "compliant_contact",
-    "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
-)  # fmt: skip
-TIRE_ONLY = {
-    "inflation", "rigid_ring", "envelopment", "tread_viscoelasticity", "brush", "sidewall_compliance", "wheel_spin",
-    "asperity_impulses",
-}  # fmt: skip
-OF_THE_ROLLER = (
-    "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
-)  # fmt: skip
-BODY_ONLY = ("rigid_contact", "compliant_contact", *OF_THE_ROLLER)
-"""Of the rigid body on the ground, and of the roller on its shaft."""
-SEAT_ONLY = {
-    "general_dissipative",
-    "foam",
-    "foam_hysteresis",
-    "friction",
-    "cushion",
-    "half_space_field",
-    "softening",
-}
-"""Of the vehicle's contacts."""
-IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
-"""What acts cell by cell, and so needs the pressure field."""
-OF_THE_BACK = (
-    "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "shell_modes",
-    "contact_search", "cushion",
-)  # fmt: skip
-ELSEWHERE = set(EFFECTS) - set(OF_THE_BACK)
-OF_THE_IMPACT = (
-    "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
-)  # fmt: skip
-OF_FOAM = ("foam", "foam_hysteresis", "cushion", "half_space_field", "softening")
-SHELL = ("shell_modes", "contact_search")
-OF_VEHICLES = tuple(name for name in EFFECTS if name not in (*SHELL, *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY))
-SUBSETS = {
-    "tire": [set(chosen) for count in range(len(OF_VEHICLES) + 1) for chosen in combinations(OF_VEHICLES, count)]
-    + [{"normal_elastic", name} for name in (*SHELL, *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY)],
-    "backrest": [set(chosen) for count in range(10) for chosen in combinations(OF_THE_BACK, count)]
-    + [{"normal_elastic", name} for name in sorted(ELSEWHERE)],
-    "impact": [
-        set(chosen)
-        for count in (0, 1, 2, 3, 8, 9)
-        for chosen in combinations(("normal_elastic", "normal_dissipative", *OF_THE_IMPACT), count)
-    ]
-    + [{"normal_elastic", "friction"}, {"normal_elastic", "contact_field"}],
-    "roller": [set(chosen) for count in range(9) for chosen in combinations(("normal_elastic", *OF_THE_ROLLER), count)]
-    + [{"normal_elastic", "friction"}, {"normal_elastic", "rigid_contact"}],
-    "seat": [set(chosen) for count in range(10) for chosen in combinations(EFFECTS[:9], count)]
-    + [{"normal_elastic", name} for name in sorted(TIRE_ONLY)],
-}
-
-
-def stands_on_the_others(named):
-    """A wheel that spins needs a belt that yields, and that bristles."""
-    chain = ("brush", "sidewall_compliance", "wheel_spin")
-    return all(first in named or second not in named for first, second in pairwise(chain))
-
 
 def allowed(contact, named):
-    """Whether these effects may stand together, written out once more."""
-    refused = {
-        "tire": {*SEAT_ONLY, *SHELL, *OF_THE_IMPACT, *BODY_ONLY},
-        "seat": {*TIRE_ONLY, *SHELL, *OF_THE_IMPACT, *BODY_ONLY},
-        "backrest": ELSEWHERE, "roller": set(EFFECTS) - {"normal_elastic", *OF_THE_ROLLER},
-        "impact": set(EFFECTS) - {"normal_elastic", "normal_dissipative", *OF_THE_IMPACT},
-    }[contact]  # fmt: skip
-    if named & {"surface_waves", "history"} and "normal_dissipative" not in named:
+    """Whether effects may stand together: one carries the load, each has what it needs, none excludes another."""
+    own = {effect.name: effect for effect in contact.effects}
+    carriers = named & set(contact.carriers)
+    if len(carriers) != 1 or not named <= set(own):
         return False
-    if len(named & {"normal_elastic", "cushion", "inflation"}) != 1 or named & refused:
-        return False
-    if named >= {"inflation", "envelopment"} or not stands_on_the_others(named):
-        return False
-    if "cushion" in named and named & {"foam", "shell_modes", "half_space_field"}:
-        return False
-    if contact == "seat":
-        if "contact_field" in named and "cushion" not in named:
-            return False
-        if "half_space_field" in named and named & {"foam", "foam_hysteresis"}:
-            return False
-    if named & {"gyroscope", "rolling_friction"} and "tilt_yaw" not in named:
-        return False
-    if "damage" in named and not named >= {"track_waves", "subsurface"}:
-        return False
-    if ("contact_search" in named and "shell_modes" not in named) or named >= {
-        "normal_dissipative",
-        "general_dissipative",
-    }:
-        return False
-    return "contact_field" in named or not named & IN_THE_FIELD
+    usual = contact.carriers[0]
+    have = named | ({usual} if carriers else set())  # what needs the usual carrier is content with another
+    return all(set(own[name].needs) <= have and not named & set(own[name].excludes) for name in named)
 
 
-def test_the_records_are_exactly_these_effects():
-    assert set(effects()) == set(EFFECTS)
+@pytest.mark.parametrize("contact", contacts().values(), ids=contacts())
+def test_pairs_and_triples_of_effects_are_allowed_or_refused_as_their_records_say(maker, contact):
+    names = [effect.name for effect in contact.effects]
+    chosen = [set(names), *({name} for name in names)]
+    chosen += [
+        {carrier, *few} for carrier in contact.carriers for count in (1, 2) for few in combinations(names, count)
+    ]
+    chosen += [{carrier, *closed(contact, name)} for carrier in contact.carriers for name in names]
+    others = set(effects()) - set(names)
+    chosen += [{contact.carriers[0], other} for other in sorted(others)]
+    for named in {frozenset(each) for each in chosen}:
+        faults = maker.faults(contact.name, {f"effects.{contact.name}": {name: {} for name in sorted(named)}})
+        assert (faults == []) == allowed(contact, named), sorted(named)
 
 
-@pytest.mark.parametrize("contact", ["tire", "seat", "backrest", "impact", "roller"])
-def test_every_set_of_effects_is_allowed_or_refused_as_tabled(maker, contact):
-    for named in SUBSETS[contact]:
-        faults = maker.faults(contact, {f"effects.{contact}": {name: {} for name in named}})
-        assert (faults == []) == allowed(contact, named), named
+def closed(contact, name):
+    """An effect with all that it needs, and what that needs."""
+    own = {effect.name: effect for effect in contact.effects}
+    named, new = set(), {name}
+    while new:
+        named |= new
+        new = {need for each in new for need in own[each].needs} - named
+    return named
 
 
 @pytest.mark.parametrize(

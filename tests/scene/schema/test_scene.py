@@ -191,7 +191,7 @@ def test_every_key_says_what_it_is_and_every_required_key_has_an_example():
     ("where", "raw", "told"),
     [
         ("road", "{kind: flt}", "did you mean 'flat'?"),
-        ("road", "{height: 1}", "is missing; allowed: flat, iso8608"),
+        ("road", "{height: 1}", "is missing; allowed: bump, cleat, flat, iso8608"),
         ("road", "[1]", "a list stands where a mapping"),
         ("road", "3", "'3' stands where a mapping"),
         ("tire", "3", "'3' stands where a mapping"),

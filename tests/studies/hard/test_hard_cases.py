@@ -20,9 +20,9 @@ from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
-from contact_sim_pkg.rigs.vehicle import entries
-from contact_sim_pkg.rigs.vehicle.motion import event_count
-from contact_sim_pkg.rigs.vehicle.parameters import Vehicle, rigid_occupant
+from contact_sim_pkg.rigs.vehicle.motion import entries
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle, rigid_occupant
+from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 
 CASES = hard_cases.all_cases()
 

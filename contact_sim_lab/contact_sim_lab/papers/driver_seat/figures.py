@@ -21,8 +21,8 @@ from contact_sim_lab.rigs.backrest.twin import SlappingMass, slapping_course, sl
 from contact_sim_lab.twins.impact import damping_of_restitution
 from contact_sim_pkg.library import load_scene
 from contact_sim_pkg.pressure.closed_form.lame import LameFit
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.rigs.backrest.schema import BackFriction
-from contact_sim_pkg.scene.schema.fields import given
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from contact_sim_lab.records.paper import Equation, PaperError, Parameter
 from contact_sim_lab.twins.rigid_impact import energetic_by_path, newton_by_enumeration, poisson_by_enumeration
-from contact_sim_pkg.identify.geometry import box
+from contact_sim_pkg.identify.motion.geometry import box
 from contact_sim_pkg.identify.table import ImpactTable, estimate_from_impacts, problem_of_impacts
-from contact_sim_pkg.rigid import body as rigid_body
+from contact_sim_pkg.rigid.bodies import body as rigid_body
 from contact_sim_pkg.rigid.contact.lemke import complementarity_residual, lemke, make_lemke_workspace
-from contact_sim_pkg.rigid.impact.planar_impact import contact_modes, planar_impact
+from contact_sim_pkg.rigid.contact.planar_impact import contact_modes, planar_impact
 from contact_sim_pkg.rigid.parameters import RULE_NAMES, PlanarContact
 from contact_sim_pkg.rigid.rotation import gyroscopic_rate, gyroscopic_step
 
@@ -134,20 +134,20 @@ EQUATIONS: tuple[Equation, ...] = (
              LCP,
              (("z", ""), ("status", ""), ("residual", "")), _lcp),
     Equation("9", "one planar contact by the rule of restitution, and by a twin", "0 ≤ c_n ⊥ J_nᵀv⁺ + ε min(0, J_nᵀv) ≥ 0",
-             "contact_sim_pkg.rigid.impact.planar_impact:planar_impact", (*CONTACT, RULE), (*IMPULSE, ("c_n twin", "N s"),
+             "contact_sim_pkg.rigid.contact.planar_impact:planar_impact", (*CONTACT, RULE), (*IMPULSE, ("c_n twin", "N s"),
              ("c_t twin", "N s")),
              _by_rule),
     Equation("17", "sliding and sticking of one contact in closed form (eqs 12-18, 32-34)",
              "c_n = −[(1+ε) J_nᵀv + …]/(A_nn + μ A_nd)",
-             "contact_sim_pkg.rigid.impact.planar_impact:contact_modes", CONTACT, IMPULSE, _one_step),
+             "contact_sim_pkg.rigid.contact.planar_impact:contact_modes", CONTACT, IMPULSE, _one_step),
     Equation("23", "gyroscopic change of the spin", "I0 dω/dt = −ω × I0 ω", "contact_sim_pkg.rigid.rotation:gyroscopic_rate",
              (*INERTIA, Parameter("step", "s", 1e-3, above=0.0, most=1.0)), (("rate", "rad/s²"), ("spin after the step",
              "rad/s")), _gyroscopic),
     Equation("40", "gap and Jacobians of the block's lowest corner (eqs 40-42)", "φ = y − r cos(π/4 − θ)",
-             "contact_sim_pkg.rigid.body:contact_kinematics", (SIDE, ANGLE, Parameter("height", "m", 0.2)),
+             "contact_sim_pkg.rigid.bodies.body:contact_kinematics", (SIDE, ANGLE, Parameter("height", "m", 0.2)),
              (("φ", "m"), ("J_n", ""), ("J_t", "")), _jacobians),
     Equation("43", "impact of the block on its corner", "c_n, c_t and v⁺",
-             "contact_sim_pkg.rigid.impact.planar_impact:planar_impact", BLOCK,
+             "contact_sim_pkg.rigid.contact.planar_impact:planar_impact", BLOCK,
              (*IMPULSE, ("v⁺", "m/s, rad/s")), _block),
     Equation("44", "ratios found from one planar impact (eqs 44, 45)", "m/J = Δω/(r × π), c/m = Δv",
              "contact_sim_pkg.identify.table:estimate_from_impacts",

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from contact_sim_lab.papers.driver_seat.system_distance import rotation_about
 from contact_sim_lab.records.paper import PaperError, SystemResult, Values
-from contact_sim_pkg.identify.contact.two_point import impact_equations
-from contact_sim_pkg.identify.geometry import arm, box
+from contact_sim_pkg.identify.contact.coulomb import impact_equations
 from contact_sim_pkg.identify.identify import Identification, Setup, identify
+from contact_sim_pkg.identify.motion.geometry import arm, box
 from contact_sim_pkg.identify.readers.body_states import read_body_states
 
 if TYPE_CHECKING:

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from contact_sim_lab.records.paper import Drawn, Figure, Number, PaperError, Parameter, Values
 from contact_sim_lab.twins.halfspace import dense_influence, direct_sum, pressure_at_approach
 from contact_sim_lab.twins.hertz import contact_at_load
-from contact_sim_pkg.excitation.obstacles import FlatRoad, Obstacle
-from contact_sim_pkg.excitation.self_affine import SelfAffineRoad
+from contact_sim_pkg.excitation.roads.bump import BumpRoad
+from contact_sim_pkg.excitation.roads.flat import FlatRoad
+from contact_sim_pkg.excitation.roads.self_affine import SelfAffineRoad
 from contact_sim_pkg.pressure.field.halfspace import displacement, make_buffers, make_half_space
 from contact_sim_pkg.pressure.field.iteration import make_workspace
 from contact_sim_pkg.pressure.field.solver import solve_at_load
@@ -29,7 +30,8 @@ if TYPE_CHECKING:
 __all__ = ["FIGURES"]
 
 Field = NDArray[numpy.float64]
-Road = FlatRoad | Obstacle | SelfAffineRoad
+Road = FlatRoad | BumpRoad | SelfAffineRoad
+FLAT = FlatRoad(kind="flat")
 
 RADIUS_ROLLING, RADIUS_LATERAL = 0.30, 1.0  # [m]
 FORM = TireForm(radius_rolling=RADIUS_ROLLING, radius_lateral=RADIUS_LATERAL)
@@ -42,7 +44,7 @@ PLACES = 20
 LOAD = Parameter("load", "N", 4000.0, least=500.0, most=20000.0, help="on the tire")
 BUMP = (
     LOAD, Parameter("height", "m", 0.005, least=0.0, most=0.02, help="of the bump"),
-    Parameter("length", "m", 0.06, above=0.0, most=0.3, help="of the bump"),
+    Parameter("length", "m", 0.06, least=0.001, most=0.3, help="of the bump"),
 )  # fmt: skip
 IRREGULAR = (
     LOAD, Parameter("rms", "m", 5.0e-4, least=0.0, most=2e-3, help="height of the road"),
@@ -126,10 +128,10 @@ def _case(kind: str, items: tuple[tuple[str, float], ...]) -> tuple[Road, Solved
     grid = _grid(kind, values["load"])
     road: Road
     if kind == "bump":
-        road = Obstacle("bump", 0.0, values["height"], values["length"])
+        road = BumpRoad(kind="bump", position=0.0, height=values["height"], length=values["length"])
     else:
         road = SelfAffineRoad(values["hurst"], values["rms"], 0.2, 0.005, int(values["seed"]), SIDE / CELLS[kind])
-    return road, _solve(road, values["load"], grid), _solve(FlatRoad(), values["load"], grid)
+    return road, _solve(road, values["load"], grid), _solve(FLAT, values["load"], grid)
 
 
 def _conditions(found: Solved, gap: Field, load: float) -> list[Number]:
@@ -182,7 +184,7 @@ def _reference_numbers(flat: Solved, load: float) -> list[Number]:
 
 def _pressure_numbers(kind: str, road: Road, values: Values, found: Solved, flat: Solved) -> list[Number]:
     load = values["load"]
-    small, level = (_solve(each, load, _small(load)) for each in (road, FlatRoad()))
+    small, level = (_solve(each, load, _small(load)) for each in (road, FLAT))
     matrix = dense_influence(*SMALL[:2], *small.cells, MODULUS)
     gap = _own_gap(kind, road, values, small)
     dense = pressure_at_approach(matrix, gap, small.approach)
@@ -237,7 +239,7 @@ def _compute(kind: str, what: str, values: Values) -> Drawn:
 
 _MADE_BY = (
     "contact_sim_pkg.pressure.field.solver:solve_at_load", "contact_sim_pkg.pressure.field.halfspace:displacement",
-    "contact_sim_pkg.excitation.obstacles:Obstacle", "contact_sim_pkg.excitation.self_affine:SelfAffineRoad",
+    "contact_sim_pkg.excitation.roads.bump:BumpRoad", "contact_sim_pkg.excitation.roads.self_affine:SelfAffineRoad",
 )  # fmt: skip
 _U = "u by a direct sum at 20 places, 1e-6; load of the figure; signs over the gap of its own closed form"
 _P = (

@@ -22,7 +22,7 @@ from contact_sim_lab.records.work_precision import milliseconds
 from contact_sim_lab.rigs.body.tipping_body import REFERENCE, tip, tip_error, tipping
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.parameters import NormalElastic
-from contact_sim_pkg.rigid.body import Motion
+from contact_sim_pkg.rigid.bodies.body import Motion
 from contact_sim_pkg.rigid.motion.compliant import compliant_contact
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigs.body.model import BlockModel, build_block

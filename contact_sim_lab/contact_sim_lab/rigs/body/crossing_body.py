@@ -14,7 +14,7 @@ import numpy
 from scipy.integrate import solve_ivp
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.rigid.body import box, placed, slope
+from contact_sim_pkg.rigid.bodies.body import box, placed, slope
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.problem import SPACE
 from contact_sim_pkg.rigid.results import SENTENCES, SOLVED

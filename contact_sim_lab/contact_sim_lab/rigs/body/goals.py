@@ -15,10 +15,10 @@ from contact_sim_lab.rigs.body.hard_cases_contact import redundant_residual
 from contact_sim_lab.rigs.body.rigid_problem import SIDE, contact_rows, random_face
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry
+from contact_sim_pkg.rigid.bodies.motion import apply_impulse, contact_velocities
+from contact_sim_pkg.rigid.contact.planar_impact import impact_impulse
 from contact_sim_pkg.rigid.geometry.face import face_impulses, make_face_workspace
-from contact_sim_pkg.rigid.impact.planar_impact import impact_impulse
 from contact_sim_pkg.rigid.impact.planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
-from contact_sim_pkg.rigid.motion.motion import apply_impulse, contact_velocities
 from contact_sim_pkg.rigid.parameters import RULE_NAMES, PlanarContact
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
 

@@ -15,8 +15,8 @@ from contact_sim_lab.rigs.body.rigid_motion import SLIDE
 from contact_sim_lab.rigs.body.rigid_problem import block_corner
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.laws.parameters import NormalElastic
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, box, placed, regular_block, slope
-from contact_sim_pkg.rigid.impact.planar_impact import planar_impact
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody, box, placed, regular_block, slope
+from contact_sim_pkg.rigid.contact.planar_impact import planar_impact
 from contact_sim_pkg.rigid.motion.compliant import CompliantMotion, compliant_contact
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.parameters import ENERGETIC, PlanarContact

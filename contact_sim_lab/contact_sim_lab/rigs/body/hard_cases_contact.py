@@ -24,8 +24,8 @@ from contact_sim_lab.twins.rigid_contact import coulomb_residual
 from contact_sim_lab.twins.rigid_impact import energetic_by_path, newton_by_enumeration
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigid.contact.answers import contact_impulses
+from contact_sim_pkg.rigid.contact.planar_impact import planar_impact
 from contact_sim_pkg.rigid.contact.solver import LEMKE, make_solver
-from contact_sim_pkg.rigid.impact.planar_impact import planar_impact
 from contact_sim_pkg.rigid.parameters import ENERGETIC, NEWTON, PlanarContact
 from contact_sim_pkg.rigid.problem import PLANE, SPACE, make_problem
 from contact_sim_pkg.rigid.results import RAY

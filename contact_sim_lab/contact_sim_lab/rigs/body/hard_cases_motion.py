@@ -11,7 +11,7 @@ import numpy
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, exactly
 from contact_sim_lab.rigs.body import rigid_motion
-from contact_sim_pkg.rigid.body import box, placed, regular_block, slope
+from contact_sim_pkg.rigid.bodies.body import box, placed, regular_block, slope
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.results import SPIN_TOO_FAST
 

@@ -9,7 +9,7 @@ import math
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.rigid.body import box, placed, regular_block, slope, sphere
+from contact_sim_pkg.rigid.bodies.body import box, placed, regular_block, slope, sphere
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.results import SENTENCES, SOLVED
 

@@ -25,7 +25,7 @@ from contact_sim_lab.rigs.body.rigid_problem import (
 )
 from contact_sim_lab.twins.rigid_contact import planar_velocity_by_enumeration
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.rigid.body import box, regular_block
+from contact_sim_pkg.rigid.bodies.body import box, regular_block
 from contact_sim_pkg.rigid.contact.solver import GAUSS_SEIDEL, LEMKE, MODES, NEWTON
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
 

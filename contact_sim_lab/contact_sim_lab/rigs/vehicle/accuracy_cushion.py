@@ -18,8 +18,8 @@ from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force
 from contact_sim_pkg.pressure.cushion.foam_layer import FoamLayer
 from contact_sim_pkg.pressure.cushion.force_table import make_table
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass
 from contact_sim_pkg.rigs.vehicle.seat.cushion import pan_layer
+from contact_sim_pkg.rigs.vehicle.seat.mass import occupant_mass
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion, SeatSection
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import LEVELS

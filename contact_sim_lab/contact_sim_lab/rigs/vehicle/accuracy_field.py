@@ -16,13 +16,15 @@ from numpy.typing import NDArray
 from contact_sim_lab.twins.halfspace import dense_influence, pressure_at_approach
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
-from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass, plain_load
-from contact_sim_pkg.rigs.vehicle.model import build, seat_gap_on
+from contact_sim_pkg.rigs.vehicle.field.contact_field import PressureField
+from contact_sim_pkg.rigs.vehicle.field.envelopment import yielding_of
+from contact_sim_pkg.rigs.vehicle.model import build
+from contact_sim_pkg.rigs.vehicle.seat.mass import occupant_mass
 from contact_sim_pkg.rigs.vehicle.seat.schema import HalfSpaceField, SeatSection
+from contact_sim_pkg.rigs.vehicle.seat.shape import seat_gap_on
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of
-from contact_sim_pkg.rigs.vehicle.tire.envelopment import yielding_of
 from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road
+from contact_sim_pkg.rigs.vehicle.tire.lattice import plain_load
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireField
 from contact_sim_pkg.run.sources import make_road, make_travel
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene

@@ -19,8 +19,8 @@ from contact_sim_lab.rigs.vehicle.scene_drive import (
 )
 from contact_sim_lab.twins.vehicle import normal_force
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.rigs.vehicle import entries as columns
 from contact_sim_pkg.rigs.vehicle.model import Model, build
+from contact_sim_pkg.rigs.vehicle.motion import entries as columns
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["tolerance_rows"]

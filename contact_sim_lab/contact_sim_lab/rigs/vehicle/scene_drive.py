@@ -23,11 +23,11 @@ from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.parameters import Contact, GeneralDissipative, NormalElastic, TabulatedElastic
 from contact_sim_pkg.laws.tabulated_elastic import FORCE
-from contact_sim_pkg.rigs.vehicle import entries
-from contact_sim_pkg.rigs.vehicle.drive import rate_at_start
 from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
-from contact_sim_pkg.rigs.vehicle.motion import event_count
-from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.motion import entries
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
+from contact_sim_pkg.rigs.vehicle.run.drive import rate_at_start
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_heights
 from contact_sim_pkg.rigs.vehicle.tire.schema import AsperityImpulsesSection
 from contact_sim_pkg.run.sources import make_sources, make_travel

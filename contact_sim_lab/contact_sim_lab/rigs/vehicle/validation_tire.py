@@ -14,10 +14,10 @@ from contact_sim_lab.rigs.vehicle.machines.held_axle import CLEAT, OverCleat, ov
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.report.metrics.bands import published_range
-from contact_sim_pkg.rigs.vehicle.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of
 from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, tire_table
+from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
 from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
 from contact_sim_pkg.scene.resolve import load_resolved

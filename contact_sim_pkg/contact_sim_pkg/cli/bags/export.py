@@ -25,6 +25,7 @@ HIGHEST_RATE = 1e5
 @click.option(
     "--ros-std", "form", flag_value=STANDARD, help="A bag of standard messages: Image, PointCloud2, Imu, TF ..."
 )
+@click.option("--format", "other", metavar="NAME", help="A format that a plug-in brings.")
 @click.option("--wall-time", is_flag=True, help="A bag whose log times are wall time; alone, or with --ros-std.")
 @click.option(
     "--begin", default="", metavar="TIME", help="Wall time of simulated time 0; by default from the bag's file."
@@ -38,7 +39,7 @@ HIGHEST_RATE = 1e5
 @overwrite_option
 @click.pass_context
 def command(
-    context: click.Context, bag: Path, form: str | None, wall_time: bool, begin: str, rate: float | None,
+    context: click.Context, bag: Path, form: str | None, other: str | None, wall_time: bool, begin: str, rate: float | None,
     topics: tuple[str, ...], out: Path | None, skip_bad: bool, overwrite: bool,
 ) -> None:  # fmt: skip
     """Write each topic of BAG as a table, one row a sample with its time and units; or write a new bag.
@@ -47,6 +48,9 @@ def command(
     """
     from contact_sim_pkg.bag.reader import open_bag
 
+    if form and other:
+        raise click.UsageError(f"--format and {_named(form)} exclude each other.")
+    form = form or other
     _refuse_options_that_do_not_fit(form, wall_time, begin, rate, topics, overwrite)
     source, status = open_bag(bag, skip_bad=skip_bad), 0
     if form in (None, STANDARD):
@@ -68,7 +72,7 @@ def _refuse_options_that_do_not_fit(
 ) -> None:
     """UsageError for an option that the rest gives no meaning."""
     if form is None and not wall_time:
-        raise click.UsageError("Missing --csv, --parquet, --ros-std or --wall-time.")
+        raise click.UsageError("Missing --csv, --parquet, --ros-std, --format or --wall-time.")
     table = form not in (None, STANDARD)
     wrong = {
         "--wall-time": table and wall_time,

@@ -39,6 +39,13 @@ from contact_sim_pkg.cli.output.tables import print_json
     type=click.Choice(["x", "y", "z", "-x", "-y", "-z"]),
     help="Of a bag without our topics: axis that points up; else by gravity.",
 )
+@click.option(
+    "--require",
+    "wanted",
+    multiple=True,
+    metavar="TEXT|FILE",
+    help="Limit of your own: 'SEAT < 60 %', or a YAML file; may be repeated.",
+)
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 def command(
     bags: tuple[Path, ...],
@@ -49,31 +56,37 @@ def command(
     topic: str | None,
     unit: str | None,
     up: str | None,
+    wanted: tuple[str, ...],
     skip_bad: bool,
-) -> None:
+) -> int:
     """Print the metrics of BAG with their bands and verdicts.
 
     Of several bags, repeated runs of one scene, mean and spread; by ISO 10326-1 a SEAT needs runs within 5 % of
-    their mean. `bench compare` has two seats side by side.
+    their mean. `bench compare` has two seats side by side. Exit code 1 where a metric lies outside its band, 3
+    where what --require asks for cannot be judged.
     """
     from contact_sim_pkg.report.metrics.foreign import ForeignOptions
     from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags, suite_name
+    from contact_sim_pkg.report.metrics.requirements import exit_code, read_requirements, required
     from contact_sim_pkg.report.metrics.views import csv_of, junit_of, lines_of, rows_of, verdict_line
 
     given = ForeignOptions(axis, topic, unit, up)
     for_foreign = None if given == ForeignOptions() else given
+    requirements = read_requirements(wanted)
     found = metrics_of_bags(bags, whole=whole, loaded=loaded, chosen=for_foreign, skip_bad=skip_bad)
     _notes(found.notes)
-    rows = rows_of(found.metrics)
+    metrics = required(found.metrics, requirements)
+    rows = rows_of(metrics)
     if form == "json":
         print_json({"bags": [str(each) for each in bags], "metrics": rows})
     elif form == "csv":
-        say(csv_of(found.metrics), nl=False)
+        say(csv_of(metrics), nl=False)
     elif form == "junit":
-        say(junit_of(suite_name(bags), found.metrics), nl=False)
+        say(junit_of(suite_name(bags), metrics), nl=False)
     else:
         for line in (*lines_of(rows), verdict_line(rows)):
             say(line)
+    return exit_code(metrics)
 
 
 def _notes(notes: Sequence[str]) -> None:

@@ -6,13 +6,12 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.identify.contact.instant import instant
-from contact_sim_pkg.identify.contact.modes import Mode, classify
+from contact_sim_pkg.identify.contact.balance import Side, impulse
+from contact_sim_pkg.identify.contact.instant import Mode, classify, instant
+from contact_sim_pkg.identify.contact.noise import ContactNote, NoteKind
 from contact_sim_pkg.identify.contact.stacked import ParameterEstimate
-from contact_sim_pkg.identify.diagnostics.balance import Side, impulse
-from contact_sim_pkg.identify.diagnostics.notes import ContactNote, NoteKind
-from contact_sim_pkg.identify.geometry import arm
 from contact_sim_pkg.identify.motion.flight import FlightState, motion, rates
+from contact_sim_pkg.identify.motion.geometry import arm
 from contact_sim_pkg.identify.motion.rotation import Array, cross_matrix, logarithm
 from contact_sim_pkg.identify.motion.segments import Segments
 from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem

@@ -16,15 +16,15 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.identify.diagnostics.balance import Side
-from contact_sim_pkg.identify.diagnostics.rank import Split
+from contact_sim_pkg.identify.contact.balance import Side, Split
+from contact_sim_pkg.identify.contact.linearised import DIVERGES, Linearised
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.motion.flight import FlightState, moved
-from contact_sim_pkg.identify.motion.linearised import DIVERGES, Linearised
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.problem import IdentificationProblem, start_of
 
 __all__ = ["ParameterEstimate", "estimate"]
+
 
 ITERATIONS = 40
 WILD = 1e3  # change of a state over the size of its kind: no fit of this motion

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 __all__ = ["Array", "angular_inertia", "cross_matrix", "exponential", "from_quaternion", "logarithm", "mean"]
 
+
 Array = NDArray[numpy.float64]
 LARGE = -0.4  # cosine of the largest angle taken from the antisymmetric part
 

@@ -4,6 +4,17 @@ An interval between two samples holds a contact where `v2 - v1 + h g z - kappa i
 than noise explains (the 0.9999 quantile of chi-square) and the body is close to the ground, or is
 far larger; or where the body stays on the ground. Neighbouring ones are one contact; more than
 three in a row are a lasting one.
+
+Inertia of a body that tumbles freely, up to its size: where the search in space starts.
+
+In flight the angular momentum over the mass is `R S R^T w = L0 + kappa int tau dt`, linear in the
+six numbers of S = I0/m and in kappa = 1/m. What is left of it about its mean over each flight is
+made least at a fixed trace of S, weighted by the noise, with the guess as it is where the motion
+does not identify it: five numbers of a body that tumbles in all directions.
+
+Source: Identifiability eqs 19 to 31 without an impulse.
+
+Whether a motion stays in a plane.
 """
 
 from __future__ import annotations
@@ -13,20 +24,25 @@ from typing import NamedTuple
 import numpy
 from scipy.stats import chi2
 
-from contact_sim_pkg.identify.contact.wrench import ExternalWrench
-from contact_sim_pkg.identify.geometry import UP, GroundPlane, Shape, gaps, size
+from contact_sim_pkg.identify.motion.flight import FlightModel
+from contact_sim_pkg.identify.motion.geometry import UP, GroundPlane, Shape, gaps, size
 from contact_sim_pkg.identify.motion.rotation import Array
-from contact_sim_pkg.identify.motion.states import BodyStates
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
+from contact_sim_pkg.identify.motion.wrench import ExternalWrench
 
 __all__ = [
     "LONGEST_IMPACT",
     "SHORTEST_FLIGHT",
     "Segments",
+    "body_axis",
     "gap_uncertainty",
     "inverse_mass_guess",
+    "plane_of_motion",
     "segments",
+    "tumbling_start",
     "velocity_noise",
 ]
+
 
 QUANTILE = 0.9999
 LONGEST_IMPACT = 3  # intervals
@@ -189,3 +205,104 @@ def _pushes(states: BodyStates, wrench: ExternalWrench) -> Array:
         return numpy.zeros((len(states.time) - 1, 3))
     pushes: Array = numpy.diff(wrench.push(float(states.time[0]), states.time), axis=0)
     return pushes
+
+
+MOST = 200  # samples of a flight that are used
+SLACK = 1e-6  # of the trace: second moment below zero that counts as zero
+SHAPES = numpy.array([  # changes of (xx, yy, zz, xy, xz, yz) that leave the trace as it is
+    [1.0, -1.0, 0.0, 0.0, 0.0, 0.0], [1.0, 1.0, -2.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+    [0.0, 0.0, 0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+])  # fmt: skip
+
+
+def tumbling_start(
+    states: BodyStates, flights: list[tuple[int, int]], model: FlightModel, noise: SampleNoise, guess: Array
+) -> Array | None:
+    """Parameters to begin with, [parameters]; None where no body has such an inertia, or no flight
+    is long enough.
+
+    Args:
+        states: the motion.
+        flights: first and last sample of each.
+        model: in space.
+        noise: of the samples.
+        guess: parameters of which the trace is kept, and all that the flights do not identify, [p].
+    """
+    blocks = [
+        _about_the_mean(states, flight, model) for flight in flights if flight[1] - flight[0] + 1 >= SHORTEST_FLIGHT
+    ]
+    if not blocks:
+        return None
+    rows = numpy.concatenate(blocks)
+    size = float(guess[:3].sum()) / 3.0
+    fastest = float(numpy.linalg.norm(states.angular_velocity, axis=1).max())
+    spread = size * (noise.angular_velocity + fastest * noise.rotation)
+    # Unknowns: the shape of the inertia at a given size, and 1/m
+    free = numpy.zeros((len(SHAPES) + model.with_mass, len(guess)))
+    free[: len(SHAPES), :6] = size * SHAPES
+    if model.with_mass:
+        free[-1, -1] = guess[-1]
+    # Least squares, regularised towards the guess
+    system = numpy.concatenate([rows @ free.T / spread, numpy.eye(len(free))])
+    right = numpy.concatenate([-rows @ guess / spread, numpy.zeros(len(free))])
+    found: Array = guess + numpy.linalg.lstsq(system, right)[0] @ free
+    # A body has no negative second moment
+    inertia = model.inertia(found)
+    trace = float(numpy.trace(inertia))
+    moments = numpy.linalg.eigvalsh(0.5 * trace * numpy.eye(3) - inertia)
+    return found if moments.min() >= -SLACK * trace else None
+
+
+def _about_the_mean(states: BodyStates, flight: tuple[int, int], model: FlightModel) -> Array:
+    """What each parameter makes of the angular momentum of a flight less its mean and the impulse
+    of the torque, [3 n, p].
+    """
+    first, last = flight
+    chosen = numpy.unique(numpy.linspace(first, last, min(MOST, last - first + 1)).round().astype(int))
+    turns, spins = states.rotation[chosen], states.angular_velocity[chosen]
+    columns = [numpy.einsum("nij,jk,nlk,nl->ni", turns, part, turns, spins) for part in model.basis]
+    if model.with_mass:
+        columns.append(-model.wrench.twist(float(states.time[first]), states.time[chosen]))
+    rows: Array = numpy.stack(columns, axis=2)
+    centred: Array = (rows - rows.mean(axis=0)).reshape(-1, rows.shape[2])
+    return centred
+
+
+PLANE_SIGMAS = 5.0
+LEVEL = 1e-6  # allowed component of the axis along the ground's normal
+
+
+def plane_of_motion(states: BodyStates, ground: GroundPlane, noise: SampleNoise) -> Array | None:
+    """Normal [x, y, z] of the plane in world axes, its largest component positive; None where the
+    motion is spatial.
+
+    In a plane the spin keeps one axis, level with the ground, and the speed along that axis never
+    changes.
+    """
+    spins = states.angular_velocity
+    _, values, axes = numpy.linalg.svd(spins / numpy.sqrt(len(spins)), full_matrices=False)
+    if values[0] <= PLANE_SIGMAS * noise.angular_velocity + 1e-12:
+        return None
+    axis = axes[0] * numpy.sign(axes[0][abs(axes[0]).argmax()])
+    across = states.velocity @ axis
+    straight = values[1] <= max(PLANE_SIGMAS * noise.angular_velocity, FLOOR * values[0])
+    speed = float(abs(states.velocity).max())
+    kept = float(abs(across - numpy.median(across)).max()) <= max(PLANE_SIGMAS * noise.velocity, FLOOR * speed)
+    level = abs(float(axis @ ground.normal)) <= max(LEVEL, PLANE_SIGMAS * noise.angular_velocity / float(values[0]))
+    return (
+        _named(axis, PLANE_SIGMAS * noise.angular_velocity / float(values[0])) if straight and kept and level else None
+    )
+
+
+def body_axis(states: BodyStates, axis: Array, noise: SampleNoise) -> Array:
+    """Normal [x, y, z] of the plane in body axes: the mean over all samples; axis: in world
+    axes.
+    """
+    mean = numpy.einsum("nji,j->i", states.rotation, axis)
+    return _named(mean / numpy.linalg.norm(mean), PLANE_SIGMAS * noise.rotation)
+
+
+def _named(axis: Array, angle_error: float) -> Array:
+    """A coordinate axis where one lies within ``angle_error`` [rad], else the axis as it is."""
+    nearest = numpy.round(axis)
+    return nearest if float(numpy.linalg.norm(axis - nearest)) <= max(angle_error, 1e-9) else axis

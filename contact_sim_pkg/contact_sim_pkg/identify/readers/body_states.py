@@ -3,7 +3,7 @@ PoseStamped and TwistStamped.
 
 The twist of an Odometry is in body
 axes, as its definition says; that of a TwistStamped is in the frame that its header names
-(`identify/readers/twists.py`, `identify/readers/axes.py`).
+(`identify/readers/axes.py`, `identify/readers/axes.py`).
 """
 
 from __future__ import annotations
@@ -19,9 +19,8 @@ from contact_sim_pkg.bag.messages import decode, stamp_of
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.identify.motion.rotation import exponential, from_quaternion
 from contact_sim_pkg.identify.motion.states import BodyStates
-from contact_sim_pkg.identify.readers.axes import Axes
+from contact_sim_pkg.identify.readers.axes import Axes, pairs_of, reading_of_odometry, reading_of_twists
 from contact_sim_pkg.identify.readers.stamped import Array, all_messages, chosen, one_a_stamp, stamp, vectors
-from contact_sim_pkg.identify.readers.twists import pairs_of, reading_of_odometry, reading_of_twists
 from contact_sim_pkg.records.messages import BodyMotion
 
 __all__ = ["ODOMETRY", "POSE", "TWIST", "RecordedStates", "bench_states", "read_body_states"]

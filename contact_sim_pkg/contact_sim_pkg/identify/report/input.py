@@ -8,7 +8,7 @@ import numpy
 
 from contact_sim_pkg.files import read_regular_file
 from contact_sim_pkg.identify.errors import IdentificationError
-from contact_sim_pkg.identify.geometry import Shape, hull
+from contact_sim_pkg.identify.motion.geometry import Shape, hull
 
 __all__ = ["hull_of_file"]
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy
 
-from contact_sim_pkg.identify.geometry import gaps
 from contact_sim_pkg.identify.identify import Identification
+from contact_sim_pkg.identify.motion.geometry import gaps
 from contact_sim_pkg.report.drawing import ACCENT, MUTED, new_figure, save_picture, style
 
 __all__ = ["write_plot"]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy
 
 from contact_sim_pkg.identify.contact.contacts import ContactFinding
-from contact_sim_pkg.identify.contact.modes import Mode
+from contact_sim_pkg.identify.contact.instant import Mode
 from contact_sim_pkg.identify.identify import Identification, Parameter
 
 __all__ = ["contact_rows", "derived", "facts", "parameter_rows"]

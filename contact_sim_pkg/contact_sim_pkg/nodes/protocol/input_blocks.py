@@ -14,7 +14,7 @@ from contact_sim_pkg.bag.excitation import DECODERS, Block
 from contact_sim_pkg.bag.messages import stamp_of
 from contact_sim_pkg.records.messages import VibrationBlock
 
-FARTHEST_AHEAD = 64  # blocks kept per input; the window of a well-behaved source is 8
+FARTHEST_AHEAD = 64  # blocks kept per input; the window of a well-behaved source is 24
 
 
 def _refuse_unfilled(vibration: VibrationBlock, block_length: float) -> None:

@@ -90,7 +90,7 @@ def make_half_space(
 
     rows, cols: number of cells along x and y; cell_x, cell_y: their size [m]; modulus: contact
     modulus E* [Pa]; further: influence [m/Pa] [rows, cols] of something else that yields under the
-    pressure, in series with the half-space, as a belt does (`rigs/vehicle/tire/inflated_belt.py`);
+    pressure, in series with the half-space, as a belt does (`rigs/vehicle/field/inflated_belt.py`);
     the same for all columns, positive definite, and not growing with the distance within the size of a contact. Raises
     `ValueError` for sizes that are not positive and finite, counts that are not whole or outside 1
     to 4096, and a `further` of another shape or with a larger value than that of the loaded cell. A

@@ -18,9 +18,11 @@ from contact_sim_pkg.bag.errors import BagError, UnreadableTypeError
 from contact_sim_pkg.bag.names import safe_name
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.files import FileRefusedError, as_cell, check_output, new_file, wrong_name
+from contact_sim_pkg.records.registry import announced
+from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.export.table import Map, NoTableError, TopicTable, maps_of, table_of, time_of
 
-__all__ = ["CSV", "PARQUET", "export"]
+__all__ = ["CSV", "PARQUET", "export", "formats"]
 
 CSV, PARQUET = "csv", "parquet"
 LONGEST_NAME = 200
@@ -30,6 +32,24 @@ GRID = ("cell_x", "cell_y", "origin_x", "origin_y")
 """Fields that place the cells of a map, written above its frames."""
 
 
+def formats() -> dict[str, str]:
+    """Formats of a table, each a ``module:function`` of a table and the stream that it is written to: ours, and those
+    that plug-ins bring.
+    """
+    ours = {CSV: f"{__name__}:write_csv", PARQUET: f"{__name__}:write_parquet"}
+    return {**ours, **announced("exports", ours)}
+
+
+def _writer(form: str) -> Callable[[TopicTable, IO[bytes]], None]:
+    known = formats()
+    if form not in known:
+        raise BagError(f"there is no format {form}; formats are {', '.join(known)}")
+    if form == PARQUET and find_spec("pyarrow") is None:
+        raise BagError("--parquet needs pyarrow, which is not installed; pip install pyarrow, or --csv")
+    write: Callable[[TopicTable, IO[bytes]], None] = load(known[form])
+    return write
+
+
 def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: bool = False) -> Iterator[Path]:
     """Write a file a topic into the folder `out`, `tire_force.csv`, and one a map, `tire_patch_pressure.csv`.
 
@@ -37,7 +57,7 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
 
     Args:
         bag: to read.
-        form: `CSV` or `PARQUET`; maps are CSV in both.
+        form: one of `formats`, which is also the ending of its files; maps are CSV in each.
         topics: all where it is empty, but those that have nothing for a table: `bag.notes` names them, and those
             whose file has another name than theirs; `bag.left_out` those of a type that cannot be read.
         out: folder, made where it does not exist.
@@ -47,11 +67,10 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
         Each file when it is written.
 
     Raises:
-        BagError: no such topic, one that has nothing for a table, nothing recorded, or Parquet without pyarrow.
+        BagError: no such format or topic, one that has nothing for a table, nothing recorded, or Parquet without pyarrow.
         FileRefusedError: a file exists, or `out` is one. MemoryLimitError: a table is too large.
     """
-    if form == PARQUET and find_spec("pyarrow") is None:
-        raise BagError("--parquet needs pyarrow, which is not installed; pip install pyarrow, or --csv")
+    write = _writer(form)
     names = [bag.topic(each).name for each in topics] or [name for name in bag.topics if bag.count(name)]
     if not names:
         raise BagError(f"{bag.path} holds no message: there is nothing to export")
@@ -71,7 +90,6 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FileRefusedError(out, f"cannot be made: {error.strerror}") from error
-    write = _write_parquet if form == PARQUET else _write_csv
     for table in tables:
         file = out / files[table.topic, ""]
         if table.columns:
@@ -118,7 +136,7 @@ def _files(bag: Bag, names: Sequence[str], form: str) -> dict[tuple[str, str], s
     return found
 
 
-def _write_csv(table: TopicTable, stream: IO[bytes]) -> None:
+def write_csv(table: TopicTable, stream: IO[bytes]) -> None:
     """A header with units and a row a sample; numbers in the fewest digits that give the same bits, empty where a
     value is not defined."""
     text = io.TextIOWrapper(stream, encoding="utf-8", newline="")
@@ -141,7 +159,8 @@ def _texts(values: Any) -> list[Any]:
     return [*map(as_cell, column.tolist())]
 
 
-def _write_parquet(table: TopicTable, stream: IO[bytes]) -> None:
+def write_parquet(table: TopicTable, stream: IO[bytes]) -> None:
+    """The columns with their units as metadata."""
     pyarrow, parquet = import_module("pyarrow"), import_module("pyarrow.parquet")
     fields = [
         pyarrow.field(column.header, pyarrow.array(np.asarray(column.values)).type, metadata={"unit": column.unit})

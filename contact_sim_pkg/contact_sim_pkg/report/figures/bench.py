@@ -87,7 +87,7 @@ def _cost_caption(cost: CostSeries) -> str:
     return text + (
         f" Pressure fields: {numbers['field_iterations']} iterations, largest relative residual "
         f"{numbers['field_residual_max']:.1e}; they were solved for "
-        f"{numbers['stretches']} coupling steps ({numbers['stretches_repeated']} repeated, shorter), in which a force is "
+        f"{numbers['coupling_steps']} coupling steps ({numbers['coupling_steps_repeated']} repeated, shorter), in which a force is "
         f"wrong by an estimated {numbers['coupling_error_max']:.2g} of its standing load at most; where two steps meet a force "
         f"jumped by at most {numbers['field_jump_max_N']:.3g} N."
     )

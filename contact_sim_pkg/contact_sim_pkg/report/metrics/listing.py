@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import logging
 from itertools import zip_longest
 
 from contact_sim_pkg.bag.metadata import WARNINGS
+from contact_sim_pkg.files import printable
 from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.records.registry import announced
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.metrics.maker import ENERGY, Maker, energy_residual
 from contact_sim_pkg.report.metrics.mat import LOADED, mat_metrics
@@ -15,27 +18,29 @@ from contact_sim_pkg.report.signal.confidence import spread_of_mean
 
 __all__ = ["MOST", "all_metrics", "metrics_of", "of_field"]
 
+_log = logging.getLogger(__name__)
 MOST = 14
 """Metrics in the list of a run."""
 
 
 def metrics_of(recording: Recording) -> list[Metric]:
     """The list of a run, the most important first; where several contacts share it, the first ones of
-    each in turn. Of fields alone, as of a mat, their whole lists.
+    each in turn. Of fields alone, as of a mat, their whole lists. Those of plug-ins come last, and take no place
+    of ours.
     """
     if not recording.contacts and recording.motion is None:
         return all_metrics(recording)
-    lists = _named(_lists(recording))
+    lists, others = _named(_lists(recording)), _of_plugins(recording)
     if sum(map(len, lists)) <= MOST:
-        return [metric for each in lists for metric in each]
+        return [metric for each in (*lists, others) for metric in each]
     chosen = [metric for rank in zip_longest(*lists) for metric in rank if metric is not None][:MOST]
-    return [metric for each in lists for metric in each if metric in chosen]
+    return [*(metric for each in lists for metric in each if metric in chosen), *others]
 
 
 def all_metrics(recording: Recording, loaded: float = LOADED) -> list[Metric]:
     """The whole lists of all contacts, and the mat metrics of each pressure map, of cells above ``loaded`` [Pa]."""
     mats = [of_field(recording, name, loaded) for name in recording.fields]
-    return [metric for each in _named([*_lists(recording), *mats]) for metric in each]
+    return [metric for each in (*_named([*_lists(recording), *mats]), _of_plugins(recording)) for metric in each]
 
 
 def of_field(recording: Recording, contact: str, loaded: float) -> list[Metric]:
@@ -65,6 +70,24 @@ def _lists(recording: Recording) -> list[list[Metric]]:
     ledger = recording.ledger
     energy = [] if ledger is None else [energy_residual(ledger, recording.duration, recording.scene)]
     return [[_with_warning(metric, recording) for metric in each] for each in (*found, *rest, energy) if each]
+
+
+def _of_plugins(recording: Recording) -> list[Metric]:
+    """What the entry points `contact_sim_pkg.metrics` add, each a function of a recording; one that fails is a line on
+    standard error, and left out.
+    """
+    found: list[Metric] = []
+    for name, place in announced("metrics").items():
+        try:
+            made = [*load(place)(recording)]
+            wrong = next((each for each in made if not isinstance(each, Metric)), None)
+            if wrong is not None:
+                raise TypeError(f"{wrong!r:.60} is no Metric")
+        except Exception as error:  # noqa: BLE001 - whatever a stranger's function raises
+            _log.warning("%s", printable(f"the metrics {name} of a plug-in, {place}, are left out: {error}", 1000))
+            continue
+        found += [_with_warning(each, recording) for each in made]
+    return found
 
 
 def _with_warning(metric: Metric, recording: Recording) -> Metric:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+from contact_sim_pkg.excitation.kinds import RoadKind, kind_known
 from contact_sim_pkg.records.metric import CLOSED_FORM, Band, Metric, judged
 from contact_sim_pkg.report.energy import relative_residual
 from contact_sim_pkg.report.metrics.bands import Conditions, band_of
@@ -86,5 +87,5 @@ def conditions_of(scene: Mapping[str, object]) -> dict[str, float | str]:
     road = scene.get("road")
     if not isinstance(road, Mapping):
         return {}
-    kind = str(road.get("kind"))
-    return {"road": f"class {road.get('roughness_class')}" if kind == "iso8608" else kind}
+    known: RoadKind | None = kind_known("road", road)
+    return {"road": str(road.get("kind")) if known is None else known.condition}

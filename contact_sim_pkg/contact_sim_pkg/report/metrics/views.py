@@ -10,7 +10,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from contact_sim_pkg.files import as_cell
-from contact_sim_pkg.records.metric import GOOD, NO_BAND, OUTSIDE, USUAL, Band, Metric
+from contact_sim_pkg.records.metric import GOOD, NO_BAND, OUTSIDE, UNDECIDED, USUAL, Band, Metric
 from contact_sim_pkg.report.rows import number
 
 __all__ = ["csv_of", "junit_of", "lines_of", "row_of", "rows_of", "value_text", "verdict_line", "verdict_text"]
@@ -60,7 +60,7 @@ def value_text(metric: Metric) -> str:
 
 def verdict_text(metric: Metric) -> str:
     """`good`, `OUTSIDE`, and `good?` where an assumption does not hold."""
-    verdict = metric.verdict.upper() if metric.verdict == OUTSIDE else metric.verdict
+    verdict = metric.verdict.upper() if metric.verdict in (OUTSIDE, UNDECIDED) else metric.verdict
     return f"{verdict}?" if metric.broken and metric.verdict != NO_BAND else verdict
 
 
@@ -87,14 +87,16 @@ def verdict_line(rows: Sequence[Mapping[str, Any]]) -> str:
     """The list in one sentence: what lies outside its band, what is doubtful, else how many are good."""
     metrics = [metric_of(row) for row in rows]
     outside = [f"{each.name} {value_text(each)} ({_limit(each)})" for each in metrics if each.verdict == OUTSIDE]
+    undecided = [f"{each.name} {value_text(each)} ({_limit(each)})" for each in metrics if each.verdict == UNDECIDED]
     doubts = list(dict.fromkeys(text for each in metrics for text in each.broken))
     sure = [each.verdict for each in metrics if not each.broken]
     counts = {verdict: sure.count(verdict) for verdict in (GOOD, USUAL, NO_BAND)}
     rest = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
     parts = [
         f"OUTSIDE: {', '.join(outside)}" if outside else "",
+        f"UNDECIDED: {', '.join(undecided)}" if undecided else "",
         f"DOUBTFUL: {len(metrics) - len(sure)} of {len(metrics)} metrics, {'; '.join(doubts)}" if doubts else "",
-        f"{'the rest ' if outside or doubts else 'nothing outside its band: '}{rest}" if rest else "",
+        f"{'the rest ' if outside or undecided or doubts else 'nothing outside its band: '}{rest}" if rest else "",
     ]
     return " | ".join(filter(None, parts))
 
@@ -118,8 +120,8 @@ def metric_of(row: Mapping[str, Any]) -> Metric:
 
 
 def junit_of(name: str, metrics: Sequence[Metric]) -> str:
-    """JUnit XML of the list of the bag ``name``: outside its band is a failure, a broken assumption an error, no
-    band skipped."""
+    """JUnit XML of the list of the bag ``name``: outside its band is a failure, a broken assumption an error, as
+    is a limit within the spread, no band skipped."""
     cases = [_case(each) for each in metrics]
     return junit_text(name, cases)
 
@@ -127,8 +129,9 @@ def junit_of(name: str, metrics: Sequence[Metric]) -> str:
 def _case(metric: Metric) -> ElementTree.Element:
     case = ElementTree.Element("testcase", classname=metric.topic or metric.key, name=metric.key)
     said = f"{metric.name}: {value_text(metric)}; {_limit(metric)} {metric.remark}".strip()
-    if metric.broken:
-        ElementTree.SubElement(case, "error", message="; ".join(metric.broken)).text = said
+    if metric.broken or metric.verdict == UNDECIDED:
+        message = "; ".join(metric.broken) or "the limit lies within the spread"
+        ElementTree.SubElement(case, "error", message=message).text = said
     elif metric.verdict == OUTSIDE:
         ElementTree.SubElement(case, "failure", message=said)
     elif metric.verdict == NO_BAND:

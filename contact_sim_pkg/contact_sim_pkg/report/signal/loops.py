@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from scipy.integrate import trapezoid
 
+from contact_sim_pkg.excitation.kinds import VibrationKind, kind_known
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray
 
@@ -55,9 +56,9 @@ class AreaRatio(NamedTuple):
 
 
 def vibration_period(scene: dict[str, Any]) -> float | None:
-    """Period [s] of a sinusoidal vibration; None for any other."""
-    vibration = scene.get("vibration")
-    return period_of(vibration) if isinstance(vibration, dict) and vibration.get("kind") == "sine" else None
+    """Period [s] of the vibration of a scene; None for one without, or that this version does not know."""
+    vibration: VibrationKind | None = kind_known("vibration", scene.get("vibration"))
+    return None if vibration is None else vibration.period
 
 
 def period_of(section: dict[str, Any]) -> float | None:

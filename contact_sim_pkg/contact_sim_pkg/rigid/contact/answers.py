@@ -1,8 +1,8 @@
 """Contact impulses for callers from Python: the methods of `rigid/contact/solver.py`, and what
 follows where they end without an answer.
 
-A second solve at velocities that rounding has not put out of reach, then Lemke's path on the true
-cone in space (`rigid/contact/cone_path.py`).
+A second solve at velocities that rounding has not put out of reach. A problem that no method settles
+is refused by its status.
 """
 
 from __future__ import annotations
@@ -11,18 +11,11 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry
-from contact_sim_pkg.rigid.contact.cone_path import candidates_by_path
-from contact_sim_pkg.rigid.contact.solver import NEAREST, NEWTON, REFINE, ContactSolution, Solver, solve_and_split
-from contact_sim_pkg.rigid.problem import DISC, SPACE, ContactProblem, residual
+from contact_sim_pkg.rigid.contact.solver import NEAREST, ContactSolution, Solver, solve_and_split
+from contact_sim_pkg.rigid.problem import ContactProblem, residual
 from contact_sim_pkg.rigid.results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, UNIQUE
 
 __all__ = ["contact_impulses", "solve_repeatedly"]
-
-CLOSE = (
-    # residual for which no path is followed: that of a slip of 1e-13 m/s, say, which neither ends
-    # nor goes on
-    1.0e-10
-)
 
 
 @entry
@@ -46,17 +39,13 @@ def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solv
     """Impulses of ``problem`` into ``c`` [rows], with the least-norm split of the load;
     ``problem.A`` must be ``J W J'``.
 
-    SOLVED: the residual is at most 1e-12 on the true cone, up to CLOSE where a slip comes to
-    nothing at the edge of the cone; or conditions that contradict each other by rounding are met as
-    nearly as the residual says, up to NEAREST.
+    SOLVED: the residual is at most 1e-12 on the true cone; or conditions that contradict each other
+    by rounding are met as nearly as the residual says, up to NEAREST.
     """
     found = solve_repeatedly(problem, J, W, solver, c, 1)
     if found.status in (SOLVED, CONTACT_NOT_FINITE):
         return found
     found = _by_nearest_motion(problem, J, W, solver, c, found)
-    on_disc = problem.width == SPACE and problem.facets == DISC
-    if found.status != SOLVED and found.residual > CLOSE and solver.method == NEWTON and on_disc:
-        found = _by_path(problem, J, W, solver, c, found)
     return found._replace(status=SOLVED) if found.residual <= NEAREST else found
 
 
@@ -87,18 +76,3 @@ def nearest_motion(J: Vector, q: Vector, most: float) -> Vector | None:
     """
     near: Vector = J @ numpy.linalg.lstsq(J, q)[0]
     return near if numpy.abs(near - q).max() <= most * numpy.abs(q).max() else None
-
-
-def _by_path(
-    problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, found: ContactSolution
-) -> ContactSolution:
-    """The first end of a path that Newton's method brings to an answer, into ``c``; else ``found``,
-    and ``c`` as it is.
-    """
-    refining = solver._replace(method=REFINE)
-    for candidate in candidates_by_path(problem):
-        ended = solve_repeatedly(problem, J, W, refining, candidate, 1)
-        if ended.status == SOLVED:
-            c[:] = candidate
-            return ended
-    return found

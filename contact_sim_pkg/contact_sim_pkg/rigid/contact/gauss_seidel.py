@@ -7,7 +7,7 @@ Source: Jourdan, Alart and Jean, Comput. Methods Appl. Mech. Eng. 155 (1998) 31.
 from __future__ import annotations
 
 from contact_sim_pkg.compiled.jit import kernel
-from contact_sim_pkg.rigid.contact.cone import project_on_base
+from contact_sim_pkg.rigid.cone import project_on_base
 from contact_sim_pkg.rigid.problem import SPACE
 
 

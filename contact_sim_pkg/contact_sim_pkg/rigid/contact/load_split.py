@@ -18,7 +18,7 @@ import numpy.typing
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import kernel
-from contact_sim_pkg.rigid.contact.cone import project_on_cone, project_on_ray
+from contact_sim_pkg.rigid.cone import project_on_cone, project_on_ray
 from contact_sim_pkg.rigid.contact.linear import solve_consistent
 from contact_sim_pkg.rigid.problem import DISC, PLANE, SPACE
 

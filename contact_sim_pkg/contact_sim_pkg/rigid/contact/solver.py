@@ -21,14 +21,13 @@ from contact_sim_pkg.rigid.contact.cone_newton import GOOD, NewtonWorkspace, mak
 from contact_sim_pkg.rigid.contact.gauss_seidel import gauss_seidel
 from contact_sim_pkg.rigid.contact.lemke_contact import ContactLemke, make_contact_lemke, solve_by_lemke
 from contact_sim_pkg.rigid.contact.load_split import SplitWorkspace, make_split_workspace, split_load
+from contact_sim_pkg.rigid.contact.planar_impact import contact_modes
 from contact_sim_pkg.rigid.contact.slide_direction import slide_in_one_direction
-from contact_sim_pkg.rigid.impact.planar_impact import contact_modes
 from contact_sim_pkg.rigid.parameters import PlanarContact
 from contact_sim_pkg.rigid.problem import DISC, PLANE, ContactProblem, residual, velocity_scale
 from contact_sim_pkg.rigid.results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, SPLIT_NOT_UNIQUE, UNIQUE
 
 MODES, GAUSS_SEIDEL, LEMKE, NEWTON = 0, 1, 2, 3
-REFINE = 4  # Newton's method alone, from the impulses that are given
 START_FACETS = 8  # of the polyhedral cone from which Newton's method starts on the true one
 TURNS = 30  # times the facets are turned to the slip where Newton's method alone does not settle
 SWEEPS = 20  # of Gauss-Seidel unless specified
@@ -269,8 +268,6 @@ def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Contact
         swept = gauss_seidel(problem, c, solver.sweeps, 0.0)
     elif solver.method == MODES and problem.q.shape[0] == PLANE and problem.width == PLANE:
         _by_modes(problem, c)
-    elif solver.method == REFINE:
-        status, _residual = solve_by_newton(problem, solver.newton, c)
     else:
         status = _by_passes(problem, solver, c)
     # no answer: no impulse either

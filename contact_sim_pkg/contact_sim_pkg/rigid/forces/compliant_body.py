@@ -7,7 +7,7 @@ there, ``lambda = d/x'``, d the loss that delivers the requested restitution
 (``laws/restitution.py``): then the ratio of speeds is the requested one at any speed and for any
 mass at the point. Below ``slowest`` the speed counts as that, so that a resting contact is damped.
 
-State: [place and turn] [v, omega] (`rigid/body_state.py`) [spring deflection of each point]
+State: [place and turn] [v, omega] (`rigid/bodies/body_state.py`) [spring deflection of each point]
 [impulse of each point, normal then tangents, in N s] [work dissipated or lent to friction springs,
 in J]. Mode: lambda of each point.
 
@@ -27,9 +27,9 @@ from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
 from contact_sim_pkg.laws.normal_force import normal_force, tension_event
 from contact_sim_pkg.laws.parameters import Friction, NormalDissipative, NormalElastic
 from contact_sim_pkg.laws.point_friction import point_friction, point_stick_event
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, contact_rows
-from contact_sim_pkg.rigid.body_state import fill_motion, fill_rates, fill_turn, places_of
-from contact_sim_pkg.rigid.motion.motion import contact_velocities
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody, contact_count, contact_rows
+from contact_sim_pkg.rigid.bodies.body_state import fill_motion, fill_rates, fill_turn, places_of
+from contact_sim_pkg.rigid.bodies.motion import contact_velocities
 from contact_sim_pkg.rigid.problem import PLANE
 
 EVENTS_PER_POINT = 3  # approach, tension, stick

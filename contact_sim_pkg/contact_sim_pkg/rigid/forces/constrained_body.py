@@ -5,7 +5,7 @@ A mode ends where a normal force or a slip comes to 0, a sticking force leaves i
 contact lands, or an active one comes to the end of a face of the ground. The forces:
 `rigid/forces/constraint_forces.py`.
 
-State: [place and turn] [v, omega] (`rigid/body_state.py`) [time in s] [work of friction in J]
+State: [place and turn] [v, omega] (`rigid/bodies/body_state.py`) [time in s] [work of friction in J]
 [impulse of each row in N s] [integral of each event function: so the rate of a state holds all that
 the event functions need]. Source: Hairer and Wanner, Solving Ordinary Differential Equations II,
 VII.2.
@@ -17,8 +17,8 @@ import math
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.integrate.interface import register_rig
-from contact_sim_pkg.rigid.body import RigidBody, lies_on
-from contact_sim_pkg.rigid.body_state import fill_rates, places_of
+from contact_sim_pkg.rigid.bodies.body import RigidBody, lies_on
+from contact_sim_pkg.rigid.bodies.body_state import fill_rates, places_of
 from contact_sim_pkg.rigid.forces.constraint_forces import (
     DEEP,
     FIRST,

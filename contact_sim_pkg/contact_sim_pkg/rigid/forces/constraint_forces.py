@@ -2,7 +2,7 @@
 
 They keep the contacts on the ground: ``J a + b = 0`` for the normal row of each active contact and
 for the tangents of those that stick, with ``a = W (load + gyroscopic torque + J' f)`` and b the
-acceleration of the contact at constant velocities (`rigid/motion/active_contacts.py`); a sliding
+acceleration of the contact at constant velocities (`rigid/bodies/active_contacts.py`); a sliding
 contact has ``f_t = -mu f_n s``, s the direction of slip. Where the rows are dependent the forces of
 least norm are taken. Source: Identifiability eqs 12-18 and 32-38 at the level of
 accelerations.
@@ -17,12 +17,19 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, contact_rows, fill_inverse_inertia
-from contact_sim_pkg.rigid.body_state import fill_motion, fill_turn
+from contact_sim_pkg.rigid.bodies.active_contacts import path_acceleration
+from contact_sim_pkg.rigid.bodies.body import (
+    Ground,
+    Motion,
+    RigidBody,
+    contact_count,
+    contact_rows,
+    fill_inverse_inertia,
+)
+from contact_sim_pkg.rigid.bodies.body_state import fill_motion, fill_turn
+from contact_sim_pkg.rigid.bodies.motion import contact_velocities
 from contact_sim_pkg.rigid.contact.line import contact_arm, reach_in_cone
 from contact_sim_pkg.rigid.contact.linear import solve_consistent
-from contact_sim_pkg.rigid.motion.active_contacts import path_acceleration
-from contact_sim_pkg.rigid.motion.motion import contact_velocities
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.rotation import gyroscopic_rate, spin_in_body
 

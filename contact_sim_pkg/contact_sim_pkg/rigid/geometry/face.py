@@ -1,8 +1,8 @@
 """A body on a flat face, all of whose points stick or all of whose points slide: the impulses of
 least norm without pivoting.
 
-`rigid/motion/face_stick.py` shares the wrench that stops the body among the points, within their
-friction cones; `rigid/motion/face_slide.py`: all slide. Either answer is taken only if it meets
+`rigid/geometry/face_stick.py` shares the wrench that stops the body among the points, within their
+friction cones; `rigid/geometry/face_slide.py`: all slide. Either answer is taken only if it meets
 Signorini's and Coulomb's conditions; ``numpy.inf`` sends the caller to a solver that pivots.
 Source: Identifiability eqs 5-9, corrected, with the split of least norm.
 """
@@ -31,8 +31,8 @@ from contact_sim_pkg.rigid.geometry.face_points import (
     tensor_in_axes,
     times,
 )
-from contact_sim_pkg.rigid.motion.face_slide import slide_on_face
-from contact_sim_pkg.rigid.motion.face_stick import ORDER, stick_on_face
+from contact_sim_pkg.rigid.geometry.face_slide import slide_on_face
+from contact_sim_pkg.rigid.geometry.face_stick import ORDER, stick_on_face
 from contact_sim_pkg.rigid.problem import SPACE
 
 

@@ -4,7 +4,7 @@ Energetic, several contacts: compression without bounce, then each contact gives
 its compression impulse, with the greatest s in [0, 1] for which the normal works give back at most
 ``e_i^2`` of what they took and no kinetic energy is gained. Several contacts are a row of contact
 solves, each compiled, called from Python. Source: Brogliato, Nonsmooth Mechanics. Planar and one
-contact: `rigid/impact/planar_impact.py`; one contact in space: `rigid/impact/path.py`.
+contact: `rigid/contact/planar_impact.py`; one contact in space: `rigid/impact/path.py`.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigid.contact.answers import contact_impulses
+from contact_sim_pkg.rigid.contact.planar_impact import planar_impact
 from contact_sim_pkg.rigid.contact.solver import ContactSolution, Solver, make_solver
 from contact_sim_pkg.rigid.impact.path import FIRST, IMPULSE, SECOND, PathWorkspace, make_path_workspace, spatial_impact
-from contact_sim_pkg.rigid.impact.planar_impact import planar_impact
 from contact_sim_pkg.rigid.parameters import ENERGETIC, NEWTON, ImpactPath, PlanarContact
 from contact_sim_pkg.rigid.problem import DISC, PLANE, SPACE, ContactProblem
 from contact_sim_pkg.rigid.results import SOLVED, UNIQUE

@@ -24,7 +24,7 @@ from contact_sim_pkg.integrate.dormand_prince import (
     set_event_directions,
 )
 from contact_sim_pkg.integrate.interface import register_rig
-from contact_sim_pkg.rigid.body_state import IntegrationSpan
+from contact_sim_pkg.rigid.bodies.body_state import IntegrationSpan
 from contact_sim_pkg.rigid.parameters import ImpactPath
 from contact_sim_pkg.rigid.results import NOT_CONVERGED, SOLVED
 

@@ -23,8 +23,9 @@ from contact_sim_pkg.integrate.dormand_prince import (
 )
 from contact_sim_pkg.laws.parameters import Friction, NormalElastic
 from contact_sim_pkg.laws.restitution import LOWEST_RESTITUTION, damping_of_restitution
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, fitted_ground, load_acceleration
-from contact_sim_pkg.rigid.body_state import IntegrationSpan, places_of
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody, contact_count, fitted_ground, load_acceleration
+from contact_sim_pkg.rigid.bodies.body_state import IntegrationSpan, places_of
+from contact_sim_pkg.rigid.bodies.flight import body_size
 from contact_sim_pkg.rigid.forces.compliant_body import (
     EVENTS_PER_POINT,
     CompliantBody,
@@ -35,7 +36,6 @@ from contact_sim_pkg.rigid.forces.compliant_body import (
     stored_energy,
     update_contacts,
 )
-from contact_sim_pkg.rigid.motion.flight import body_size
 from contact_sim_pkg.rigid.problem import PLANE
 
 __all__ = ["CompliantMotion", "compliant_contact", "requested_loss", "sentence_of"]

@@ -3,7 +3,7 @@ sliding and rest in between.
 
 `rigid/motion/time_loop.py` goes on by itself in compiled code, over all output samples of a call.
 What it cannot do, an impact or a sub-step that needs the general solvers or holds an event, is
-done here, by compiled steps (`rigid/motion/active_contacts.py`, `rigid/contact/solver.py`,
+done here, by compiled steps (`rigid/bodies/active_contacts.py`, `rigid/contact/solver.py`,
 `rigid/impact/law.py`) called from Python: in one compiled function of all of them every solver
 would be compiled again. Source: Identifiability eqs 9-11; Brogliato, Nonsmooth Mechanics
 (event-driven schemes).
@@ -17,12 +17,11 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, fitted_ground, load_acceleration
-from contact_sim_pkg.rigid.contact.packed import PackedSolver
-from contact_sim_pkg.rigid.geometry.track import BRIEF, SampleTrack, read_track, run_fields, track_columns
-from contact_sim_pkg.rigid.motion import active_contacts
-from contact_sim_pkg.rigid.motion.flight import body_size
-from contact_sim_pkg.rigid.motion.motion import ACTIVE, SEPARATED, STICKING, TOUCHING, make_motion_workspace
+from contact_sim_pkg.rigid.bodies import active_contacts
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody, contact_count, fitted_ground, load_acceleration
+from contact_sim_pkg.rigid.bodies.flight import body_size
+from contact_sim_pkg.rigid.bodies.motion import ACTIVE, SEPARATED, STICKING, TOUCHING, make_motion_workspace
+from contact_sim_pkg.rigid.motion.packed import PackedSolver
 from contact_sim_pkg.rigid.motion.slip import contacts_turn, slip_turns
 from contact_sim_pkg.rigid.motion.substep_end import accept_substep, list_features, stay_on_the_ground
 from contact_sim_pkg.rigid.motion.substep_solver import MOST_STOPS, SubstepSolver
@@ -34,6 +33,7 @@ from contact_sim_pkg.rigid.motion.time_loop import (
     advance_samples,
     make_time_loop_workspace,
 )
+from contact_sim_pkg.rigid.motion.track import BRIEF, SampleTrack, read_track, run_fields, track_columns
 from contact_sim_pkg.rigid.motion.turning import INSTANT, advance_rotating, make_rotating_workspace
 from contact_sim_pkg.rigid.parameters import ENERGETIC
 from contact_sim_pkg.rigid.problem import DISC, PLANE

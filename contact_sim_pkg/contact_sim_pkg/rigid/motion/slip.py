@@ -12,9 +12,9 @@ import math
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry, kernel
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody
-from contact_sim_pkg.rigid.motion.active_contacts import drop_spin, path_acceleration
-from contact_sim_pkg.rigid.motion.motion import ACTIVE, MotionWorkspace, apply_impulse, has_equal_inertias
+from contact_sim_pkg.rigid.bodies.active_contacts import drop_spin, path_acceleration
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody
+from contact_sim_pkg.rigid.bodies.motion import ACTIVE, MotionWorkspace, apply_impulse, has_equal_inertias
 from contact_sim_pkg.rigid.problem import PLANE
 
 # [rad]: a turn of the slip that a sub-step, which takes one direction of friction, does not make

@@ -15,8 +15,8 @@ import math
 from typing import NamedTuple
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
-from contact_sim_pkg.rigid.motion.active_contacts import DRIFT
-from contact_sim_pkg.rigid.motion.motion import ACTIVE, SEPARATED, STICKING
+from contact_sim_pkg.rigid.bodies.active_contacts import DRIFT
+from contact_sim_pkg.rigid.bodies.motion import ACTIVE, SEPARATED, STICKING
 from contact_sim_pkg.rigid.motion.slip import SLOW, SWERVE
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
 

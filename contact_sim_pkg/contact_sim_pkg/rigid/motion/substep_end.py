@@ -12,10 +12,10 @@ from __future__ import annotations
 import math
 
 from contact_sim_pkg.compiled.jit import entry, kernel
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_rows, lies_on
-from contact_sim_pkg.rigid.motion.active_contacts import DRIFT, path_acceleration, remove_normal_velocity
-from contact_sim_pkg.rigid.motion.flight import TOUCH
-from contact_sim_pkg.rigid.motion.motion import (
+from contact_sim_pkg.rigid.bodies.active_contacts import DRIFT, path_acceleration, remove_normal_velocity
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody, contact_rows, lies_on
+from contact_sim_pkg.rigid.bodies.flight import TOUCH
+from contact_sim_pkg.rigid.bodies.motion import (
     ACTIVE,
     SEPARATED,
     STICKING,

@@ -14,10 +14,10 @@ from typing import TypeAlias
 import numpy
 import numpy.typing
 
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody
-from contact_sim_pkg.rigid.contact.packed import PackedSolver
-from contact_sim_pkg.rigid.motion import active_contacts
-from contact_sim_pkg.rigid.motion.motion import MotionWorkspace
+from contact_sim_pkg.rigid.bodies import active_contacts
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody
+from contact_sim_pkg.rigid.bodies.motion import MotionWorkspace
+from contact_sim_pkg.rigid.motion.packed import PackedSolver
 from contact_sim_pkg.rigid.motion.slip import contacts_turn, slip_turns, stop_of_slip
 from contact_sim_pkg.rigid.motion.substep_end import accept_substep
 from contact_sim_pkg.rigid.results import SOLVED

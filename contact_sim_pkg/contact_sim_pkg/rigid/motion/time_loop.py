@@ -19,10 +19,24 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody
+from contact_sim_pkg.rigid.bodies.active_contacts import (
+    landing_part,
+    path_acceleration,
+    settle_points,
+    survey_points,
+    time_to_peak,
+)
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody
+from contact_sim_pkg.rigid.bodies.flight import fly_to_touch, is_clear
+from contact_sim_pkg.rigid.bodies.motion import ACTIVE, MotionWorkspace, contact_velocities, free_velocity
+from contact_sim_pkg.rigid.contact.planar_impact import contact_modes
 from contact_sim_pkg.rigid.contact.single import single_impulses
 from contact_sim_pkg.rigid.geometry.face import face_impulses, make_face_workspace
-from contact_sim_pkg.rigid.geometry.track import (
+from contact_sim_pkg.rigid.impact.planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
+from contact_sim_pkg.rigid.motion.slip import contacts_turn, slip_turns, stop_of_slip
+from contact_sim_pkg.rigid.motion.straight_slide import NO_FACE, is_at_rest, slide_straight, straight_face
+from contact_sim_pkg.rigid.motion.substep_end import accept_substep
+from contact_sim_pkg.rigid.motion.track import (
     BRIEF,
     RunState,
     add_impulse,
@@ -30,20 +44,6 @@ from contact_sim_pkg.rigid.geometry.track import (
     record_sample,
     repeat_to_the_end,
 )
-from contact_sim_pkg.rigid.impact.planar_impact import contact_modes
-from contact_sim_pkg.rigid.impact.planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
-from contact_sim_pkg.rigid.motion.active_contacts import (
-    landing_part,
-    path_acceleration,
-    settle_points,
-    survey_points,
-    time_to_peak,
-)
-from contact_sim_pkg.rigid.motion.flight import fly_to_touch, is_clear
-from contact_sim_pkg.rigid.motion.motion import ACTIVE, MotionWorkspace, contact_velocities, free_velocity
-from contact_sim_pkg.rigid.motion.slip import contacts_turn, slip_turns, stop_of_slip
-from contact_sim_pkg.rigid.motion.straight_slide import NO_FACE, is_at_rest, slide_straight, straight_face
-from contact_sim_pkg.rigid.motion.substep_end import accept_substep
 from contact_sim_pkg.rigid.parameters import PlanarContact
 from contact_sim_pkg.rigid.problem import DISC, INACTIVE, PLANE
 

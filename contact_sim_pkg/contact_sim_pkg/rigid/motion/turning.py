@@ -18,8 +18,10 @@ from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
 from contact_sim_pkg.compiled.results import DONE, NOT_FINITE
 from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, make_workspace
 from contact_sim_pkg.integrate.interface import rate
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count
-from contact_sim_pkg.rigid.body_state import IntegrationSpan, places_of
+from contact_sim_pkg.rigid.bodies.active_contacts import LANDED, path_acceleration
+from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody, contact_count
+from contact_sim_pkg.rigid.bodies.body_state import IntegrationSpan, places_of
+from contact_sim_pkg.rigid.bodies.motion import ACTIVE, STICKING, TOUCHING, MotionWorkspace, contact_velocities
 from contact_sim_pkg.rigid.forces.constrained_body import EVENTS_PER_CONTACT, GOING, constrained_states, first_of_time
 from contact_sim_pkg.rigid.forces.constraint_forces import (
     DEEP,
@@ -36,10 +38,8 @@ from contact_sim_pkg.rigid.forces.constraint_forces import (
     make_constrained_body,
     stop_rows,
 )
-from contact_sim_pkg.rigid.geometry.track import BRIEF, RunState, add_impulse, record_sample
-from contact_sim_pkg.rigid.motion.active_contacts import LANDED, path_acceleration
-from contact_sim_pkg.rigid.motion.motion import ACTIVE, STICKING, TOUCHING, MotionWorkspace, contact_velocities
 from contact_sim_pkg.rigid.motion.slip import slip_of
+from contact_sim_pkg.rigid.motion.track import BRIEF, RunState, add_impulse, record_sample
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.rotation import orthonormalize, spin_in_body
 

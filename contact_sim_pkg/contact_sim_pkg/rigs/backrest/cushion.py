@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy
 
 from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, LumbarSupport, back_gap
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.rigs.backrest.schema import BackCushion
 from contact_sim_pkg.run.contact_laws import Cushion, PressingBody, build_cushion
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.fields import given
 
 BELOW, ABOVE, HALF_WIDTH = 0.06, 0.66, 0.26  # [m] of the cells, from the middle of the lower edge of the seat back
 

@@ -14,6 +14,7 @@ from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_energy, 
 from contact_sim_pkg.laws.parameters import Contact, Friction
 from contact_sim_pkg.pressure.mat import paraboloid_gap
 from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.rigs.backrest import schema
 from contact_sim_pkg.rigs.backrest.cushion import build_back_cushion
 from contact_sim_pkg.rigs.backrest.entries import find_point
@@ -23,7 +24,6 @@ from contact_sim_pkg.rigs.backrest.shell import ShallowShell, ShellModes, crown_
 from contact_sim_pkg.run.contact_laws import Cushion, elastic_law, friction, hysteresis, normal_loss
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 REFERENCE_SURFACE = 0.02  # [m^2] of the back to which the contact law belongs: a point has its part of it

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import Field
 
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.scene.schema.fields import Section, number
+from contact_sim_pkg.records.fields import Section, number
 from contact_sim_pkg.scene.schema.laws import (
     STIFFEST,
     THICKEST,

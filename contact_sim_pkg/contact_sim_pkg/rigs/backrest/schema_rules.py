@@ -33,7 +33,7 @@ def backrest_breaches(scene: Scene) -> Iterator[Breach]:
         yield Breach("backrest.sliding.amplitude", sentence, ("effects.backrest",))
     if backrest.angle is not None and scene.rig == "backrest":
         yield Breach("backrest.angle", "acts where a pan carries the occupant too, in the rig occupant", ("rig",))
-    if scene.rig == "backrest" and getattr(scene.vibration, "axis", "x") != "x":
+    if scene.rig == "backrest" and scene.vibration is not None and "x" not in scene.vibration.axes:
         yield Breach("vibration.axis", "a seat back is shaken forward; set axis: x", ("rig",))
     if scene.effect("backrest", BackCushion) is not None:
         sentence = "does not act on a cushion, which has the back of its percentile and cells of its own; remove it"

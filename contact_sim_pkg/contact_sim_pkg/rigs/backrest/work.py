@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.records.work import STEP_COST, Work
 from contact_sim_pkg.rigs.backrest.cushion import build_back_cushion
 from contact_sim_pkg.rigs.backrest.model import shallow_shell
@@ -12,7 +13,6 @@ from contact_sim_pkg.rigs.backrest.shell import natural_frequencies
 from contact_sim_pkg.run.integrator_work import Link, integrator_steps, segments
 from contact_sim_pkg.run.linear_laws import links_of_laws
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.fields import given
 
 __all__ = ["back_steps", "work_of_backrest"]
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.rigid.body import Motion, contact_count, contact_kinematics, least_gap
+from contact_sim_pkg.rigid.bodies.body import Motion, contact_count, contact_kinematics, least_gap
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigs.body.model import BlockModel
 

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.parameters import NormalElastic
-from contact_sim_pkg.rigid.body import (
+from contact_sim_pkg.records.fields import given
+from contact_sim_pkg.rigid.bodies.body import (
     Ground,
     Motion,
     RigidBody,
@@ -27,7 +28,6 @@ from contact_sim_pkg.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.rigs.body import schema
 from contact_sim_pkg.rigs.body.hull import homogeneous_hull
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 __all__ = ["BlockModel", "build_block", "rise_at_start"]

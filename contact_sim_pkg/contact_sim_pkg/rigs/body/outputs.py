@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPoints
-from contact_sim_pkg.rigid.body import Motion, contact_count
+from contact_sim_pkg.rigid.bodies.body import Motion, contact_count
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigs.body.geometry import contact_arms, gaps, in_ground_axes
 from contact_sim_pkg.rigs.body.model import BlockModel

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.rigid.body import RigidBody
+from contact_sim_pkg.rigid.bodies.body import RigidBody
 from contact_sim_pkg.rigid.problem import PLANE
 
 __all__ = ["resultant"]

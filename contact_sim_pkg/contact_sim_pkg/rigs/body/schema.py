@@ -8,7 +8,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
+from contact_sim_pkg.records.fields import Section, choice, number, numbers
 
 Bounded: TypeAlias = Annotated[float, Field(ge=-1e6, le=1e6)]
 Load: TypeAlias = Annotated[float, Field(ge=-1e12, le=1e12)]

@@ -9,10 +9,10 @@ import numpy
 import scipy  # its parts are imported on use: they take 0.1 to 0.3 s
 from numpy.typing import NDArray
 
-from contact_sim_pkg.rigid.body import Motion, rise_to_ground
+from contact_sim_pkg.rigid.bodies.body import Motion, rise_to_ground
+from contact_sim_pkg.rigid.bodies.motion import ACTIVE
 from contact_sim_pkg.rigid.motion.compliant import CompliantMotion, sentence_of
 from contact_sim_pkg.rigid.motion.located import LocatedBody
-from contact_sim_pkg.rigid.motion.motion import ACTIVE
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.results import SENTENCES, SOLVED, STICK
 from contact_sim_pkg.rigs.body.geometry import contact_arms

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.rigs.impact import schema, schema_effects
 from contact_sim_pkg.rigs.impact.schema_effects import (
     ContactStress,
@@ -28,7 +29,6 @@ from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact, solve_impact
 from contact_sim_pkg.rigs.impact.theory.shift import Arrhenius, Shift, Wlf, equivalent_temperature
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 SLOWEST_STATE = 1.0e-3  # [m/s]: below, the sample's state by a shift is that of this speed

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, TypeAlias
 
 from pydantic import Field
 
-from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
+from contact_sim_pkg.records.fields import Section, choice, number, numbers
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.schema.scene import Scene

@@ -21,7 +21,7 @@ RIGS = (
             "contact_sim_pkg.rigs.vehicle.seat.report:SEAT_REPORT",
             "contact_sim_pkg.rigs.backrest.report:BACKREST_REPORT",
         ),
-        standing="contact_sim_pkg.rigs.vehicle.lattice:standing",
+        standing="contact_sim_pkg.rigs.vehicle.tire.lattice:standing",
         regimes=(STAYS, LIFTS_OFF),
         rules=(f"{__name__}.schema_rules:leaning_breaches",),
     ),

@@ -6,15 +6,15 @@ from __future__ import annotations
 
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.rigs.backrest.cushion import build_back_cushion
 from contact_sim_pkg.rigs.backrest.schema import BackrestSection
-from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass
 from contact_sim_pkg.rigs.vehicle.model import Model, build
 from contact_sim_pkg.rigs.vehicle.seat.lean import Lean, Pose, rest_of
+from contact_sim_pkg.rigs.vehicle.seat.mass import occupant_mass
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
 from contact_sim_pkg.run.contact_laws import Cushion, elastic_law, hysteresis, normal_loss
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.fields import given
 
 __all__ = ["back_cushion", "back_load", "build_occupant"]
 

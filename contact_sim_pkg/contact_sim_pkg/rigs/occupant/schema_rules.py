@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import tan
 
 from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.records.fields import Section
 from contact_sim_pkg.rigs.backrest.schema import (
     ANGLE,
     BackFriction,
@@ -17,7 +18,6 @@ from contact_sim_pkg.rigs.vehicle.seat.schema import PAN_TILT, SeatSection
 from contact_sim_pkg.rigs.vehicle.seat.schema_rules import occupant_breaches
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
-from contact_sim_pkg.scene.schema.fields import Section
 from contact_sim_pkg.scene.schema.laws import FrictionSection
 from contact_sim_pkg.scene.schema.scene import Scene
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.pressure.closed_form.hertz import HertzError
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.rigs.roller import schema
 from contact_sim_pkg.rigs.roller.schema import Damage, Subsurface, TrackWaves
 from contact_sim_pkg.rigs.roller.theory.ellipse import (
@@ -27,7 +28,6 @@ from contact_sim_pkg.rigs.roller.theory.parameters import Bending, Curvatures, R
 from contact_sim_pkg.rigs.roller.theory.stability import RollerError, linearise
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 __all__ = ["RollerModel", "build_roller", "refused"]

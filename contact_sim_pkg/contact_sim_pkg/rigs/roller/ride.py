@@ -13,6 +13,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.excitation.blocks import Surface
 from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.model import RollerModel
 from contact_sim_pkg.rigs.roller.theory.corrugation import moving_mean, wear
@@ -29,7 +30,6 @@ from contact_sim_pkg.rigs.roller.theory.heave import (
 from contact_sim_pkg.rigs.roller.theory.load_split import load_of_approach
 from contact_sim_pkg.rigs.roller.wear import make_tracks, track_under
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.scene.schema.fields import given
 
 __all__ = ["Checked", "Ridden", "TrackRide", "joined"]
 

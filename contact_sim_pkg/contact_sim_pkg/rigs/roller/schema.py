@@ -8,7 +8,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
+from contact_sim_pkg.records.fields import Section, choice, number, numbers
 
 MOST_ROWS = 10000
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.rigs.roller.model import RollerModel
-from contact_sim_pkg.scene.schema.fields import given
 
 __all__ = ["VolumeSettings", "volume_settings"]
 

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.rigs.roller.damage import Table, damage_table
 from contact_sim_pkg.rigs.roller.model import RollerModel
 from contact_sim_pkg.rigs.roller.schema import Damage, TrackWaves
 from contact_sim_pkg.rigs.roller.theory.corrugation import WearTrack, make_track, moving_mean
 from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact
-from contact_sim_pkg.scene.schema.fields import given
 
 __all__ = ["BodyTrack", "hardness_round", "make_tracks", "track_under"]
 

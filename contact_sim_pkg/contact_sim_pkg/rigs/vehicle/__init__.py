@@ -46,8 +46,8 @@ SEAT = Contact(
 _SIMULATION = f"{__name__}.simulation:Simulation"
 _OTHER_HALF = f"{__name__}.other_half:compile_all_but_fields"
 _TIRE_REPORT, _SEAT_REPORT = f"{__name__}.tire.report:TIRE_REPORT", f"{__name__}.seat.report:SEAT_REPORT"
-_ROAD_STRIP = f"{__name__}.lattice:road_strip"
-_STANDING = f"{__name__}.lattice:standing"
+_ROAD_STRIP = f"{__name__}.tire.lattice:road_strip"
+_STANDING = f"{__name__}.tire.lattice:standing"
 _EVENTS = f"{__name__}.tire.effects:prescribed_events"
 
 _MEASURES = f"{__name__}.tire.report.regimes"

@@ -8,16 +8,13 @@ import math
 from dataclasses import dataclass
 
 import numpy
-from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import approach_of_force
 from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, Friction
-from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
-from contact_sim_pkg.rigs.vehicle.coupling.edges import SharpEdge, landing_of, refuse_high_walls, sharp_edge
-from contact_sim_pkg.rigs.vehicle.coupling.rule import (
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids, make_grids, tangent_law
+from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
     CouplingRule,
     allowance_of,
     coupled_timing,
@@ -25,14 +22,17 @@ from contact_sim_pkg.rigs.vehicle.coupling.rule import (
     longest_travels,
     shortest_time,
 )
-from contact_sim_pkg.rigs.vehicle.lattice import field_settings, occupant_mass, standing_load
-from contact_sim_pkg.rigs.vehicle.parameters import MasslessNode, Seat, Softening, Vehicle
+from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
+from contact_sim_pkg.rigs.vehicle.motion.parameters import MasslessNode, Seat, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
 from contact_sim_pkg.rigs.vehicle.seat.cushion import SeatMap, build_pan_cushion, build_seat_map
 from contact_sim_pkg.rigs.vehicle.seat.lean import Lean, build_back, interface_at_rest, pose_of, rest_of
+from contact_sim_pkg.rigs.vehicle.seat.mass import occupant_mass
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OccupantModel
-from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap, shape_of
+from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap_on, shape_of
 from contact_sim_pkg.rigs.vehicle.tire import schema as tire_schema
+from contact_sim_pkg.rigs.vehicle.tire.edges import SharpEdge, landing_of, refuse_high_walls, sharp_edge
+from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.tire.model import (
     Asperities,
     RollingFriction,
@@ -215,23 +215,6 @@ def _seat_field(
     if settings is None:
         return None, None
     return make_grids(settings._replace(solver=solver), "seat"), shape_of(seat.body)
-
-
-def seat_gap_on(shape: SeatShape, settings: FieldSettings) -> NDArray[numpy.float64]:
-    """Gap [rows, cols] [m] of the occupant over the flat cushion on the cells of a grid."""
-    return seat_gap(shape, *seat_cells(settings))
-
-
-def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
-    """Cell centres [m] of the seat's grid: x [rows] forward from the tuberosities, y [cols] to the
-    left.
-
-    The tuberosities lie 0.3 of the length from its back.
-    """
-    rows, cols = numpy.arange(settings.rows, dtype=float), numpy.arange(settings.cols, dtype=float)
-    x = (rows + 0.5) * settings.cell_x - 0.3 * settings.rows * settings.cell_x
-    y = (cols - 0.5 * (settings.cols - 1)) * settings.cell_y
-    return x, y
 
 
 def _seat_contact(

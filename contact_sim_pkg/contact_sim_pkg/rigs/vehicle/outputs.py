@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from math import isnan
-from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
@@ -20,9 +19,10 @@ from contact_sim_pkg.records.messages import (
     ContactShear,
     EnergyLedger,
 )
-from contact_sim_pkg.rigs.vehicle import entries as columns
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids
+from contact_sim_pkg.rigs.vehicle.field.driver import FieldRecord
 from contact_sim_pkg.rigs.vehicle.model import Model
+from contact_sim_pkg.rigs.vehicle.motion import entries as columns
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import Sheared
 from contact_sim_pkg.run.contact_patch import contact_patch
 from contact_sim_pkg.run.outputs import BlockStamps, Estimate, contact_outputs, energy_ledger, largest_of, solver_cost
@@ -33,19 +33,7 @@ ESTIMATED = (
     ("tire/force.normal", "tire/axle.longitudinal", "tire/patch.peak", "tire/patch.area", "bench/motion.velocity"),
     ("seat/force.normal", "", "seat/patch.peak", "seat/patch.area", ""),
 )
-"""Columns by the contacts and kinds of `coupling/check.py`."""
-
-
-class FieldRecord(NamedTuple):
-    """A pressure field at one instant."""
-
-    pressure: Array  # [rows, cols], [Pa]
-    origin_x: float  # [m] of the centre of cell (0, 0)
-    origin_y: float  # [m]
-    approach: float  # [m]
-    travel: float  # [m] of the contact along the road
-    residual: float  # of its solution, relative
-    is_level: bool = False  # whether it rests on level road alone
+"""Columns by the contacts and kinds of `run/coupling_check.py`."""
 
 
 @dataclass
@@ -55,7 +43,7 @@ class BlockRecord:
     block: int
     states: Array  # [samples, states]
     rates: Array  # [samples, states]
-    forces: Array  # [samples, columns of rigs/vehicle/entries.py]
+    forces: Array  # [samples, columns of rigs/vehicle/motion/entries.py]
     floor: Array  # [samples, 2], [m/s^2] floor acceleration x, z
     energy: Array = field(default_factory=lambda: numpy.zeros(5))
     start_energy: Array = field(default_factory=lambda: numpy.zeros(5))
@@ -69,10 +57,10 @@ class BlockRecord:
     field_iterations: int = 0
     field_residual: float = 0.0
     field_jump: float = 0.0
-    stretches: int = 0
-    stretches_repeated: int = 0
+    coupling_steps: int = 0
+    coupling_steps_repeated: int = 0
     coupling_error: float = 0.0  # over the standing load
-    missed: Array | None = None  # [contacts, kinds] of `coupling/check.py`; None: not estimated
+    missed: Array | None = None  # [contacts, kinds] of `run/coupling_check.py`; None: not estimated
 
     @classmethod
     def empty(cls, model: Model, block: int) -> BlockRecord:
@@ -148,7 +136,8 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
         stamps, wall_time, _estimates(outputs, record.missed, model.bodies, stamps.period),
         steps=steps, rejected_steps=rejected, events=events,
         field_iterations=record.field_iterations, field_residual=record.field_residual, field_jump=record.field_jump,
-        stretches=record.stretches, stretches_repeated=record.stretches_repeated, coupling_error=record.coupling_error,
+        coupling_steps=record.coupling_steps, coupling_steps_repeated=record.coupling_steps_repeated,
+        coupling_error=record.coupling_error,
     )  # fmt: skip
     return [*outputs, Output("bench/cost", stamps.start, cost)]
 

@@ -11,17 +11,18 @@ import numpy
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
-from contact_sim_pkg.rigs.vehicle import entries as columns
-from contact_sim_pkg.rigs.vehicle.coupling.check import KINDS
-from contact_sim_pkg.rigs.vehicle.coupling.edges import edge_cautions
-from contact_sim_pkg.rigs.vehicle.coupling.rule import request_cautions
-from contact_sim_pkg.rigs.vehicle.coupling.steps import Coupling
-from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive, rate_at_start
+from contact_sim_pkg.rigs.vehicle.field.coupling_rule import request_cautions
+from contact_sim_pkg.rigs.vehicle.field.driver import FieldRecord
 from contact_sim_pkg.rigs.vehicle.model import Model, build
-from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord, block_outputs
+from contact_sim_pkg.rigs.vehicle.motion import entries as columns
+from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, block_outputs
+from contact_sim_pkg.rigs.vehicle.run.coupling import Coupling
+from contact_sim_pkg.rigs.vehicle.run.coupling_check import KINDS
+from contact_sim_pkg.rigs.vehicle.run.drive import ROAD, VIBRATION, BlockDrive, block_drive, rate_at_start
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import ringing_cautions
 from contact_sim_pkg.rigs.vehicle.seat.response import RunningResponse
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
+from contact_sim_pkg.rigs.vehicle.tire.edges import edge_cautions
 from contact_sim_pkg.rigs.vehicle.tire.static_stiffness import stiffness_cautions
 from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
 from contact_sim_pkg.run.outputs import BlockStamps, largest

@@ -15,7 +15,12 @@ import annotated_types
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from contact_sim_pkg.records.breach import show
 from contact_sim_pkg.scene.schema.scene import Scene
+
+__all__ = [
+    "Entry", "Location", "catalog", "entry_of", "key_of_word", "place_of", "show", "show_below", "without_kinds",
+]  # fmt: skip
 
 Kind = Literal["number", "integer", "choice", "flag", "text", "list", "section", "kinds"]
 Location = tuple[str, ...]
@@ -57,11 +62,6 @@ class Entry:
             span = f"{'above ' if self.above else ''}{show(self.low)} to {show(self.high)} {self.unit}".rstrip()
             return f"{span} or {' or '.join(self.words)}" if words else span
         return "true, false" if self.kind == "flag" else words
-
-
-def show(value: Any) -> str:
-    """A number as a person would write it."""
-    return f"{value:.12g}" if isinstance(value, float) else str(value)
 
 
 def show_below(value: float, digits: int) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from contact_sim_pkg.memory import LIMIT
+from contact_sim_pkg.records.fields import Section, choice, number
 from contact_sim_pkg.records.registry import regime_names
-from contact_sim_pkg.scene.schema.fields import Section, choice, number
 
 if TYPE_CHECKING:
     RegimeName: TypeAlias = str

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from contact_sim_pkg.records.fields import Section
 from contact_sim_pkg.records.registry import contacts
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
-from contact_sim_pkg.scene.schema.fields import Section
 from contact_sim_pkg.scene.schema.laws import CushionSection, Foam, FrictionSection, GeneralDissipation, HuntCrossley
 from contact_sim_pkg.scene.schema.scene import Scene
 

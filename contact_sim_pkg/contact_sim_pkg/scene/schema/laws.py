@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
+from contact_sim_pkg.records.fields import Section, choice, number
 from contact_sim_pkg.scene.schema.accuracy import level_of
-from contact_sim_pkg.scene.schema.fields import Section, choice, number
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.schema.scene import Scene

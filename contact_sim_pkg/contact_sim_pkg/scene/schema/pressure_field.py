@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, TypeVar
 
+from contact_sim_pkg.records.fields import Section, number
 from contact_sim_pkg.scene.schema.accuracy import FASTEST, level_of, requested
-from contact_sim_pkg.scene.schema.fields import Section, number
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.schema.scene import Scene

@@ -7,22 +7,30 @@ by name. `docs/scenes.md` is made from here.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import reduce
+from operator import or_
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, TypeVar
 
 from pydantic import Field, PrivateAttr, create_model
 
+from contact_sim_pkg.excitation.kinds import RoadKind, VibrationKind
 from contact_sim_pkg.records.contact import Contact
-from contact_sim_pkg.records.registry import contacts, rig_names, rigs
+from contact_sim_pkg.records.fields import Section, choice, number, text
+from contact_sim_pkg.records.registry import contacts, kinds, rig_names, rigs
 from contact_sim_pkg.records.rig import load
-from contact_sim_pkg.scene.schema.fields import Section, choice, number, text
 from contact_sim_pkg.scene.schema.general import Expect, Integrator, Limits, Outputs
-from contact_sim_pkg.scene.schema.road import Road, Slip, TravelSection
-from contact_sim_pkg.scene.schema.vibration import Vibration
+from contact_sim_pkg.scene.schema.travel import Slip, TravelSection
 
 if TYPE_CHECKING:
     RigName: TypeAlias = str
+    Road: TypeAlias = RoadKind
+    Vibration: TypeAlias = VibrationKind
 else:
     RigName = Literal[rig_names()]
+    Road, Vibration = (
+        Annotated[reduce(or_, map(load, kinds(section).values())), Field(discriminator="kind")]
+        for section in ("road", "vibration")
+    )
 
 Kind = TypeVar("Kind", bound=Section)
 Accuracy: TypeAlias = Annotated[float, Field(ge=1e-8, le=0.1)] | Literal["realtime"]

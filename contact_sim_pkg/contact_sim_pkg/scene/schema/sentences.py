@@ -7,8 +7,8 @@ import math
 import re
 from collections.abc import Iterable
 
+from contact_sim_pkg.records.fields import LEAST
 from contact_sim_pkg.scene.schema.catalog import Entry, show
-from contact_sim_pkg.scene.schema.fields import LEAST
 from contact_sim_pkg.scene.yaml.nodes import ListNode, MappingNode, Node, ScalarNode
 
 LONGEST_SHOWN = 60

@@ -11,13 +11,13 @@ from typing import Any
 from pydantic import ValidationError
 
 from contact_sim_pkg.files import printable
+from contact_sim_pkg.records.fields import TOO_NEAR_ZERO
 from contact_sim_pkg.records.plugins import plugins
 from contact_sim_pkg.requirements import canonical
 from contact_sim_pkg.scene.errors import Breach, Fault, SceneError
 from contact_sim_pkg.scene.renamed_keys import use_new_names
 from contact_sim_pkg.scene.schema.catalog import Entry, catalog, entry_of, key_of_word, place_of, without_kinds
 from contact_sim_pkg.scene.schema.effect_rules import effect_breaches, unavailable_effect
-from contact_sim_pkg.scene.schema.fields import TOO_NEAR_ZERO
 from contact_sim_pkg.scene.schema.rules import breaches
 from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.sentences import bad_value, missing, suggestion, too_near_zero, unknown_key

@@ -139,8 +139,8 @@ def _write_block(writer: BagWriter, block: int, frequency: float, amplitude: flo
         field_iterations=0,
         field_residual=0.0,
         field_jump=0.0,
-        stretches=0,
-        stretches_repeated=0,
+        coupling_steps=0,
+        coupling_steps_repeated=0,
         coupling_error=0.0,
     )
     writer.write("bench/cost", stamp, encode(cost, stamp))

@@ -117,7 +117,7 @@ def test_a_run_without_episodes_has_no_slaps(kept):
 @pytest.mark.parametrize(
     ("scene", "period"),
     [
-        ({"vibration": {"kind": "sine", "frequency": 4.0}}, 0.25),
+        ({"vibration": {"kind": "sine", "axis": "x", "amplitude": 1.0, "frequency": 4.0}}, 0.25),
         ({"vibration": {"kind": "half_sine"}, "backrest": {"sliding": {"amplitude": 1.0, "frequency": 2.0}}}, None),
         ({"vibration": None, "backrest": {"sliding": {"amplitude": 0.01, "frequency": 2.0}}}, 0.5),
         ({"vibration": None, "backrest": {"sliding": {"amplitude": 0.0, "frequency": 2.0}}}, None),

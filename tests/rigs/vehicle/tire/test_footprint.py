@@ -8,10 +8,10 @@ import pytest
 from contact_sim_pkg.compiled.held import hold
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.window import make_part
+from contact_sim_pkg.rigs.vehicle.motion.heights import effective_between
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import (
     clear_beyond,
-    effective_between,
     effective_heights,
     hertz_weights,
     level_under,

@@ -14,16 +14,16 @@ from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, elastic_stiffness
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt, SidewallArc
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
-from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
-from contact_sim_pkg.rigs.vehicle.model import build
-from contact_sim_pkg.rigs.vehicle.tire.body import body_of, tire_body
-from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road, tire_table
-from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import (
+from contact_sim_pkg.rigs.vehicle.field.contact_field import PressureField
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import (
     arc_force,
     belt_share,
     inflated_influence,
     membrane_stiffness,
 )
+from contact_sim_pkg.rigs.vehicle.model import build
+from contact_sim_pkg.rigs.vehicle.tire.body import body_of, tire_body
+from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.property_file.fit import standing_on_belt
 from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation
 from contact_sim_pkg.rigs.vehicle.tire.size import read_size

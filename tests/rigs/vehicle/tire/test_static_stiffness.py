@@ -10,7 +10,7 @@ from tests.run.scenes import resolved
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force
 from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.rigs.vehicle.model import build
-from contact_sim_pkg.rigs.vehicle.parameters import RigidRing
+from contact_sim_pkg.rigs.vehicle.motion.parameters import RigidRing
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.rigs.vehicle.tire.static_stiffness import stiffness_cautions, tire_stiffness
 from contact_sim_pkg.scene.load import load_scene

@@ -9,7 +9,7 @@ from scipy.integrate import quad
 
 from contact_sim_lab.twins import halfspace as reference
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
+from contact_sim_pkg.rigs.vehicle.field.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState, stiffening
 

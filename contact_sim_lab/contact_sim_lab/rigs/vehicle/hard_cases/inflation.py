@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most
 from contact_sim_pkg.bag.block_encoder import Output
-from contact_sim_pkg.rigs.vehicle.lattice import standing_load
+from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
 from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
 from contact_sim_pkg.run.sources import make_travel

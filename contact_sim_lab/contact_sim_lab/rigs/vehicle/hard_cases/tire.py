@@ -21,7 +21,7 @@ from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, exactly
 from contact_sim_lab.twins.lame_pressure import printed_eccentricity_power
 from contact_sim_pkg.excitation.blocks import RoadBlocks
-from contact_sim_pkg.excitation.iso8608 import Iso8608Road
+from contact_sim_pkg.excitation.roads.iso8608 import Iso8608Road
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, hertz_contact_at_approach
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch

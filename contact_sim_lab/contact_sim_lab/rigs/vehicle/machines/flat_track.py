@@ -10,12 +10,12 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
-from contact_sim_pkg.rigs.vehicle.lattice import standing_load
+from contact_sim_pkg.rigs.vehicle.field.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, TireStep
 from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road
+from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene

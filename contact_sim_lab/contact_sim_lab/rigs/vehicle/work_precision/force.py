@@ -28,7 +28,7 @@ from contact_sim_lab.rigs.vehicle.work_precision.rough import FINEST, SEED
 from contact_sim_lab.rigs.vehicle.work_precision.smooth import LEVELS, REFERENCE, exact_answer
 from contact_sim_pkg.laws.normal_elastic import approach_of_force, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import NormalElastic
-from contact_sim_pkg.rigs.vehicle.contact_field import TANGENT_LOAD_STEP
+from contact_sim_pkg.rigs.vehicle.field.contact_field import TANGENT_LOAD_STEP
 
 __all__ = ["PART", "WORK_PRECISION", "laws_through", "rows"]
 

@@ -16,7 +16,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_lab.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
-from contact_sim_pkg.excitation.iso8608 import Iso8608Road, band_variance, roughness_of_class
+from contact_sim_pkg.excitation.roads.iso8608 import Iso8608Road, band_variance, roughness_of_class
 
 __all__ = ["PART", "WORK_PRECISION", "SineRoad", "rows", "third_octaves"]
 

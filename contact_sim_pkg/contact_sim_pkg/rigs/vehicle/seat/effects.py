@@ -33,25 +33,24 @@ def _fore_aft(scene: ResolvedScene) -> float:
     bag.
     """
     vibration = scene.vibration
-    if vibration is None:
+    if vibration is None or "x" not in vibration.axes:
         return 0.0
-    if vibration.kind == "recorded":
-        import numpy
+    strength = vibration.strength()
+    if strength is not None:
+        return strength
+    import numpy
 
-        from contact_sim_pkg.excitation.errors import ExcitationError
-        from contact_sim_pkg.run.sources import make_vibration
-        from contact_sim_pkg.scene.errors import SceneError
+    from contact_sim_pkg.excitation.errors import ExcitationError
+    from contact_sim_pkg.run.sources import make_vibration
+    from contact_sim_pkg.scene.errors import SceneError
 
-        try:
-            forward, _up = make_vibration(scene).signal.acceleration(
-                numpy.arange(0.0, scene.duration, LOOK_SECONDS, dtype=numpy.float64)
-            )
-        except (ExcitationError, SceneError):
-            return 0.0
-        return float(numpy.abs(forward).max())
-    if vibration.axis != "x":
+    try:
+        forward, _up = make_vibration(scene).signal.acceleration(
+            numpy.arange(0.0, scene.duration, LOOK_SECONDS, dtype=numpy.float64)
+        )
+    except (ExcitationError, SceneError):
         return 0.0
-    return abs(vibration.rms if vibration.kind == "noise" else vibration.amplitude)
+    return float(numpy.abs(forward).max())
 
 
 _SCHEMA, _LAWS = f"{__package__}.schema", "contact_sim_pkg.scene.schema.laws"

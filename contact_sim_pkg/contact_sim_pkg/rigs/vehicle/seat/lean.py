@@ -10,7 +10,7 @@ from typing import NamedTuple
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import approach_of_force
 from contact_sim_pkg.laws.parameters import Contact
-from contact_sim_pkg.rigs.vehicle.parameters import Back
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Back
 from contact_sim_pkg.rigs.vehicle.seat.biodynamics import rest_deflections
 from contact_sim_pkg.rigs.vehicle.seat.occupants import OccupantModel
 

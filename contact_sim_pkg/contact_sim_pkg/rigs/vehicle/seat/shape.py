@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.seat.schema import Body
 
 
@@ -42,3 +43,20 @@ def seat_gap(shape: SeatShape, x: NDArray[numpy.float64], y: NDArray[numpy.float
     beyond = numpy.maximum(along - shape.thigh_length, 0.0) + numpy.maximum(-along, 0.0)
     thigh = shape.thigh_rise + (side**2 + beyond**2) / (2.0 * shape.thigh_radius)
     return numpy.minimum(buttock, thigh)
+
+
+def seat_gap_on(shape: SeatShape, settings: FieldSettings) -> NDArray[numpy.float64]:
+    """Gap [rows, cols] [m] of the occupant over the flat cushion on the cells of a grid."""
+    return seat_gap(shape, *seat_cells(settings))
+
+
+def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
+    """Cell centres [m] of the seat's grid: x [rows] forward from the tuberosities, y [cols] to the
+    left.
+
+    The tuberosities lie 0.3 of the length from its back.
+    """
+    rows, cols = numpy.arange(settings.rows, dtype=float), numpy.arange(settings.cols, dtype=float)
+    x = (rows + 0.5) * settings.cell_x - 0.3 * settings.rows * settings.cell_x
+    y = (cols - 0.5 * (settings.cols - 1)) * settings.cell_y
+    return x, y

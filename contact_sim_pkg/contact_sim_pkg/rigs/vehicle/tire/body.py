@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from contact_sim_pkg.pressure.settings import BeltSettings, InflatedBelt
-from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import make_belt, ring_stiffness
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import make_belt, ring_stiffness
 from contact_sim_pkg.rigs.vehicle.tire.size import read_size
 from contact_sim_pkg.scene.resolved_scene import plain
 

@@ -8,10 +8,9 @@ accuracy call for nothing, nor does an obstacle beyond the end of the run.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from contact_sim_pkg.records.effect import Effect, without_loss
 
@@ -46,67 +45,21 @@ def prescribed_events(scene: ResolvedScene) -> Iterator[tuple[str, float]]:
 
 def _short(scene: ResolvedScene, limit: float, lengths: str) -> str:
     """What the road holds that is shorter than ``limit`` [m], and high enough to be noticed."""
+    from contact_sim_pkg.run.sources import make_travel
     from contact_sim_pkg.scene.schema.accuracy import requested
 
     road, least = scene.road, NOTICED * requested(scene.accuracy) * APPROACH
-    if road is None or road.kind == "flat" or not _way(scene):
+    if road is None or road.is_even:
         return ""
-    if road.kind == "opencrg" or road.kind == "profile":  # which mypy follows
-        return f"a measured road holds waves below {lengths}"
-    if road.kind == "iso8608":
-        shortest = road.shortest_wavelength if road.texture is None else road.texture.shortest_wavelength
-        noticed = shortest < limit and _height(road, shortest, limit) > least
-        return f"the road has waves of {shortest:g} m, shorter than {lengths}" if noticed else ""
-    if road.kind == "self_affine":
-        noticed = road.shortest_wavelength < limit and road.rms > least
-        return f"the road has waves of {road.shortest_wavelength:g} m, shorter than {lengths}" if noticed else ""
-    height = abs(road.depth if road.kind == "pothole" else road.height)
-    if height <= least or not _reached(scene, road):
+    first, last = make_travel(scene).extent(0.0, scene.duration)
+    wave = road.shortest_wave(limit)
+    if first == last or wave is None or wave.height <= least or not road.is_reached(first - RADIUS, last + RADIUS):
         return ""
-    length = min(road.length, road.edge) if road.kind in ("cleat", "pothole") else road.length
-    if length < limit:
-        flank = (
-            "an edge"
-            if length == 0.0
-            else f"a length of {length:g} m"
-            if road.kind == "bump"
-            else f"flanks of {length:g} m"
-        )
-        return f"the {road.kind} has {flank}, shorter than {lengths}"
-    if road.kind == "bump" and RADIUS * 0.5 * height * (2.0 * math.pi / length) ** 2 > 1.0:
-        return f"the bump of {length:g} m is {height:g} m high: it curves more sharply than the wheel"
+    if wave.length < limit:
+        return f"{wave.words} {lengths}"
+    if RADIUS * wave.curvature > 1.0:
+        return f"the {road.kind} of {wave.length:g} m is {wave.height:g} m high: it curves more sharply than the wheel"
     return ""
-
-
-def _way(scene: ResolvedScene) -> float:
-    """Way [m] of the wheel over the road during the run."""
-    from contact_sim_pkg.run.sources import make_travel
-
-    first, last = make_travel(scene).extent(0.0, scene.duration)
-    return last - first
-
-
-def _reached(scene: ResolvedScene, road: Any) -> bool:
-    """Whether the wheel comes to an obstacle, or to the next one of a row, during the run."""
-    from contact_sim_pkg.run.sources import make_travel
-
-    first, last = make_travel(scene).extent(0.0, scene.duration)
-    beside = 0.5 * road.length + RADIUS
-    period = getattr(road, "period", None)
-    place = road.position
-    if period is not None:  # the last one that is not beyond
-        place += period * math.floor((last + beside - place) / period)
-    return bool(first - beside <= place <= last + beside)
-
-
-def _height(road: Any, shortest: float, longest: float) -> float:
-    """Root mean square [m] of the waves of a road by its spectrum from ``shortest`` to ``longest``
-    [m].
-    """
-    from contact_sim_pkg.excitation.iso8608 import band_variance, roughness_of_class
-
-    roughness = roughness_of_class(road.roughness_class) if road.roughness is None else road.roughness
-    return math.sqrt(float(band_variance(roughness, road.exponent, 1.0 / longest, 1.0 / shortest)))
 
 
 def _brush(scene: ResolvedScene) -> str:

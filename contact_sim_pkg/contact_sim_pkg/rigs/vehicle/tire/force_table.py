@@ -17,8 +17,8 @@ from contact_sim_pkg.laws.parameters import TabulatedElastic
 from contact_sim_pkg.laws.tabulated_elastic import tabulated_approach_of_force, tabulated_law
 from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, PressureField
-from contact_sim_pkg.rigs.vehicle.tire import inflated_belt
+from contact_sim_pkg.rigs.vehicle.field import inflated_belt
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, PressureField
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import RANGE
 

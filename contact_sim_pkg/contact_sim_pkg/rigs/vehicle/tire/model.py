@@ -17,16 +17,17 @@ from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, NormalElastic
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, power_law
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldGrids, make_grids, tangent_law
-from contact_sim_pkg.rigs.vehicle.coupling.rule import coupled_timing, uniform_segments
-from contact_sim_pkg.rigs.vehicle.lattice import field_settings, standing_load, tire_lattice
-from contact_sim_pkg.rigs.vehicle.parameters import RigidRing, Tire
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids, make_grids, tangent_law
+from contact_sim_pkg.rigs.vehicle.field.coupling_rule import coupled_timing, uniform_segments
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import stiffened
+from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
+from contact_sim_pkg.rigs.vehicle.motion.parameters import RigidRing, Tire
 from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection
 from contact_sim_pkg.rigs.vehicle.tire import schema
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm, body_of
 from contact_sim_pkg.rigs.vehicle.tire.footprint import hertz_weights
 from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, gap_over_level_road, tire_table
-from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import stiffened
+from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load, tire_lattice
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, LoadFriction, Sidewalls, TreadViscoelasticity, WheelSpin
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import stiffening
 from contact_sim_pkg.run.contact_laws import normal_loss

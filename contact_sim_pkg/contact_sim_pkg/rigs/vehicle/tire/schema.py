@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, TypeAlias
 
 from pydantic import Field
 
-from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import ring_stiffness
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import ring_stiffness
 from contact_sim_pkg.rigs.vehicle.tire.size import PATTERN, read_size
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers, text
 from contact_sim_pkg.scene.schema.laws import HuntCrossley

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force
 from contact_sim_pkg.laws.parameters import ElasticLaw
-from contact_sim_pkg.rigs.vehicle.parameters import RigidRing
+from contact_sim_pkg.rigs.vehicle.motion.parameters import RigidRing
 
 __all__ = ["stiffness_cautions", "tire_stiffness"]
 

@@ -33,7 +33,7 @@ from scipy.linalg import toeplitz
 from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.pressure.field.halfspace import displacement, make_buffers, make_half_space
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
-from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import inflated_influence
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import inflated_influence
 from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
 
 __all__ = ["TreadState", "stiffening"]

@@ -7,8 +7,8 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldError
-from contact_sim_pkg.rigs.vehicle.tire.inflated_belt import NOMINAL_PRESSURE, ring_stiffness
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import NOMINAL_PRESSURE, ring_stiffness
 from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileError
 from contact_sim_pkg.rigs.vehicle.tire.property_file.fit import allowed, angles, fitted, standing_on_belt
 from contact_sim_pkg.rigs.vehicle.tire.property_file.inflation import stated_inflation

@@ -12,10 +12,10 @@ import numpy as np
 from contact_sim_pkg.pressure.closed_form.hertz import HertzError, hertz_contact
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch, lame_area
 from contact_sim_pkg.pressure.settings import widened
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, PressureField
-from contact_sim_pkg.rigs.vehicle.lattice import plain_field
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, PressureField
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, tire_body
 from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road
+from contact_sim_pkg.rigs.vehicle.tire.lattice import plain_field
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import standing_load_of
 
 REFERENCE_TOLERANCE = 1e-6

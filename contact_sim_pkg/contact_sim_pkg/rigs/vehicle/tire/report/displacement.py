@@ -6,8 +6,8 @@ import numpy as np
 
 from contact_sim_pkg.pressure.field.halfspace import displacement, make_buffers, make_half_space
 from contact_sim_pkg.report.series import FloatArray, PressureMap
+from contact_sim_pkg.rigs.vehicle.field.envelopment import yielding_of
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody
-from contact_sim_pkg.rigs.vehicle.tire.envelopment import yielding_of
 
 
 def surface_displacement(field: PressureMap, body: TireBody) -> FloatArray:

@@ -7,7 +7,7 @@ from typing import Any
 from contact_sim_pkg.records.report import LedgerScope
 from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.report.series import Recording
-from contact_sim_pkg.rigs.vehicle.lattice import plain_load
+from contact_sim_pkg.rigs.vehicle.tire.lattice import plain_load
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
 
 TIRE = "tire"

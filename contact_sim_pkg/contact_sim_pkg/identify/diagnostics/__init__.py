@@ -1,1 +1,0 @@
-"""Consistency of the numbers: rank, noise, balances, warnings."""

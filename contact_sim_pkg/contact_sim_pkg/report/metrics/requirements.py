@@ -1,0 +1,160 @@
+"""Limits of one's own: what a person requires of the metrics of a run, from a file or the command line."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.texts import table_of_file
+from contact_sim_pkg.records.metric import NO_BAND, OUTSIDE, REQUIRED, UNDECIDED, Band, Metric, judged
+
+__all__ = ["Requirement", "exit_code", "read_requirements", "required"]
+
+SENTENCE = re.compile(
+    r"\s*(?P<metric>[^<>=]+?)\s*(?P<sign><=|>=|<|>)\s*(?P<limit>[-+.\deE]+)\s*(?P<unit>[^\s\d]\S*)?\s*"
+)
+"""`SEAT < 60 %`"""
+KEYS = ("min", "max", "unit", "when")
+FORM = 'write `SEAT < 60 %`, or a line `seat.factor: {max: 60, unit: "%"}` of a YAML file'
+
+
+class Requirement(NamedTuple):
+    """What a metric must be."""
+
+    metric: str
+    """key, * for any part of it, or name as it is printed"""
+    low: float
+    high: float
+    """in `unit`; -inf or inf where open"""
+    unit: str | None
+    """None: that of the metric"""
+    when: Mapping[str, tuple[float, float]]
+    """metric -> lowest and highest value of the runs that this is required of; empty: of all"""
+    source: str
+    """file or text that it stands in"""
+
+    @property
+    def band(self) -> Band:
+        """As a band of the metric."""
+        return Band(self.low, self.high, REQUIRED, self.source)
+
+
+def read_requirements(given: Sequence[str]) -> list[Requirement]:
+    """The requirements of texts such as `SEAT < 60 %` and of YAML files, whose names end in .yaml or .yml.
+
+    Raises:
+        BagError: a text or a file holds no requirement. FileRefusedError: a file cannot be read.
+    """
+    found: list[Requirement] = []
+    for each in given:
+        found += _of_file(Path(each)) if each.endswith((".yaml", ".yml")) else [_of_text(each)]
+    return found
+
+
+def _of_text(text: str) -> Requirement:
+    parts = SENTENCE.fullmatch(text)
+    if parts is None:
+        raise BagError(f"{text!r:.80} is no requirement: {FORM}")
+    limit = _finite(parts["limit"], text)
+    low, high = (-math.inf, limit) if parts["sign"].startswith("<") else (limit, math.inf)
+    return Requirement(parts["metric"], low, high, parts["unit"], {}, text.strip())
+
+
+def _of_file(path: Path) -> list[Requirement]:
+    given = table_of_file(path, "requirements", FORM)
+    return [_of_line(path, key, values) for key, values in given.items()]
+
+
+def _of_line(path: Path, key: str, values: object) -> Requirement:
+    where = f"{path}: {key}"
+    if not isinstance(values, dict) or not set(values) <= set(KEYS) or not set(values) & {"min", "max"}:
+        raise BagError(f"{where} needs min or max, and takes {', '.join(KEYS)}; found {values!r:.60}")
+    low, high = _ends(values, where, "min", "max")
+    when = values.get("when", {})
+    if not isinstance(when, dict) or not all(isinstance(ends, list) and len(ends) == 2 for ends in when.values()):
+        raise BagError(f"{where}.when is {when!r:.60}; write `when: {{seat.a_w: [0.2, 1.0]}}`")
+    ranges = {str(name): (_finite(ends[0], where), _finite(ends[1], where)) for name, ends in when.items()}
+    unit = values.get("unit")
+    return Requirement(key, low, high, None if unit is None else str(unit), ranges, path.name)
+
+
+def _ends(values: dict[str, Any], where: str, lowest: str, highest: str) -> tuple[float, float]:
+    low = _finite(values[lowest], where) if lowest in values else -math.inf
+    high = _finite(values[highest], where) if highest in values else math.inf
+    if low > high:
+        raise BagError(f"{where}: {lowest} {low:g} is above {highest} {high:g}")
+    return low, high
+
+
+def _finite(value: object, where: str) -> float:
+    try:
+        number = math.nan if isinstance(value, bool) else float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise BagError(f"{where}: {value!r:.40} is no number")
+    return number
+
+
+def required(metrics: Sequence[Metric], requirements: Sequence[Requirement]) -> list[Metric]:
+    """The metrics, those that something is required of judged by that alone.
+
+    A metric whose spread reaches over the limit is undecided.
+
+    Raises:
+        BagError: a requirement is of a metric that the run does not have, or in another unit.
+    """
+    found = list(metrics)
+    for each in requirements:
+        places = _places(metrics, each.metric)
+        applies = all(
+            low <= metrics[place].value <= high
+            for name, (low, high) in each.when.items() for place in _places(metrics, name)
+        )  # fmt: skip
+        for place in places:
+            metric = metrics[place]
+            if each.unit is not None and each.unit not in (metric.unit, metric.unit.replace("²", "^2")):
+                raise BagError(
+                    f"{each.source}: {each.metric} is required in {each.unit}, the metric is in {metric.unit or '1'}"
+                )
+            if applies:
+                found[place] = _judged(found[place], each)
+    return found
+
+
+def _places(metrics: Sequence[Metric], named: str) -> list[int]:
+    """Of the metrics that a key, a pattern or a name as it is printed means."""
+    places = [place for place, each in enumerate(metrics) if fnmatchcase(each.key, named)]
+    places = places or [place for place, each in enumerate(metrics) if each.name.casefold() == named.casefold()]
+    if not places:
+        known = ", ".join(f"{each.key} ({each.name})" for each in metrics)
+        raise BagError(f"requirement of {named}: the list has no such metric; it has {known}; --all lists more")
+    return places
+
+
+def _judged(metric: Metric, requirement: Requirement) -> Metric:
+    """A metric with its band replaced; of several requirements that which it holds least stays, a miss before all."""
+    band, value, spread = requirement.band, metric.value, metric.spread
+    verdict = judged(value, band)
+    ends = [end for end in (band.low, band.high) if math.isfinite(end)]
+    if math.isfinite(value) and math.isfinite(spread) and any(abs(value - end) < spread for end in ends):
+        verdict = UNDECIDED
+    again = metric.band is not None and metric.band.kind == REQUIRED
+    if again and (metric.verdict == OUTSIDE or (metric.verdict == UNDECIDED and verdict != OUTSIDE)):
+        return metric
+    remark = metric.remark if again else "; ".join(filter(None, ("yours", metric.remark)))
+    return metric._replace(band=band, verdict=verdict, remark=remark)
+
+
+def exit_code(metrics: Sequence[Metric]) -> int:
+    """1 where a metric is outside its band, 3 where what is required could not be judged, else 0."""
+    if any(each.verdict == OUTSIDE for each in metrics):
+        return 1
+    unsure = (UNDECIDED, NO_BAND)
+    open_ones = [each for each in metrics if each.band is not None and each.band.kind == REQUIRED]
+    return 3 if any(each.verdict in unsure or each.broken for each in open_ones) else 0

@@ -1,1 +1,0 @@
-"""From one solution of the pressure fields to the next: how far, and what it misses."""

@@ -1,0 +1,1 @@
+"""Pressure fields of tire and cushion as the heights that the bodies stand on."""

@@ -1,0 +1,1 @@
+"""Kernels of the bodies' motion: quarter car, seat and car, with any part absent."""

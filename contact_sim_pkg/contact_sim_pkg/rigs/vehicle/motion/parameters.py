@@ -1,0 +1,108 @@
+"""Parameter tuples of quarter car and seat.
+
+An effect that a scene does not call for is ``None`` in place of its tuple (decision 0001). SI
+units; all numbers are ``float`` unless stated otherwise.
+The tuples are built in ``rigs/vehicle/model.py`` only.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Modes, Vector
+from contact_sim_pkg.laws.parameters import Contact
+
+
+class Tire(NamedTuple):
+    """Quarter vehicle on a tire; state [wheel_z, body_z, wheel_v, body_v], first in the state
+    vector.
+    """
+
+    wheel_mass: float  # [kg]
+    body_mass: float  # [kg]
+    suspension_stiffness: float  # [N/m]
+    suspension_damping: float  # [N s/m]
+
+
+class RigidRing(NamedTuple):
+    """Belt and tread as one rigid ring that the sidewalls carry; state [belt_z, belt_v] from
+    ``offset``.
+
+    Without load the belt's height equals the wheel's. Tread contact and sidewalls then stand in
+    series.
+    """
+
+    offset: int  # index of belt_z in the state vector
+    belt_mass: float  # [kg], not counted in Tire.wheel_mass
+    stiffness: float  # [N/m] of the sidewalls
+    damping: float  # [N s/m]
+
+
+class MasslessNode(NamedTuple):
+    """Seat interface without a mass: its velocity follows from the balance of its forces."""
+
+    damping: float  # [N s/m] of its links together, > 0
+
+
+class Softening(NamedTuple):
+    """Links of an occupant that soften with the running mean square of the seat's acceleration."""
+
+    offset: int  # of the mean square [m^2/s^4] in the state vector
+    exponent: float  # beta: stiffness by r^-2 beta, damping by r^-beta, r the rms over 1 m/s^2
+    time_constant: float  # [s]
+    least: float  # [m/s^2] rms, below which nothing changes
+    most: float  # [m/s^2]
+    rest: Vector  # [links] [m] deflections about which they soften
+
+
+class Seat(NamedTuple):
+    """Occupant on a cushion: masses, the first of them in contact, on springs and dampers between
+    any two.
+
+    State, from ``offset``: heights of the masses..., velocities...; with friction or a seat back
+    also occupant_x, occupant_vx and the deflection of the friction spring.
+    """
+
+    offset: int  # index of the first height in the state vector
+    masses: Vector  # [kg]
+    ends: Modes  # [links, 2] numbers of the masses, the lower first
+    springs: Vector  # [2, links] stiffness [N/m], damping [N s/m]
+    node: MasslessNode | None = None  # None where the first mass is above 0
+    softening: Softening | None = None
+
+
+def rigid_occupant(mass: float, offset: int = 0) -> Seat:
+    """A seat under one rigid ``mass`` [kg], its height at ``offset`` of the state vector."""
+    return Seat(offset, numpy.array([mass]), numpy.zeros((0, 2), dtype=numpy.int64), numpy.zeros((2, 0)))
+
+
+class Back(NamedTuple):
+    """Seat back that the trunk of the occupant leans on, and the tilt of the pan before it
+    (``rigs/vehicle/motion/leaning.py``).
+    """
+
+    trunk: int  # number of the mass that leans
+    pan_sine: float  # of the tilt of the pan, front edge up
+    pan_cosine: float
+    back_sine: float  # of the angle of the seat back from the vertical
+    back_cosine: float
+    place: float  # [m] approach where x and the height of the trunk are 0
+    preload: float  # [N] that feet or hands push the occupant back with
+    contact: Contact
+
+
+class Vehicle(NamedTuple):
+    """Rig of seat and tire: each part and its contact may be absent (``None``), not both.
+
+    Without a tire the motion is relative to the floor, which is then an accelerated frame.
+    """
+
+    gravity: float  # [m/s^2], > 0
+    tire: Tire | None
+    rigid_ring: RigidRing | None
+    tire_contact: Contact | None
+    seat: Seat | None
+    seat_contact: Contact | None
+    back: Back | None = None  # only without a tire
