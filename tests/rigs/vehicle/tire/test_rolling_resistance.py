@@ -52,10 +52,40 @@ def lost_per_metre(body, patch, share):
     )  # fmt: skip
     x = patch.origin_x + patch.cell_x * numpy.arange(len(pressure))
     line = pressure.sum(axis=1) * patch.cell_x * patch.cell_y
-    force = abs(numpy.exp(-1j * numpy.outer(n / belt.radius, x)) @ line)
+    place = numpy.arange(-0.3, 0.3, patch.cell_x)
+    beside = softening(belt, n, rigidity, place, x, line)
+    force = abs(
+        numpy.exp(-1j * numpy.outer(n / belt.radius, x)) @ line
+        + numpy.exp(-1j * numpy.outer(n / belt.radius, place)) @ beside
+    )
     wave = n / belt.radius
     ring = -(wave * (1.0 / modulus(wave * SPEED, share)).imag * force**2 / rigidity).sum() / (math.pi * belt.radius)
     return tread + ring
+
+
+def softening(belt, n, rigidity, place, x, line):
+    """Forces [N] at the cells of ``place`` by which arcs of fixed length bear less than C p w under forces ``line`` at x:
+    D = C p w - S(w) at the belt's long-time form, by its modes and bisection of the arc, damped fixed point.
+    """
+    arc = belt.arc
+    phi, pressure, chord = arc.half_angle, arc.pressure, arc.chord
+    length = phi * chord / math.sin(phi)
+    stiffness = pressure * (math.cos(phi) + phi * math.sin(phi)) / (math.sin(phi) - phi * math.cos(phi))
+    forces, step = numpy.zeros(len(place)), place[1] - place[0]
+    to = numpy.cos(numpy.outer(place, n / belt.radius)), numpy.sin(numpy.outer(place, n / belt.radius))
+    at = numpy.cos(numpy.outer(x, n / belt.radius)), numpy.sin(numpy.outer(x, n / belt.radius))
+    for _ in range(40):
+        waves = [on.T @ line + off.T @ forces for on, off in zip(at, to, strict=True)]
+        bent = sum(off @ (wave / rigidity) for off, wave in zip(to, waves, strict=True)) / (math.pi * belt.radius)
+        closer = bent + (line.sum() + forces.sum()) * arc.ring_compliance
+        low, high = numpy.full(len(place), 0.01), numpy.full(len(place), 3.0)
+        for _ in range(50):  # sin(a) / a falls
+            middle = 0.5 * (low + high)
+            above = numpy.sin(middle) / middle > (chord - closer) / length
+            low, high = numpy.where(above, middle, low), numpy.where(above, high, middle)
+        borne = pressure * length * (math.cos(phi) / phi - numpy.cos(low) / low)
+        forces = 0.5 * forces + 0.5 * step * (stiffness * closer - borne)
+    return forces
 
 
 @pytest.mark.parametrize("share", [0.0, 0.2])
@@ -92,4 +122,4 @@ def test_a_rolling_tread_has_rolled_in_at_the_start():
         resolved("tire_cleat", "duration=0.3", "road={kind: flat}", "effects.tire.tread_viscoelasticity={}")
     )
     vertical = numpy.concatenate([decode(AxleForce, data).vertical for data in found["tire/axle"]])
-    assert vertical == pytest.approx(vertical[0], rel=2e-3)
+    assert vertical == pytest.approx(vertical[0], rel=4e-3)

@@ -41,13 +41,14 @@ def test_the_first_snippet_of_the_page_is_a_believable_tire(tmp_path):
     assert 190e3 < stiffness(resolve(load_scene(str(file)))) < 230e3
 
 
-@pytest.mark.parametrize("load", [2500.0, WEIGHT, 5000.0])
-def test_a_half_space_without_figures_is_as_stiff_as_the_inflated_default(load):
-    """By the secants of both laws over 0.2 mm, within 3 %."""
+def test_a_half_space_without_figures_is_as_stiff_as_the_inflated_default():
+    """By the secants of both laws over 0.2 mm, within 3 % at the standing load; from 2.5 to 5 kN a half-space (F^1/3)
+    stiffens by a quarter, arcs hardly.
+    """
     found = []
     for carried in ("normal_elastic: {}", "inflation: {}"):
         law = build(resolved("tire_bump", f"effects.tire={{{carried}}}")).rig.tire_contact.elastic
-        around = approach_of_force(law, load) + numpy.array([-1e-4, 1e-4])
+        around = approach_of_force(law, WEIGHT) + numpy.array([-1e-4, 1e-4])
         found.append(numpy.diff([elastic_force(law, x) for x in around])[0] / 2e-4)
     assert found[0] == pytest.approx(found[1], rel=0.03)
 

@@ -125,6 +125,8 @@ def _make(body: TireBody, solver: type | None = None) -> TireTable:
             load = field.solve(gap, node * SPACING)
         except FieldError:
             break
+        if load <= force[-1] and load > 0.0:  # sidewalls on a soft ring give way: the law ends before
+            break
         loaded = field.pressure > 0.0
         force.append(load)
         size.append(
