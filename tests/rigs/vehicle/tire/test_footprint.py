@@ -171,7 +171,8 @@ def test_a_bump_inside_the_interval_is_kept():
 def clear(road, approach, pressure):
     """What the bound says of that grid."""
     whole = hold(make_part(make_half_space(40, 20, CELL, CELL, 2e6), 40, 20))
-    return clear_beyond(whole, road.astype(numpy.float32), 0, TireForm(0.3, 0.5), 60, 0.4, approach, pressure, 40)
+    none, form = numpy.zeros(40), TireForm(0.3, 0.5)
+    return clear_beyond(whole, none, road.astype(numpy.float32), 0, form, 60, 0.4, approach, pressure, 40)
 
 
 def test_a_bound_says_of_no_road_that_touches_that_it_does_not():
@@ -190,7 +191,9 @@ def test_a_bound_says_of_no_road_that_touches_that_it_does_not():
 def test_a_grid_that_the_road_does_not_hold_is_not_said_to_be_clear():
     whole, none = hold(make_part(make_half_space(40, 20, CELL, CELL, 2e6), 40, 20)), numpy.zeros((20, 20))
     flat = numpy.full((30, 20), -1.0, dtype=numpy.float32)
-    assert not clear_beyond(whole, flat, 0, TireForm(0.3, 0.5), 0, 0.1, 0.002, none, 40)
+    assert not clear_beyond(
+        whole, numpy.zeros(whole.value.half_space.rows), flat, 0, TireForm(0.3, 0.5), 0, 0.1, 0.002, none, 40
+    )
 
 
 def test_the_slope_under_a_field_is_that_of_its_centre_on_a_parabola():

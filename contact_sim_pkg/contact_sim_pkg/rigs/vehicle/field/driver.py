@@ -141,7 +141,7 @@ class ContactField(ABC):
             if self.is_clear(self.grids, approach) or not self.touches_beyond(self.grids, approach):
                 return correction
         except FieldEdgeError:
-            self.grids.usual.reset()
+            self.grids.usual.forget()
         except FieldError as error:
             raise RunError(f"block {block}: {error}") from None
         try:
@@ -177,7 +177,7 @@ class ContactField(ABC):
                     continue
                 return approach, field
             except FieldEdgeError as error:
-                field.reset()
+                field.forget()
                 last = error
             except FieldError as error:
                 raise RunError(f"block 0: {error}") from None

@@ -28,9 +28,10 @@ translation included, their arcs keep the length L = phi c / sin phi and open:
 
 What they bear less, ``D(x) = C p w - S(w)``, loads the belt beside the road:
 
-    w = G * (q + D) + (F + sum D) / K_b
+    w = G * (q + D) + c (F + sum c D) / K_b,  c = cos(x / R)
 
-`Softening` finds D by fixed point.
+since the ring's translation moves the belt by c; D is that of the lower half. `Softening` finds it by
+fixed point.
 
 Valid for 120 to 300 kPa, deflections up to 40 mm, road slopes that are small, contact within 0.12 m
 of its middle. Sources: Gong, A study of in-plane dynamics of tires (1993), for the ring; Pacejka,
@@ -60,10 +61,12 @@ MODES = 1000
 ARC_POINTS = 2000
 """Of the table of S: straight lines between them miss 1e-6 of it."""
 
-OVER, LEFT = 1.12, 0.05
-"""Of a pass over the plain one, which leaves 0.09 to 0.16 of a change; and what it then leaves."""
+OVER, DAMPED, LEAST_OVER = 1.12, 0.7, 0.3
+"""Of a pass over the plain one, which leaves 0.09 to 0.16 of a change; what is left of that factor
+after a pass that changed no less than the one before, and the least of it.
+"""
 
-STRAIGHT, CLOSED = 0.02, 2.4  # [rad] ends of that table: the sidewall is straight, the belt near the rim
+STRAIGHTER, CLOSED = 0.7, 2.4  # ends of that table: of phi, and [rad]; the belt is near the rim
 
 NOMINAL_PRESSURE = 220e3  # [Pa]
 OF_STRUCTURE = 0.25
@@ -147,10 +150,10 @@ def inflated_influence(
 
 def arc_force(arc: SidewallArc) -> tuple[Field, Field]:
     """How much closer [m] the belt is to the rim, increasing, and the force S [N/m] of both sidewalls
-    against that, [points].
+    against that, [points]. It goes on straight beyond both ends.
     """
     length = arc.half_angle * arc.chord / math.sin(arc.half_angle)
-    opened = numpy.linspace(STRAIGHT, CLOSED, ARC_POINTS)
+    opened = numpy.linspace(STRAIGHTER * arc.half_angle, CLOSED, ARC_POINTS)
     closer = arc.chord - length * numpy.sin(opened) / opened
     height = 0.5 * length * numpy.cos(opened) / opened
     rest = 0.5 * length * math.cos(arc.half_angle) / arc.half_angle
@@ -158,40 +161,71 @@ def arc_force(arc: SidewallArc) -> tuple[Field, Field]:
 
 
 class Softening:
-    """What the sidewalls of a belt bear less than their linear foundation, on the rows of a grid:
-    `follow` a solution of the field, then solve again with the gap raised by `gap`.
+    """What the sidewalls of a belt bear less than their linear foundation, over the lower half of the
+    ring: `start` an instant, `follow` each solution of the field, then solve again with the gap raised
+    by `opened`. Grids of any number of rows share it, middle on middle.
     """
 
     def __init__(self, belt: InflatedBelt, rows: int, cell_x: float) -> None:
-        """Rows of ``cell_x`` [m] under a belt with an arc, unloaded."""
+        """Under a belt with an arc, unloaded, on cells of ``cell_x`` [m]; no grid has more than so many
+        ``rows``.
+        """
         assert belt.arc is not None
         self._arc, self._cell_x = belt.arc, cell_x
-        influence = inflated_influence(belt._replace(ring_compliance=0.0), rows, 1, cell_x, 1.0)[:, 0]
-        place = numpy.arange(rows)
-        self._along = influence[abs(place[:, None] - place)]
+        self._middle = max(math.ceil(0.5 * math.pi * belt.radius / cell_x), rows - rows // 2)
+        count = 2 * self._middle + 1
+        influence = inflated_influence(belt._replace(ring_compliance=0.0), count, 1, cell_x, 1.0)[:, 0]
+        self._along = numpy.fft.rfft(numpy.concatenate((influence, [0.0], influence[:0:-1])))
+        angle = (numpy.arange(count) - self._middle) * cell_x / belt.radius
+        self._lowered: Field = numpy.maximum(numpy.cos(angle), 0.0) * (abs(angle) < 0.5 * math.pi)
         self._closer, self._force = arc_force(belt.arc)
+        self._slopes = numpy.diff(self._force)[[0, -1]] / numpy.diff(self._closer)[[0, -1]]
         self._linear = membrane_stiffness(belt.arc.half_angle) * belt.arc.pressure
-        self.load: Field = numpy.zeros(rows)  # [N/m] D
-        self.gap: Field = numpy.zeros(rows)  # [m] that it opens
-        self.bent: Field = numpy.zeros(rows)  # [m] of the belt beside that of its loads: of its memory
-
-    @property
-    def total(self) -> float:
-        """Sum of D [N]."""
-        return float(self.load.sum()) * self._cell_x
+        self.load: Field = numpy.zeros(count)  # [N/m] D
+        self.gap: Field = numpy.zeros(count)  # [m] that it opens
+        self.bent: Field = numpy.zeros(count)  # [m] of the belt beside that of its loads: of its memory
+        self._over, self._changed = OVER, math.inf
 
     def reset(self) -> None:
         """Reset to an unloaded belt."""
-        self.load.fill(0.0)
-        self.gap.fill(0.0)
+        for field in (self.load, self.gap, self.bent):
+            field.fill(0.0)
+
+    def rows(self, count: int) -> slice:
+        """Place of a grid of so many rows in `load`, `gap` and `bent`."""
+        first = self._middle - count // 2
+        return slice(first, first + count)
+
+    def start(self) -> None:
+        """Begin an instant: its passes are damped by what they do themselves."""
+        self._over, self._changed = OVER, math.inf
 
     def follow(self, line: Field) -> float:
-        """Take the line load ``line`` [N/m] [rows] of the road; returns about how far `gap` still is from
-        settled [m].
+        """Take the line load ``line`` [N/m] [rows of a grid] of the road; returns how far the belt under it
+        was from settled [m]: the change of `gap`, the mean under the load, without one the largest.
         """
-        ring = (float(line.sum()) * self._cell_x + self.total) * self._arc.ring_compliance
-        closer = self._along @ (line + self.load) + ring + self.bent
-        softer = self._linear * closer - numpy.interp(closer, self._closer, self._force)
-        self.load = self.load + OVER * (softer - self.load)
-        before, self.gap = self.gap, self._along @ self.load + self.total * self._arc.ring_compliance
-        return LEFT * float(abs(self.gap - before).max())
+        place, ring, total = self.rows(len(line)), self._arc.ring_compliance, float(line.sum())
+        load = self.load.copy()
+        load[place] += line
+        closer = self._bend(load) + (total + float(self._lowered @ self.load)) * self._cell_x * ring * self._lowered
+        softer = (self._linear * (closer + self.bent) - self._borne(closer + self.bent)) * (self._lowered > 0.0)
+        changed = float(abs(softer - self.load).max())
+        if changed >= self._changed:  # the pass before was too long
+            self._over = max(DAMPED * self._over, LEAST_OVER)
+        self._changed = changed
+        self.load += self._over * (softer - self.load)
+        before, down = self.gap, float(self._lowered @ self.load) * self._cell_x * ring
+        self.gap = self._bend(self.load) + down * self._lowered
+        change = self.gap - before
+        return float(abs(change).max()) if total == 0.0 else abs(float(line @ change[place])) / total
+
+    def _bend(self, load: Field) -> Field:
+        """Displacement G * load of the belt [m]."""
+        count = 2 * len(load)
+        return numpy.fft.irfft(numpy.fft.rfft(load, count) * self._along, count)[: len(load)]
+
+    def _borne(self, closer: Field) -> Field:
+        """S [N/m]."""
+        first, last = closer - self._closer[0], closer - self._closer[-1]
+        beyond = self._slopes[0] * numpy.minimum(first, 0.0) + self._slopes[1] * numpy.maximum(last, 0.0)
+        return numpy.asarray(numpy.interp(closer, self._closer, self._force) + beyond)

@@ -281,14 +281,14 @@ def _sunk(pressure: Pressures, row: int, col: int, modulus: float, cell_x: float
 
 @entry
 def clear_beyond(
-    whole: Held[Part], height: Heights, first_row: int, form: TireForm, first: int, travel: float, approach: float,
-    pressure: Pressures, rows: int,
+    whole: Held[Part], opened: Vector, height: Heights, first_row: int, form: TireForm, first: int, travel: float,
+    approach: float, pressure: Pressures, rows: int,
 ) -> bool:  # fmt: skip
     """Whether a bound says that the road does not touch the tire outside the grid of ``pressure`` [Pa]:
     on the columns of the ``whole`` grid, whose rows the lattice must hold, and on ``rows`` rows.
 
-    A row of cells is displaced by the belt, and by each line of the pressure as if all of it lay as far
-    across as a cell can. The rest as in `touches_beyond`.
+    A row of cells of the ``whole`` grid is ``opened`` [m] by softening sidewalls. It is displaced by the
+    belt, and by each line of the pressure as if all of it lay as far across as a cell can. The rest as in `touches_beyond`.
     """
     half_space, own_rows, own_cols = whole.value.half_space, pressure.shape[0], pressure.shape[1]
     cols, reach = half_space.cols, rows // 2 - half_space.rows // 2
@@ -305,6 +305,8 @@ def clear_beyond(
         beside[j] = numpy.inf if left <= j < left + own_cols else across[j]
     for i in range(max(0, first_row - first), min(rows, last_row - first)):
         free, row = approach - height_along(form, (first + i) * half_space.cell_x - travel), i - top
+        if 0 <= i - reach < half_space.rows:
+            free -= opened[i - reach]
         road, crown = height[first + i - first_row, margin : margin + cols], beside if 0 <= row < own_rows else across
         if not _any_deeper(road, crown, free):
             continue

@@ -105,12 +105,8 @@ class RoadField(ContactField):
 
     def _softer(self, field: PressureField) -> Line | None:
         """Line load [N/m] on the rows of the wide grid that softening sidewalls leave to the belt."""
-        if field.softening is None:
-            return None
-        line = numpy.zeros(len(self._pressed))
-        row = len(line) // 2 - field.settings.rows // 2
-        line[row : row + field.settings.rows] = field.softening.load
-        return line
+        softening = field.softening
+        return None if softening is None else softening.load[softening.rows(len(self._pressed))]
 
     def _on_wide(self, pressure: Gap) -> Gap:
         """A pressure field on the wide grid, which both grids share their middle with."""
@@ -150,18 +146,20 @@ class RoadField(ContactField):
             whole = self._tread_state.gap
             row, col = whole.shape[0] // 2 - settings.rows // 2, (whole.shape[1] - settings.cols) // 2
             out += whole[row : row + settings.rows, col : col + settings.cols]
-            for field in () if self.grids is None else self.grids.both():
-                if field.softening is not None and field.settings.rows == settings.rows:
-                    field.softening.bent[:] = self._tread_state.bent[row : row + settings.rows]
+            softening = None if self.grids is None else self.grids.wide.softening
+            if softening is not None:
+                softening.bent[softening.rows(len(whole))] = self._tread_state.bent
         return out
 
     def is_clear(self, grids: FieldGrids, approach: float) -> bool:
         """See `ContactField`; what a tread remembers is not in the bound."""
         geometry, road = self._geometry, self._road
         assert geometry is not None
+        softening, rows = grids.wide.softening, grids.wide.settings.rows
+        opened = numpy.zeros(rows) if softening is None else softening.gap[softening.rows(rows)]
         return self._tread_state is None and clear_beyond(
-            grids.wide.whole, road.height, road.first_row, geometry.form, self._first_row(grids.usual.settings), self.travel,
-            approach, grids.usual.pressure, geometry.lattice.road_rows,
+            grids.wide.whole, opened, road.height, road.first_row, geometry.form, self._first_row(grids.usual.settings),
+            self.travel, approach, grids.usual.pressure, geometry.lattice.road_rows,
         )  # fmt: skip
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
@@ -175,7 +173,7 @@ class RoadField(ContactField):
         wide grid.
         """
         pressure, window = self._on_wide(grids.usual.pressure), self._middle(grids.usual.pressure)
-        gap = self.gap(grids.wide.settings)
+        gap = grids.wide.opened(self.gap(grids.wide.settings))
         return bool(grown_window(grids.wide.whole, gap, approach, pressure, window) != window)
 
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:
