@@ -69,7 +69,7 @@ def _lists(recording: Recording) -> list[list[Metric]]:
     listed = {metric.topic.partition("/")[0] for each in found for metric in each}
     rest = [load_metrics(name, contact) for name, contact in recording.contacts.items() if name not in listed]
     ledger = recording.ledger
-    exchanged = ledger is not None and throughput(ledger) > 0.0  # where it is not, nothing is judged
+    exchanged = ledger is not None and throughput(ledger) != 0.0  # where nothing is, nothing is judged
     energy = [] if ledger is None or not exchanged else [energy_residual(ledger, recording.duration, recording.scene)]
     return [[_with_warning(metric, recording) for metric in each] for each in (*found, *rest, energy) if each]
 
