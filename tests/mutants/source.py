@@ -31,7 +31,11 @@ def noticing(mutant: Mutant, tests: Path) -> list[str]:
     found = []
     for name in mutant.tests:
         module, _, test = name.partition("::")
-        paths = [path for path in tests.rglob(f"{module}.py") if f"def {test}(" in path.read_text() or not test]
+        paths = [
+            path
+            for path in tests.rglob(f"{module}.py")
+            if not test or f"def {test.partition('[')[0]}(" in path.read_text()
+        ]
         if not paths:
             raise LookupError(f"{mutant.function}: there is no test {name}")
         found += [f"{path}::{test}" if test else str(path) for path in paths]

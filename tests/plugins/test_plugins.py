@@ -346,3 +346,71 @@ def test_a_metric_that_fails_is_a_line_and_left_out(bench, tmp_path):
     text = bench("metrics", bag, status=OUTSIDE)
     assert text.count("the metrics spoilt of a plug-in, spoilt:metrics, are left out: 'gone'") == 1
     assert "SEAT" in text
+
+
+SPOILT = """
+from typing import Literal
+from contact_sim_pkg.excitation.kinds import RoadKind
+
+class Mud(RoadKind):
+    kind: Literal["{}"]
+    {}
+
+    def describe(self):
+        return {{}}
+
+    def heights(self, x, y):
+        {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("surface", "heights", "cause"),
+    [
+        ("def surface(self, setting): raise RuntimeError('no logs')", "return x", "RuntimeError: no logs"),
+        (
+            "def surface(self, setting): return 3",
+            "return x",
+            "AttributeError: 'int' object has no attribute 'describe'",
+        ),
+        (SURFACE, "return x[:, None]", "TypeError: heights at 2 x and 3 y have the shape (2, 1), not (2, 3)"),
+    ],
+)
+def test_a_road_that_fails_is_refused_and_named(bench, surface, heights, cause):
+    bench.add("mud", SPOILT.format("mud", surface, heights), roads="mud = mud:Mud")
+    text = bench("run", "tire_bump", "--offline", "--no-record", "--set", "road={kind: mud}", status=2)
+    assert f"road mud of the plug-in mud fails: {cause}" in text
+    assert "Traceback" not in text
+
+
+HUM = """
+from typing import Literal
+from contact_sim_pkg.excitation.kinds import VibrationKind
+
+class Hum(VibrationKind):
+    kind: Literal["hum"]
+    {}
+
+    def describe(self):
+        return {{}}
+
+    def acceleration(self, t):
+        return t, t[:1]
+"""
+
+
+@pytest.mark.parametrize(
+    ("signal", "cause"),
+    [
+        ("def signal(self, setting): raise RuntimeError('no hum')", "RuntimeError: no hum"),
+        (
+            "def signal(self, setting): return self",
+            "TypeError: acceleration does not give two arrays of one value a time",
+        ),
+    ],
+)
+def test_a_vibration_that_fails_is_refused_and_named(bench, signal, cause):
+    bench.add("hum", HUM.format(signal), vibrations="hum = hum:Hum")
+    text = bench("run", "seat_ride", "--offline", "--no-record", "--set", "vibration={kind: hum}", status=2)
+    assert f"vibration hum of the plug-in hum fails: {cause}" in text
+    assert "Traceback" not in text

@@ -11,7 +11,6 @@ import numpy
 from contact_sim_lab.laws.one_mass.runs import OneMassCourse, free_impact, impact_speeds, integrate, seat_slap
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
-from contact_sim_lab.rigs.impact.hard_cases_sphere import STEEL_DENSITY, STEEL_RADIUS
 from contact_sim_lab.twins import impact
 from contact_sim_lab.twins.point_contact import Slap, final_state
 from contact_sim_pkg.compiled.arrays import Vector
@@ -23,6 +22,7 @@ from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
 MASS, LAW = 20.0, NormalElastic(1.0e5, 1.5)
 SPEED = 0.5
 PHASES = 20
+STEEL_RADIUS, STEEL_DENSITY = 0.01, 7800.0  # [m], [kg/m^3]
 
 
 def restitution_found(damping: float, tolerance: float, gap: float, law: NormalElastic = LAW) -> float:

@@ -7,12 +7,15 @@ recording needs.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, Protocol
 
 import numpy
 
 from contact_sim_pkg.excitation.blocks import RoadBlocks, RoadLattice, Surface, VibrationBlocks
 from contact_sim_pkg.excitation.borders import TurnedBeginning
+from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.kinds import Kind, Setting
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
@@ -81,15 +84,50 @@ def make_surface(scene: ResolvedScene, cell: float) -> Surface:
     """
     road = scene.road
     assert road is not None
-    return road.surface(_setting(scene, "road", road, cell))
+    with _named(road, "road"):
+        surface = road.surface(_setting(scene, "road", road, cell))
+        if _is_foreign(road):
+            _try_surface(surface, cell)
+    return surface
 
 
 def make_vibration(scene: ResolvedScene) -> VibrationBlocks:
     """The vibration of a resolved scene."""
     vibration = scene.vibration
     assert vibration is not None
-    signal = vibration.signal(_setting(scene, "vibration", vibration))
+    with _named(vibration, "vibration"):
+        signal = vibration.signal(_setting(scene, "vibration", vibration))
+        if _is_foreign(vibration):
+            signal.describe()
+            forward, up = signal.acceleration(numpy.array([0.0, 1.0 / vibration.sample_rate]))
+            if numpy.shape(forward) != (2,) or numpy.shape(up) != (2,):
+                raise TypeError("acceleration does not give two arrays of one value a time")
     return VibrationBlocks(signal, scene.block_length, vibration.sample_rate)
+
+
+def _is_foreign(kind: Kind) -> bool:
+    return not type(kind).__module__.startswith("contact_sim_pkg.")
+
+
+@contextmanager
+def _named(kind: Kind, section: str) -> Iterator[None]:
+    """What the kind of another package raises, as a sentence that names it; ours raise what they say."""
+    try:
+        yield
+    except Exception as error:
+        if isinstance(error, (ExcitationError, OSError)) or not _is_foreign(kind):
+            raise
+        raise ExcitationError(
+            f"{section} {kind.kind} of the plug-in {type(kind).__module__} fails: {type(error).__name__}: {error}"
+        ) from error
+
+
+def _try_surface(surface: Surface, cell: float) -> None:
+    """Ask the surface of another package once for what every run asks it."""
+    surface.describe()
+    heights = surface.heights(numpy.array([0.0, cell]), numpy.array([-cell, 0.0, cell]))
+    if numpy.shape(heights) != (2, 3):
+        raise TypeError(f"heights at 2 x and 3 y have the shape {numpy.shape(heights)}, not (2, 3)")
 
 
 def _setting(scene: ResolvedScene, section: str, kind: Kind, cell: float = 0.0) -> Setting:

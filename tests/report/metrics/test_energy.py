@@ -41,3 +41,15 @@ def test_an_energy_that_is_left_out_lies_outside(tmp_path, monkeypatch):
 
 def test_a_bag_without_a_ledger_has_no_such_metric(tmp_path):
     assert residual_of(known.bare_bag(tmp_path / "bag")) is None
+
+
+def test_a_balance_in_which_nothing_is_exchanged_is_not_judged(tmp_path, monkeypatch):
+    encode = known.encode
+
+    def at_rest(record, *more):
+        if type(record).__name__ == "EnergyLedger":
+            record = record._replace(residual=0.0, supplied=0.0, kinetic=0.0, potential=0.0, stored=0.0, dissipated=0.0)
+        return encode(record, *more)
+
+    monkeypatch.setattr(known, "encode", at_rest)
+    assert residual_of(known.car_bag(tmp_path / "bag", 200)) is None

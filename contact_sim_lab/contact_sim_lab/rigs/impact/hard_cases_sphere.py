@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy
 
+from contact_sim_lab.laws.hard_cases_impact import STEEL_DENSITY, STEEL_RADIUS
 from contact_sim_lab.laws.one_mass.runs import integrate
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most, close_to, exactly
@@ -26,8 +27,6 @@ from contact_sim_pkg.rigs.impact.theory.geometry import SMALL_SHAPE_FACTOR, cont
 from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact, course, solve_impact
 from contact_sim_pkg.rigs.impact.theory.surface_wave import ring, shear_speed
 from contact_sim_pkg.rigs.impact.theory.viscoelastic import creep, hereditary
-
-STEEL_RADIUS, STEEL_DENSITY = 0.01, 7800.0  # [m], [kg/m^3]
 
 MODEL = "sphere impact"
 SPHERE, RUBBER = Sphere(0.02, 0.01), Material(8.0e6, 0.2)
