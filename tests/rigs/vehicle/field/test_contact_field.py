@@ -31,7 +31,7 @@ def test_every_pass_at_every_place_is_the_field_of_that_place(travel):
     for step in range(5):
         row = 150 + travel * step
         for approach in (9e-4, 1.02e-3, 1.0e-3):  # a predictor and two correctors
-            field.roll_to(row)
+            field.roll_to(row, 0.0)
             load = field.solve(gap_at(row), approach)
         expected = expected_at(field, row, approach)
         assert load == pytest.approx(expected.sum() * 4e-6, rel=1e-8)
@@ -44,7 +44,7 @@ def test_a_field_that_forgot_runs_to_the_same_bits_again():
         field.reset()
         loads = []
         for row in (10, 12, 12, 14, 46, 47):
-            field.roll_to(row)
+            field.roll_to(row, 0.0)
             loads.append(field.solve(gap_at(row), 1e-3))
         runs.append((loads, field.pressure.tobytes()))
     assert runs[0] == runs[1]
@@ -53,7 +53,7 @@ def test_a_field_that_forgot_runs_to_the_same_bits_again():
 def test_a_wheel_that_lifts_off_and_lands_elsewhere_is_solved():
     field = PressureField(SETTINGS, "tire")
     for row, approach in ((10, 1e-3), (60, -1.0), (61, -1.0), (200, 1e-3)):
-        field.roll_to(row)
+        field.roll_to(row, 0.0)
         load = field.solve(gap_at(row), approach)
         assert (load > 0.0) == (approach > 0.0)
     expected = expected_at(field, 200, 1e-3)

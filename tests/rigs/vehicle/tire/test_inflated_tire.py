@@ -16,6 +16,7 @@ from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt, Sidew
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
 from contact_sim_pkg.rigs.vehicle.field.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import (
+    Softening,
     arc_force,
     belt_share,
     inflated_influence,
@@ -232,6 +233,27 @@ def test_softening_sidewalls_leave_the_belt_in_balance():
     assert opened.max() > 1e-3
     middle = len(field.softening.gap) // 2
     assert field.softening.gap[middle - half : middle + half + 1] == pytest.approx(opened, abs=1e-3 * opened.max())
+
+
+def test_a_grid_that_follows_by_a_cell_leaves_the_sidewalls_as_they_were():
+    """Before and after a step of the grid the ring under the wheel bears the same load; on the way none of its rows
+    appears at once.
+    """
+    belt, cell, rows = body_of(resolved("tire_bump")).belt, 0.003, 90
+
+    def gap_at(middle, first):
+        sidewalls = Softening(belt, rows, cell)
+        sidewalls.place(middle)
+        line = numpy.zeros(rows)
+        line[first : first + 30] = 4e4
+        for _ in range(40):
+            sidewalls.follow(line)
+        return sidewalls.gap[sidewalls.rows(rows)][first : first + 30]
+
+    assert gap_at(-0.5 * cell, 51) == pytest.approx(gap_at(0.5 * cell, 50), abs=1e-9)
+    course = [gap_at(part * cell, 50).mean() for part in numpy.linspace(-0.5, 0.5, 21)]
+    steps = numpy.diff(course)
+    assert abs(steps - steps.mean()).max() < 0.3 * abs(steps).max()
 
 
 def test_a_tire_that_an_engineer_recognises():

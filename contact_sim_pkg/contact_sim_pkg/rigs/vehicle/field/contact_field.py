@@ -92,14 +92,16 @@ class PressureField:
         self._field.reset()
         self._row, self.residual = None, 0.0
 
-    def roll_to(self, row: int) -> None:
-        """Set ``row`` of the road under row 0 of the grid, before each solve.
+    def roll_to(self, row: int, origin: float) -> None:
+        """Set ``row`` of the road under row 0 of the grid, ``origin`` [m] ahead of the wheel's centre, before each solve.
 
         The previous solution moves with the road. Several solves at one row repeat the instant.
         """
         if self._row is not None and row != self._row:
             self._field.roll(row - self._row)
         self._row = row
+        if self.softening is not None:
+            self.softening.place(origin + self.settings.rows // 2 * self.settings.cell_x)
 
     def solve(self, gap: Field, approach: float) -> float:
         """Load [N] at ``gap`` [rows, cols] [m] (undeformed, at zero approach) and ``approach`` [m].

@@ -165,7 +165,7 @@ class ContactField(ABC):
         self.is_clear(grids, 0.0)  # compiled here, whichever grid the run starts on
         for field in grids.both():
             try:
-                field.roll_to(self.road_row(field.settings))
+                field.roll_to(self.road_row(field.settings), self.origin(field.settings)[0])
                 # A start must not shake: what the field misses of the load would
                 approach = field.solve_load(self.gap(field.settings), load, min(AT_REST, field.settings.tolerance))
                 level = self.level_height(field)
@@ -212,9 +212,9 @@ class ContactField(ABC):
         assert self.contact is not None
         assert self.grids is not None
         gap = self.gap(field.settings)
-        field.roll_to(self.road_row(field.settings))
-        field.solve(gap, approach)
         origin_x, origin_y = self.origin(field.settings)
+        field.roll_to(self.road_row(field.settings), origin_x)
+        field.solve(gap, approach)
         self.published = FieldRecord(field.pressure, origin_x, origin_y, approach, self.travel, field.residual)
         level = self.level_height(field)
         if level is not None:  # the law is exact, the field its map

@@ -162,8 +162,8 @@ def arc_force(arc: SidewallArc) -> tuple[Field, Field]:
 
 class Softening:
     """What the sidewalls of a belt bear less than their linear foundation, over the lower half of the
-    ring: `start` an instant, `follow` each solution of the field, then solve again with the gap raised
-    by `opened`. Grids of any number of rows share it, middle on middle.
+    ring: `place` it, `start` an instant, `follow` each solution of the field, then solve again with the
+    gap raised by `opened`. Grids of any number of rows share it, middle on middle.
     """
 
     def __init__(self, belt: InflatedBelt, rows: int, cell_x: float) -> None:
@@ -172,12 +172,12 @@ class Softening:
         """
         assert belt.arc is not None
         self._arc, self._cell_x = belt.arc, cell_x
-        self._middle = max(math.ceil(0.5 * math.pi * belt.radius / cell_x), rows - rows // 2)
+        self._middle = max(math.ceil(0.5 * math.pi * belt.radius / cell_x) + 1, rows - rows // 2)
         count = 2 * self._middle + 1
         influence = inflated_influence(belt._replace(ring_compliance=0.0), count, 1, cell_x, 1.0)[:, 0]
         self._along = numpy.fft.rfft(numpy.concatenate((influence, [0.0], influence[:0:-1])))
-        angle = (numpy.arange(count) - self._middle) * cell_x / belt.radius
-        self._lowered: Field = numpy.maximum(numpy.cos(angle), 0.0) * (abs(angle) < 0.5 * math.pi)
+        self._angle: Field = (numpy.arange(count) - self._middle) * cell_x / belt.radius
+        self._radius = belt.radius
         self._closer, self._force = arc_force(belt.arc)
         self._slopes = numpy.diff(self._force)[[0, -1]] / numpy.diff(self._closer)[[0, -1]]
         self._linear = membrane_stiffness(belt.arc.half_angle) * belt.arc.pressure
@@ -185,11 +185,21 @@ class Softening:
         self.gap: Field = numpy.zeros(count)  # [m] that it opens
         self.bent: Field = numpy.zeros(count)  # [m] of the belt beside that of its loads: of its memory
         self._over, self._changed = OVER, math.inf
+        self.place(0.0)
 
     def reset(self) -> None:
         """Reset to an unloaded belt."""
         for field in (self.load, self.gap, self.bent):
             field.fill(0.0)
+
+    def place(self, middle: float) -> None:
+        """Set where the ``middle`` row lies ahead of the wheel's centre [m]: a grid follows the wheel by whole cells, the
+        ring stays with it.
+        """
+        angle = self._angle + middle / self._radius
+        below = 0.5 + (0.5 * math.pi - abs(angle)) * self._radius / self._cell_x
+        self._lower: Field = numpy.clip(below, 0.0, 1.0)  # part of a row that is of the lower half
+        self._lowered: Field = numpy.maximum(numpy.cos(angle), 0.0) * self._lower
 
     def rows(self, count: int) -> slice:
         """Place of a grid of so many rows in `load`, `gap` and `bent`."""
@@ -208,7 +218,7 @@ class Softening:
         load = self.load.copy()
         load[place] += line
         closer = self._bend(load) + (total + float(self._lowered @ self.load)) * self._cell_x * ring * self._lowered
-        softer = (self._linear * (closer + self.bent) - self._borne(closer + self.bent)) * (self._lowered > 0.0)
+        softer = (self._linear * (closer + self.bent) - self._borne(closer + self.bent)) * self._lower
         changed = float(abs(softer - self.load).max())
         if changed >= self._changed:  # the pass before was too long
             self._over = max(DAMPED * self._over, LEAST_OVER)

@@ -20,6 +20,7 @@ from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, e
 from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, FieldGrids, PressureField, make_grids
+from contact_sim_pkg.rigs.vehicle.field.coupling_rule import extent_of
 from contact_sim_pkg.rigs.vehicle.field.driver import ContactField
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.run.bodies import Bodies, CouplingStep
@@ -35,6 +36,11 @@ FIRST_PAUSE, LONGEST_PAUSE = 1, 24
 
 UNUSUAL, LEAST_UNUSUAL = 3.0, 0.05
 """Times the usual estimate of a step, and of the allowed error: a larger one is checked at once."""
+
+LONGER = 1.5
+"""Times the way of the last step that was checked: a longer one is checked at once, since three solutions on a road that
+changes may lie on a parabola by chance.
+"""
 
 WEIGHT, UNLUCKY = 0.125, 3.0
 """Of the newest value in a running mean; the largest error of a block over the root mean square."""
@@ -153,7 +159,8 @@ class Halved:
         gap = fine.gap(self._settings)
         try:
             # Always the same nodes of the road, so that its heights pass by unchanged
-            self._field.roll_to((row + row % 2) // 2)
+            origin = fine.origin(self._settings)[0] + row % 2 * self._settings.cell_x
+            self._field.roll_to((row + row % 2) // 2, origin)
             self._field.solve(numpy.ascontiguousarray(gap[row % 2 :: 2, ::2]), approach)
         except FieldError:
             self._field.reset()
@@ -192,7 +199,7 @@ class CouplingCheck:
 
     def reset(self) -> None:
         """Reset all but the buffers."""
-        self._pause, self._since, self._usual = FIRST_PAUSE, 0, 0.0
+        self._pause, self._since, self._usual, self._way = FIRST_PAUSE, 0, 0.0, math.inf
         for field in (self._tire, self._seat, *self._halves):
             if field is not None:
                 field.reset()
@@ -202,9 +209,11 @@ class CouplingCheck:
         self._since += 1
         unusual = error > max(UNUSUAL * self._usual, LEAST_UNUSUAL)
         self._usual += WEIGHT * (error - self._usual)
-        if not (unusual or self._since >= self._pause):
+        way = extent_of(step.drive.travel)
+        if not (unusual or way > LONGER * self._way or self._since >= self._pause):
             return False
-        self._since, self._pause = 0, self._pause if unusual else min(2 * self._pause, LONGEST_PAUSE)
+        self._pause = min(2 * self._pause, LONGEST_PAUSE) if self._since >= self._pause and not unusual else self._pause
+        self._since, self._way = 0, way
         return True
 
     def look(self, bodies: Bodies, step: CouplingStep, slopes: tuple[float, float]) -> Middle:

@@ -84,6 +84,7 @@ class RoadField(ContactField):
         steps = math.ceil(wide.rows / abs(way)) + 1
         if steps > MOST_STEPS:
             return None
+        field.roll_to(self.road_row(wide), self.origin(wide)[0])
         try:
             for step in range(1, steps):
                 self._tread_state.roll(round(step * way) - round((step - 1) * way))
