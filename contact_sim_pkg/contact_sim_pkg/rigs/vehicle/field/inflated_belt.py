@@ -176,7 +176,7 @@ class Softening:
         count = 2 * self._middle + 1
         influence = inflated_influence(belt._replace(ring_compliance=0.0), count, 1, cell_x, 1.0)[:, 0]
         self._along = numpy.fft.rfft(numpy.concatenate((influence, [0.0], influence[:0:-1])))
-        self._angle: Field = (numpy.arange(count) - self._middle) * cell_x / belt.radius
+        self._angle: Field = numpy.arange(-self._middle, self._middle + 1, dtype=numpy.float64) * (cell_x / belt.radius)
         self._radius = belt.radius
         self._closer, self._force = arc_force(belt.arc)
         self._slopes = numpy.diff(self._force)[[0, -1]] / numpy.diff(self._closer)[[0, -1]]
