@@ -4,6 +4,7 @@ and `pytest --check`, `pytest --random`.
 
 import gc
 import importlib.util
+import math
 import os
 import sys
 import zlib
@@ -14,6 +15,8 @@ from types import ModuleType
 import pytest
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
+
+from contact_sim_pkg.cli.output import working
 
 LAST_DOMAIN = 100  # 101, the last that needs no other ports than the system keeps free, is for one test alone
 REFUSED = ("numba", "rclpy")  # modules of the compiler and of ROS
@@ -63,6 +66,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    working.PATIENCE = working.REPEATED = math.inf  # on a busy machine any command may last a second
     if config.getoption("random"):
         settings.load_profile("random")
     else:  # hypothesis mixes in constants of the modules imported so far: draws would change with the tests before

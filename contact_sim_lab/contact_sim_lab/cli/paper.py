@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from contact_sim_pkg.cli.output.say import say
+from contact_sim_pkg.cli.output.say import say, tell
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
+from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Canvas
@@ -142,6 +143,7 @@ def _figure(
     owner = f"{paper.key}, figure {number}"
     values = values_of(owner, figure.parameters, given)
     place = _output(output, f"{paper.key}_figure_{number}.png", overwrite)
+    doing(f"{paper.short}, figure {number}: {figure.title}")
     found = drawn(figure, values)
     rows = [each.row() for each in found.numbers]
     save(place, found.draw, found.size, overwrite=overwrite)
@@ -209,6 +211,7 @@ def _system(
         raise PaperError(f"{paper.key}, system {name}: {needed}")
     values = values_of(f"{paper.key}, system {name}", system.parameters, given)
     place = _output(output, f"{paper.key}_{name}.png", overwrite, [] if source is None else [Path(source)])
+    doing(f"{paper.short}: {system.title}")
     result: SystemResult = load(system.run)(None if source is None else Path(source), values)
     if result.draw is not None:
         save(place, result.draw, result.size, overwrite=overwrite)
@@ -232,9 +235,7 @@ def _all(paper: Paper | None, output: Path | None, overwrite: bool, as_json: boo
     from contact_sim_pkg.records.table import Section
 
     chosen = papers() if paper is None else [paper]
-    rows = write_pages(
-        chosen, output or Path("docs/papers"), overwrite=overwrite, progress=lambda line: say(line, err=True)
-    )
+    rows = write_pages(chosen, output or Path("docs/papers"), overwrite=overwrite, progress=tell)
     counted = {
         verdict: sum(row["verdict"] == verdict for row in rows)
         for verdict in dict.fromkeys(row["verdict"] for row in rows)
