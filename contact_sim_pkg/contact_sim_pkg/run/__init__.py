@@ -6,11 +6,13 @@ from typing import Any
 
 
 class _Callable(ModuleType):
-    def __call__(self, scene: Any, directory: Any = None) -> Any:
+    def __call__(self, scene: Any, directory: Any = None, *, progress: bool = True) -> Any:
         """As `library.run`, under the name that `from contact_sim_pkg import run` gives it."""
         from contact_sim_pkg.public import on_use
 
-        return on_use("contact_sim_pkg", {"run": "contact_sim_pkg.library:run"})("run")(scene, directory)
+        return on_use("contact_sim_pkg", {"run": "contact_sim_pkg.library:run"})("run")(
+            scene, directory, progress=progress
+        )
 
 
 sys.modules[__name__].__class__ = _Callable
