@@ -33,5 +33,5 @@ ENERGIES = (
     _forgotten("ride.TrackRide.energies", "self.heave.load * float", "0.0 * float", "roller heave"),
     _forgotten("theory/motion.energies", "stored = 0.5", "stored = 0.0", "roller"),
     _forgotten("impact/outputs._ledger", "dissipated=heat", "dissipated=0.0 * heat", "impact"),
-    _forgotten("located.LocatedBody._collide", ".dissipated[0] += self", ".dissipated[0] += 0.0 * self", "block"),
+    _forgotten("located.LocatedBody._collide", ".dissipated[0] += self", ".dissipated[0] += 0.0 * self", "block alone"),
 )
