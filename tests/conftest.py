@@ -66,7 +66,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    working.PATIENCE = working.REPEATED = math.inf  # on a busy machine any command may last a second
+    working.PATIENCE = working.IN_A_FILE = working.REPEATED = (
+        math.inf
+    )  # on a busy machine any command may last a second
     if config.getoption("random"):
         settings.load_profile("random")
     else:  # hypothesis mixes in constants of the modules imported so far: draws would change with the tests before

@@ -142,6 +142,7 @@ def test_a_fault_of_a_value_is_in_words_of_python():
 
 def test_a_run_that_lasts_shows_what_it_does(capsys, monkeypatch):
     monkeypatch.setattr(working, "PATIENCE", 0.0)
+    monkeypatch.setattr(working, "IN_A_FILE", 0.0)
     monkeypatch.setattr(working, "LOOK", 0.001)
     monkeypatch.setattr(progress, "PLAIN_SECONDS", 0.0)
     contact_sim_pkg.run(load_scene("seat_ride", "duration=0.5"))

@@ -19,6 +19,7 @@ LONG = 20.0  # [s] that nothing here takes
 def impatient(monkeypatch):
     """A command is silent for too long at once."""
     monkeypatch.setattr(working, "PATIENCE", 0.0)
+    monkeypatch.setattr(working, "IN_A_FILE", 0.0)
     monkeypatch.setattr(working, "LOOK", 0.001)
     monkeypatch.setattr(progress, "PLAIN_SECONDS", 0.0)
 
@@ -41,11 +42,12 @@ def test_a_silent_command_says_what_it_does_and_how_far_it_is(capsys, impatient)
 def test_what_it_prints_ends_the_display_and_nothing_comes_after_its_end(capsys, impatient, monkeypatch):
     with working.working("bench thing"):
         until_displayed()
-        monkeypatch.setattr(working, "PATIENCE", math.inf)
+        monkeypatch.setattr(working, "IN_A_FILE", math.inf)
         say("the answer")
         assert working._STATE.display is None
         capsys.readouterr()
     monkeypatch.setattr(working, "PATIENCE", 0.0)
+    monkeypatch.setattr(working, "IN_A_FILE", 0.0)
     time.sleep(0.02)
     assert capsys.readouterr().err == ""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -13,7 +14,8 @@ if TYPE_CHECKING:
 
 __all__ = ["displayed_elsewhere", "doing", "hush", "working"]
 
-PATIENCE = 1.0  # [s] without a word before something is told
+PATIENCE = 1.0  # [s] without a word before something is told on a terminal
+IN_A_FILE = 2.0  # [s] the same where standard error is a file or a pipe: there it stays
 REPEATED = 3.0  # [s] the same where it has been told already
 LOOK = 0.1  # [s] between two looks at the clock
 
@@ -83,8 +85,14 @@ def _watch(over: threading.Event) -> None:
     while not over.wait(LOOK):
         with _STATE.lock:
             silent = time.monotonic() - _STATE.since
-            if _STATE.display is None and not _STATE.elsewhere and silent > (REPEATED if _STATE.told else PATIENCE):
+            if _STATE.display is None and not _STATE.elsewhere and silent > _patience():
                 _STATE.display = _displayed(_STATE.text)
+
+
+def _patience() -> float:
+    if _STATE.told:
+        return REPEATED
+    return PATIENCE if sys.stderr.isatty() else IN_A_FILE
 
 
 def _displayed(text: str) -> RunDisplay:
