@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from contact_sim_pkg.cli.output.working import doing
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Canvas
 
-    from contact_sim_lab.records.paper import Paper
+    from contact_sim_lab.records.paper import Number, Paper
 
 DOT = 110  # of a picture [1/inch]
 
@@ -153,7 +153,7 @@ def _figure(
             "values": values, "numbers": rows, "output": str(place),
         })  # fmt: skip
     else:
-        shown = [_line(row) for row in rows]
+        shown = [_line(each) for each in found.numbers]
         title = f"{paper.short}, figure {number}: {figure.title}"
         show_sections([Section(title, shown, f"{figure.kind}: {figure.judged_by}\ndrawn in {place}")])
     _end([row["verdict"] for row in rows])
@@ -165,12 +165,13 @@ def _end(verdicts: Sequence[str]) -> None:
         click.get_current_context().exit(1)
 
 
-def _line(row: Mapping[str, Any]) -> dict[str, Any]:
+def _line(number: Number) -> dict[str, Any]:
     """A number of a figure as a person reads it."""
+    row = number.row()
     values = {key: None if row[key] is None else f"{row[key]:.6g}" for key in ("expected", "obtained")}
     allowed = f"{row['tolerance']:.2g}{' of it' if row['relative'] else ''}" if row["expected"] is not None else ""
     return {
-        "quantity": row["quantity"], "unit": row["unit"], **values, "difference": row["difference"], "allowed": allowed,
+        "quantity": row["quantity"], "unit": row["unit"], **values, "difference": number.shown_difference(3), "allowed": allowed,
         "verdict": row["verdict"], "origin of the expected value": row["origin"], "note": row["note"],
     }  # fmt: skip
 
