@@ -4,7 +4,6 @@ and `pytest --check`, `pytest --random`.
 
 import gc
 import importlib.util
-import math
 import os
 import sys
 import zlib
@@ -15,8 +14,6 @@ from types import ModuleType
 import pytest
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
-
-from contact_sim_pkg.cli.output import working
 
 LAST_DOMAIN = 100  # 101, the last that needs no other ports than the system keeps free, is for one test alone
 REFUSED = ("numba", "rclpy")  # modules of the compiler and of ROS
@@ -34,6 +31,7 @@ os.environ["ROS_DOMAIN_ID"] = str(
 )
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ["CONTACT_BENCH_PLUGINS"] = "off"  # what else is installed here is no part of the tests
+os.environ["CONTACT_BENCH_PROGRESS"] = "off"  # on a busy machine any command may last a second
 os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # Every test with `@given` draws the same in every run; `pytest --random` draws anew.
@@ -66,9 +64,6 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    working.PATIENCE = working.IN_A_FILE = working.REPEATED = (
-        math.inf
-    )  # on a busy machine any command may last a second
     if config.getoption("random"):
         settings.load_profile("random")
     else:  # hypothesis mixes in constants of the modules imported so far: draws would change with the tests before

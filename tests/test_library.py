@@ -141,6 +141,7 @@ def test_a_fault_of_a_value_is_in_words_of_python():
 
 
 def test_a_run_that_lasts_shows_what_it_does(capsys, monkeypatch):
+    monkeypatch.delenv(working.SWITCH)
     monkeypatch.setattr(working, "PATIENCE", 0.0)
     monkeypatch.setattr(working, "IN_A_FILE", 0.0)
     monkeypatch.setattr(working, "LOOK", 0.001)

@@ -18,6 +18,7 @@ LONG = 20.0  # [s] that nothing here takes
 @pytest.fixture
 def impatient(monkeypatch):
     """A command is silent for too long at once."""
+    monkeypatch.delenv(working.SWITCH)
     monkeypatch.setattr(working, "PATIENCE", 0.0)
     monkeypatch.setattr(working, "IN_A_FILE", 0.0)
     monkeypatch.setattr(working, "LOOK", 0.001)
@@ -60,6 +61,13 @@ def test_a_line_that_was_told_is_not_said_twice_at_once(capsys, impatient):
     assert "thing: case 1 of 2\n" in capsys.readouterr().err
 
 
+def test_it_can_be_switched_off(impatient, monkeypatch):
+    monkeypatch.setenv(working.SWITCH, "off")
+    with working.working("bench thing"):
+        time.sleep(0.02)
+        assert working._STATE.display is None
+
+
 def test_a_display_of_its_own_is_alone(impatient):
     with working.working("bench thing"), working.displayed_elsewhere():
         time.sleep(0.02)
@@ -82,6 +90,7 @@ def test_on_a_terminal_it_is_drawn_on_standard_error_and_removed_and_the_answer_
 
 
 def test_every_command_is_watched_unless_it_displays_itself(monkeypatch):
+    monkeypatch.delenv(working.SWITCH)
     watched = []
     for name in bench.list_commands(None):
         with monkeypatch.context() as patch:

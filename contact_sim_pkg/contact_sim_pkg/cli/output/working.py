@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import threading
 import time
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["displayed_elsewhere", "doing", "hush", "working"]
 
+SWITCH = "CONTACT_BENCH_PROGRESS"
 PATIENCE = 1.0  # [s] without a word before something is told on a terminal
 IN_A_FILE = 2.0  # [s] the same where standard error is a file or a pipe: there it stays
 REPEATED = 3.0  # [s] the same where it has been told already
@@ -37,7 +39,12 @@ _STATE = _State()
 
 @contextmanager
 def working(text: str) -> Iterator[None]:
-    """While a command runs: say what it does where it has been silent for a second."""
+    """While a command runs: say what it does where it has been silent for a second, unless the environment has
+    `CONTACT_BENCH_PROGRESS=off`.
+    """
+    if os.environ.get(SWITCH) == "off":
+        yield
+        return
     over = threading.Event()
     doing(text)
     watch = threading.Thread(target=_watch, args=(over,), daemon=True)
