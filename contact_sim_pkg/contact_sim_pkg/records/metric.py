@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 __all__ = [
-    "CLOSED_FORM", "GOOD", "LIMIT", "NO_BAND", "OUTSIDE", "REQUIRED", "UNDECIDED", "USUAL", "Band", "Metric", "Published",
+    "CLOSED_FORM", "GOOD", "LIMIT", "MET", "NO_BAND", "OUTSIDE", "REQUIRED", "UNDECIDED", "USUAL", "Band", "Metric", "Published",
     "judged",
 ]  # fmt: skip
 
-GOOD, USUAL, OUTSIDE, UNDECIDED, NO_BAND = "good", "usual", "outside", "undecided", "no band"
+GOOD, USUAL, MET, OUTSIDE, UNDECIDED, NO_BAND = "good", "usual", "met", "outside", "undecided", "no band"
 LIMIT, USUAL_RANGE, CLOSED_FORM, REQUIRED = "limit", "usual", "closed form", "yours"
 ROUNDING = 1e-9
 """of an end of a band: forty cells of 3.75 mm are 150 mm"""
@@ -60,7 +60,8 @@ class Metric(NamedTuple):
     """in `unit`; nan where it is not defined"""
     unit: str
     verdict: str
-    """good, usual, outside, undecided (a limit of one's own lies within the spread) or no band"""
+    """good (inside a limit that one can miss), usual, met (equal to a closed form: the run checks itself), outside,
+    undecided (a limit of one's own lies within the spread) or no band"""
     band: Band | None
     remark: str = ""
     """what the verdict means in words, or why there is no band"""
@@ -76,12 +77,14 @@ class Metric(NamedTuple):
 
 
 def judged(value: float, band: Band | None) -> str:
-    """The verdict on a value: a limit, a closed form or a limit of one's own that holds is good, a usual range usual."""
+    """The verdict on a value: a limit, of a standard or of one's own, that holds is good, a usual range usual, and a
+    closed form met.
+    """
     if band is None or not math.isfinite(value):
         return NO_BAND
     if not band.holds(value):
         return OUTSIDE
-    return USUAL if band.kind == USUAL_RANGE else GOOD
+    return {USUAL_RANGE: USUAL, CLOSED_FORM: MET}.get(band.kind, GOOD)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,6 +19,8 @@ SCALARS = ("load", "peak", "mean", "area", "lame_a", "lame_b", "lame_n", "centre
 _scalars_of = attrgetter(*SCALARS)
 AROUND_LARGEST_LOAD = 20
 """Fields kept before and after the one with the largest load."""
+BLOCK = 0.02
+"""[m] side of the square over which a peak is averaged: a tread block, more than a cell"""
 HISTORY_ROWS = 4000
 """Most rows of the history of the line load."""
 
@@ -60,7 +62,8 @@ class FieldReader:
         self._first = self._first or (time, message)
         if self._touch is None and message.load > 0.0 and self._scalars and self._scalars[-1][1] <= 0.0:
             self._touch = time, message
-        self._scalars.append((time, *_scalars_of(message), *size))
+        over_block = peak_over(pressure, message.cell_x, message.cell_y, BLOCK)
+        self._scalars.append((time, *_scalars_of(message), *size, over_block))
         # Line load along x for the space-time picture
         line = np.zeros((1, self._widest.rows))
         line[0, row : row + message.rows] = pressure.sum(axis=1, dtype=np.float64) * message.cell_y
@@ -99,7 +102,7 @@ class FieldReader:
         time, *columns = np.array(self._scalars).T
         return FieldSeries(
             time=time,
-            **dict(zip((*SCALARS, "length", "width"), columns, strict=True)),
+            **dict(zip((*SCALARS, "length", "width", "block_peak"), columns, strict=True)),
             highest=pressure_map(self._highest, self._highest.pressure),
             highest_time=self._highest_time,
             average=pressure_map(self._widest, self._total / time.size),
@@ -153,6 +156,34 @@ def _size(loaded: Any, message: Any) -> tuple[float, float]:
     # From the first loaded line to the last
     length, width = (len(each) - int(each.argmax()) - int(each[::-1].argmax()) for each in (rows, cols))
     return length * message.cell_x, width * message.cell_y
+
+
+def peak_over(pressure: Any, cell_x: float, cell_y: float, side: float) -> float:
+    """Largest mean pressure [Pa] over squares of ``side`` [m], parts of cells included; of ``pressure`` [rows, cols]
+    [Pa], even in each cell of ``cell_x`` by ``cell_y`` [m].
+
+    The integral over a square is bilinear in its place as long as no edge passes one of a cell, so the largest lies
+    where one edge along x and one along y does: the near or the far ones.
+    """
+    rows, cols = (
+        min(side / cell, float(size)) for cell, size in zip((cell_x, cell_y), np.shape(pressure), strict=True)
+    )
+    integral = np.pad(np.asarray(pressure, dtype=np.float64), ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
+    return float(_strips(_strips(integral, rows).T, cols).max()) / (rows * cols)
+
+
+def _strips(integral: FloatArray, cells: float) -> FloatArray:
+    """Integrals over the strips of so many ``cells`` that begin or end at an edge of a cell, along the first axis of
+    an ``integral`` [edges, ...].
+    """
+    whole, part = divmod(cells, 1.0)
+    count = int(whole)
+    if part < 1e-9:
+        return integral[count:] - integral[: integral.shape[0] - count]
+    begun, ended = integral[: -count - 1], integral[count + 1 :]
+    from_begin = (1.0 - part) * integral[count:-1] + part * ended - begun
+    to_end = ended - (1.0 - part) * integral[1 : integral.shape[0] - count] - part * begun
+    return np.concatenate((from_begin, to_end))
 
 
 def _place(inner: Any, outer: Any) -> tuple[int, int]:

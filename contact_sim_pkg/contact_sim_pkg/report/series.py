@@ -88,6 +88,8 @@ class FieldSeries(NamedTuple):
     length: FloatArray
     width: FloatArray
     """[m] along x and y between the outermost loaded cells, these included; 0 without contact"""
+    block_peak: FloatArray
+    """[Pa] largest mean pressure over a square of 20 mm, a tread block"""
     highest: PressureMap
     """map at the instant of the largest peak"""
     highest_time: float

@@ -58,15 +58,21 @@ class Maker(NamedTuple):
         )  # fmt: skip
 
 
-def near(value: float, share: float, source: str) -> Band:
-    """Band of a closed form: ``value`` and a ``share`` of it on either side."""
-    reach = abs(value) * share
+ROUNDING = 1e-9
+"""of the scale of its terms, by which a closed form may be missed"""
+
+
+def near(value: float, share: float, source: str, scale: float = 0.0) -> Band:
+    """Band of a closed form: ``value`` and a ``share`` of it on either side; what is left of the difference of
+    terms as large as ``scale`` is rounding.
+    """
+    reach = abs(value) * share + ROUNDING * scale
     return Band(value - reach, value + reach, CLOSED_FORM, source)
 
 
-def at_most(value: float, source: str) -> Band:
-    """Band of a closed form that bounds from above."""
-    return Band(-math.inf, value, CLOSED_FORM, source)
+def at_most(value: float, source: str, kind: str = CLOSED_FORM) -> Band:
+    """Band that bounds from above: by a closed form, or by a limit."""
+    return Band(-math.inf, value, kind, source)
 
 
 def energy_residual(ledger: LedgerSeries, duration: float, scene: Mapping[str, object]) -> Metric:

@@ -10,7 +10,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from contact_sim_pkg.files import as_cell
-from contact_sim_pkg.records.metric import GOOD, NO_BAND, OUTSIDE, UNDECIDED, USUAL, Band, Metric
+from contact_sim_pkg.records.metric import CLOSED_FORM, GOOD, MET, NO_BAND, OUTSIDE, UNDECIDED, USUAL, Band, Metric
 from contact_sim_pkg.report.rows import number
 
 __all__ = ["csv_of", "junit_of", "lines_of", "row_of", "rows_of", "value_text", "verdict_line", "verdict_text"]
@@ -91,7 +91,10 @@ def verdict_line(rows: Sequence[Mapping[str, Any]]) -> str:
     doubts = list(dict.fromkeys(text for each in metrics for text in each.broken))
     sure = [each.verdict for each in metrics if not each.broken]
     counts = {verdict: sure.count(verdict) for verdict in (GOOD, USUAL, NO_BAND)}
-    rest = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
+    checks = [each for each in metrics if each.band is not None and each.band.kind == CLOSED_FORM]
+    met = sum(each.verdict == MET for each in checks)
+    closed = [f"{met} of {len(checks)} closed forms met"] if checks else []
+    rest = ", ".join([*(f"{count} {verdict}" for verdict, count in counts.items() if count), *closed])
     parts = [
         f"OUTSIDE: {', '.join(outside)}" if outside else "",
         f"UNDECIDED: {', '.join(undecided)}" if undecided else "",

@@ -90,7 +90,7 @@ def _elastic(events: ImpactEvents) -> tuple[float, float, float]:
 
 def _below_yield(recording: Recording) -> Band | None:
     strength = ((recording.scene.get(IMPACT) or {}).get("sample") or {}).get("yield_strength")
-    return None if strength is None else at_most(1.6e-6 * float(strength), "first yield, 1.60 Y (Johnson, 6.1)")
+    return None if strength is None else at_most(1.6e-6 * float(strength), "first yield, 1.60 Y (Johnson, 6.1)", LIMIT)
 
 
 def _drop_speed(recording: Recording, events: ImpactEvents) -> Band | None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from contact_sim_pkg.bag.texts import excitation_of_text
 from contact_sim_pkg.pressure.cushion import VALID_STRAIN
-from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.records.metric import LIMIT, Metric
 from contact_sim_pkg.report.facts import EXCITATION_KEY
 from contact_sim_pkg.report.metrics.exposure import exposure_metrics
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of
@@ -41,7 +41,12 @@ def seat_metrics(recording: Recording) -> list[Metric]:
     found += cushion_metrics(recording, make)
     share = 100.0 * float((contact.normal <= 0.0).mean())
     lifts = make.make(
-        "lift_off", "time without load", share, "%", band=at_most(0.0, "contact is kept"), count=contact.normal.size
+        "lift_off",
+        "time without load",
+        share,
+        "%",
+        band=at_most(0.0, "contact is kept", LIMIT),
+        count=contact.normal.size,
     )
     return [*found, lifts, *occupant_metrics(recording, make.make)]
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from contact_sim_pkg.excitation.kinds import RoadKind, kind_known
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.report.metrics.maker import Maker, conditions_of, near
-from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray, PressureMap, Recording
+from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray, Recording
 from contact_sim_pkg.report.signal.confidence import spread_of_mean
 from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import AxleSeries, axle_of
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
@@ -23,8 +24,6 @@ STANDING_RANGE = 0.1
 """Share of the standing load by which the load may differ where the standing tire is meant."""
 STIFFNESS_RANGE = 0.2
 """Share of the standing load over which the stiffness is a slope."""
-PATCH = 0.02
-"""[m] side of the square over which a peak pressure is averaged: a tread block, more than a cell"""
 LOWEST_RINGING = 15.0
 """[Hz] below which the axle's force follows body and wheel"""
 RINGING_TIME = 0.3
@@ -43,6 +42,8 @@ class _Ride(NamedTuple):
     make: Any
     rough: bool
     """whether the road is uneven all along, so that a mean needs time"""
+    event: bool
+    """whether the road is even but for one obstacle, so that what varies is over when it is passed"""
 
 
 def tire_metrics(recording: Recording) -> list[Metric]:
@@ -54,7 +55,7 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     standing, conditions = standing_load_of(recording.scene), _conditions(recording)
     ride = _Ride(
         recording, contact, standing, Maker(TIRE, f"{TIRE}/force", window, conditions).make,
-        str(conditions.get("road", "")).startswith("class"),
+        str(conditions.get("road", "")).startswith("class"), _has_one_obstacle(recording.scene),
     )  # fmt: skip
     field = recording.fields.get(TIRE)
     stiffness = None if standing is None else _stiffness(contact, standing)
@@ -62,6 +63,14 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     if field is not None and standing is not None:
         found += _footprint(ride, field, standing)
     return [*found, *_along(ride)]
+
+
+def _has_one_obstacle(scene: Mapping[str, Any]) -> bool:
+    """Whether the road of a scene is even but for one obstacle."""
+    road = scene.get("road")
+    known: RoadKind | None = kind_known("road", road) if isinstance(road, Mapping) else None
+    obstacle = None if known is None else known.obstacle()
+    return obstacle is not None and obstacle.period is None
 
 
 def _conditions(recording: Recording) -> dict[str, float | str]:
@@ -78,16 +87,22 @@ def _conditions(recording: Recording) -> dict[str, float | str]:
     found["belt"] = "yes" if effects.get("sidewall_compliance") is not None else "no"
     if road is not None and recording.duration > 0.0:
         found["speed_m_s"] = float(road.travel.distance[-1] - road.travel.distance[0]) / recording.duration
+    found["largest_slip"] = 0.0
     if shear is not None:
         found["largest_slip"] = float(np.hypot(shear.slip, np.tan(shear.slip_angle)).max())
     return found
 
 
 def _load(ride: _Ride) -> Iterator[Metric]:
-    """Variation and mean of the load, time off the road."""
+    """Of an obstacle the largest and the smallest load and how long the tire is off the road; of any other road the
+    load's variation and mean over the run, and the share of it off the road.
+    """
     normal, rate, count = ride.contact.normal, 1.0 / ride.contact.sample_period, ride.contact.normal.size
     # The asperities carry a share of the weight beside the contact.
     carried = normal + ride.contact.impulses if ride.contact.impulses.size else normal
+    if ride.event:
+        yield from _load_of_event(ride, carried)
+        return
     doubts = _short(ride)
     lifted = 100.0 * float((normal <= 0.0).mean())
     lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
@@ -101,6 +116,19 @@ def _load(ride: _Ride) -> Iterator[Metric]:
     band = None if ride.standing is None else near(ride.standing, 0.05, "weight, mean over the run")
     yield ride.make("load", "load, mean", carried.mean(), "N", band=band, broken=doubts, count=count,
                     spread=spread_of_mean(carried, rate), remark=f"{carried.min():.4g} to {carried.max():.4g} N")  # fmt: skip
+
+
+def _load_of_event(ride: _Ride, carried: FloatArray) -> Iterator[Metric]:
+    """What an obstacle does to the load, however long the run goes on behind it."""
+    times, count = ride.contact.time, carried.size
+    for key, name, place in (
+        ("load_largest", "load, largest", int(carried.argmax())),
+        ("load_smallest", "load, smallest", int(carried.argmin())),
+    ):
+        share = "" if ride.standing is None else f"{carried[place] / ride.standing:.3g} of the standing load, "
+        yield ride.make(key, name, carried[place], "N", count=count, remark=f"{share}at {times[place]:.3f} s")
+    lifted = 1e3 * ride.contact.sample_period * float(np.count_nonzero(ride.contact.normal <= 0.0))
+    yield ride.make("off_the_road", "time off the road", lifted, "ms", count=count)
 
 
 def _short(ride: _Ride) -> tuple[str, ...]:
@@ -143,19 +171,9 @@ def _footprint(ride: _Ride, field: FieldSeries, standing: float) -> Iterator[Met
                         remark="median about the standing load")  # fmt: skip
     yield ride.make("peak_pressure", "peak pressure", 1e-3 * float(field.peak.max()), "kPa", quantity="tire_peak_pressure",
                     topic=topic, count=field.time.size, remark=f"at {field.highest_time:.3f} s")  # fmt: skip
-    yield ride.make("patch_pressure", "peak over 20 by 20 mm", 1e-3 * peak_over(field.highest, PATCH), "kPa", topic=topic,
-                    remark="squares of a tread block")  # fmt: skip
-
-
-def peak_over(grid: PressureMap, side: float) -> float:
-    """Largest mean pressure [Pa] over squares of ``side`` [m], of whole cells."""
-    rows, cols = (
-        min(max(1, round(side / cell)), size)
-        for cell, size in zip((grid.cell_x, grid.cell_y), grid.pressure.shape, strict=True)
-    )
-    sums = np.pad(grid.pressure, ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
-    squares = sums[rows:, cols:] - sums[:-rows, cols:] - sums[rows:, :-cols] + sums[:-rows, :-cols]
-    return float(squares.max()) / (rows * cols)
+    place = int(field.block_peak.argmax())
+    yield ride.make("patch_pressure", "peak over 20 by 20 mm", 1e-3 * float(field.block_peak[place]), "kPa", topic=topic,
+                    count=field.time.size, remark=f"squares of a tread block, at {field.time[place]:.3f} s")  # fmt: skip
 
 
 def _along(ride: _Ride) -> Iterator[Metric]:
