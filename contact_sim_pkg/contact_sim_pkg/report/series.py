@@ -87,7 +87,7 @@ class FieldSeries(NamedTuple):
     """exponent of that curve"""
     length: FloatArray
     width: FloatArray
-    """[m] along x and y between the outermost loaded cells, these included; 0 without contact"""
+    """[m] along x and y between the outermost edges, which lie between cells; 0 without contact"""
     block_peak: FloatArray
     """[Pa] largest mean pressure over a square of 20 mm, a tread block"""
     highest: PressureMap

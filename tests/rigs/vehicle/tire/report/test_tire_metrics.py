@@ -5,7 +5,7 @@ import pytest
 import scipy.stats
 from tests.report import uneven_bag as known
 
-from contact_sim_pkg.report.field_series import peak_over
+from contact_sim_pkg.report.field_series import extent, peak_over
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.rigs.vehicle.tire.report.metrics import tire_metrics
 
@@ -39,14 +39,26 @@ def test_the_stiffness_is_the_slope_of_load_over_approach_about_the_standing_loa
 def test_the_footprint_is_the_median_of_the_fields_about_the_standing_load(metrics):
     about = abs(FIELD["load"] - known.STANDING) <= 0.1 * known.STANDING
     assert 2 < about.sum() < known.BLOCKS - 1
+    fields = known.PRESSURES["tire"].astype(float)
     sizes = {
-        "length": 1e3 * known.CELL_X * np.array(known.LENGTHS),
-        "width": 1e3 * known.CELL_Y * np.array(known.WIDTHS),
+        "length": 1e3 * known.CELL_X * np.array([extent(field) for field in fields]),
+        "width": 1e3 * known.CELL_Y * np.array([extent(field.T) for field in fields]),
     }
     for key, values in {**sizes, "area": 1e4 * FIELD["area"], "mean_pressure": 1e-3 * FIELD["mean"]}.items():
         assert metrics[key].value == pytest.approx(np.median(values[about]), rel=1e-9)
     assert metrics["peak_pressure"].value == pytest.approx(1e-3 * FIELD["peak"].max())
     assert metrics["peak_pressure"].remark.endswith(f"at {known.STAMPS[FIELD['peak'].argmax()] * 1e-9:.3f} s")
+
+
+def test_a_footprint_ends_where_the_square_of_its_pressure_comes_to_0():
+    """An ellipse of Hertz, whose square is a parabola, within a tenth of a cell wherever its middle lies."""
+    for shift in (0.0, 0.3, 0.5):
+        x, y = np.arange(40) - 19.5 + shift, np.arange(30) - 14.5
+        pressure = np.sqrt(np.maximum(1.0 - (x[:, None] / 13.3) ** 2 - (y[None, :] / 9.7) ** 2, 0.0))
+        assert extent(pressure) == pytest.approx(2 * 13.3, abs=0.1)
+        assert extent(pressure.T) == pytest.approx(2 * 9.7, abs=0.1)
+    assert extent(np.zeros((4, 5))) == 0.0
+    assert extent(np.ones((4, 5))) == 4.0
 
 
 def test_the_peak_over_a_tread_block_is_the_largest_mean_over_a_square(metrics):
