@@ -381,3 +381,36 @@ def test_a_road_that_fails_is_refused_and_named(bench, surface, heights, cause):
     text = bench("run", "tire_bump", "--offline", "--no-record", "--set", "road={kind: mud}", status=2)
     assert f"road mud of the plug-in mud fails: {cause}" in text
     assert "Traceback" not in text
+
+
+HUM = """
+from typing import Literal
+from contact_sim_pkg.excitation.kinds import VibrationKind
+
+class Hum(VibrationKind):
+    kind: Literal["hum"]
+    {}
+
+    def describe(self):
+        return {{}}
+
+    def acceleration(self, t):
+        return t, t[:1]
+"""
+
+
+@pytest.mark.parametrize(
+    ("signal", "cause"),
+    [
+        ("def signal(self, setting): raise RuntimeError('no hum')", "RuntimeError: no hum"),
+        (
+            "def signal(self, setting): return self",
+            "TypeError: acceleration does not give two arrays of one value a time",
+        ),
+    ],
+)
+def test_a_vibration_that_fails_is_refused_and_named(bench, signal, cause):
+    bench.add("hum", HUM.format(signal), vibrations="hum = hum:Hum")
+    text = bench("run", "seat_ride", "--offline", "--no-record", "--set", "vibration={kind: hum}", status=2)
+    assert f"vibration hum of the plug-in hum fails: {cause}" in text
+    assert "Traceback" not in text

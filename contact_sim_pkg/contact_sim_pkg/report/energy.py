@@ -10,9 +10,9 @@ AT_REST = 1e-6  # [J] smallest scale of a residual: a rig at rest exchanges only
 
 
 def throughput(ledger: LedgerSeries) -> float:
-    """Largest magnitude that any entry of the ledger reaches in [J]."""
+    """Largest magnitude that any entry of the ledger reaches in [J], NaN where one has a sample that is unknown."""
     entries = (ledger.supplied, ledger.kinetic, ledger.potential, ledger.stored, ledger.dissipated)
-    return max(float(np.abs(entry).max()) for entry in entries)
+    return float(np.max([np.abs(entry).max() for entry in entries]))
 
 
 def residual_scale(ledger: LedgerSeries) -> float:

@@ -29,7 +29,7 @@ LOOK_SECONDS = 0.05  # between two looks at the processes
 SEGMENT_SECONDS = 1.0  # between two looks at their shared memory, until the run has settled
 SETTLING_SECONDS = 5.0  # after the beginning of the run
 LATE_SEGMENT_SECONDS = 20.0  # from then on: a look costs 3 ms a process
-END_SECONDS = 15.0  # for the processes to end by themselves once the run has ended
+END_SECONDS = 40.0  # for the processes to end by themselves once the run has ended
 
 
 class Supervisor:

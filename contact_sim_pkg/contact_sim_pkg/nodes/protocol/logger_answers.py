@@ -9,7 +9,7 @@ from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, RecordedFol
 from contact_sim_pkg.nodes.protocol.window import BlockWindow
 from contact_sim_pkg.records.messages import BenchRecorded
 
-CLOSE_SECONDS = 10.0  # for the logger to close its bag after the last block
+CLOSE_SECONDS = 30.0  # for the logger to close its bag after the last block, on a busy machine too
 STOP_SECONDS = 4.0  # for the same after a signal; `ros2 launch` sends a second one after 5 s
 
 

@@ -10,6 +10,7 @@ from contact_sim_pkg.files import printable
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.records.registry import announced
 from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.report.energy import throughput
 from contact_sim_pkg.report.metrics.maker import ENERGY, Maker, energy_residual
 from contact_sim_pkg.report.metrics.mat import LOADED, mat_metrics
 from contact_sim_pkg.report.rig_reports import reports_of
@@ -68,7 +69,8 @@ def _lists(recording: Recording) -> list[list[Metric]]:
     listed = {metric.topic.partition("/")[0] for each in found for metric in each}
     rest = [load_metrics(name, contact) for name, contact in recording.contacts.items() if name not in listed]
     ledger = recording.ledger
-    energy = [] if ledger is None else [energy_residual(ledger, recording.duration, recording.scene)]
+    exchanged = ledger is not None and throughput(ledger) != 0.0  # where nothing is, nothing is judged
+    energy = [] if ledger is None or not exchanged else [energy_residual(ledger, recording.duration, recording.scene)]
     return [[_with_warning(metric, recording) for metric in each] for each in (*found, *rest, energy) if each]
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from contact_sim_pkg.excitation.kinds import RoadKind, kind_known
 from contact_sim_pkg.records.metric import CLOSED_FORM, Band, Metric, judged
-from contact_sim_pkg.report.energy import relative_residual, throughput
+from contact_sim_pkg.report.energy import relative_residual
 from contact_sim_pkg.report.metrics.bands import Conditions, band_of
 from contact_sim_pkg.report.series import LedgerSeries
 
@@ -78,15 +78,11 @@ def at_most(value: float, source: str, kind: str = CLOSED_FORM) -> Band:
 def energy_residual(ledger: LedgerSeries, duration: float, scene: Mapping[str, object]) -> Metric:
     """Largest residual of the energy over its throughput.
 
-    What a step errs by is bounded by the requested accuracy; more is an energy that the ledger does not have. Where
-    nothing is exchanged, nothing is judged.
+    What a step errs by is bounded by the requested accuracy; more is an energy that the ledger does not have.
     """
-    maker = Maker(ENERGY, "bench/energy", (0.0, duration))
-    if throughput(ledger) == 0.0:
-        return maker.make("residual", "energy residual", 0.0, "", count=ledger.time.size, remark="no energy exchanged")
     accuracy = scene.get("accuracy")
     bound = float(accuracy) if isinstance(accuracy, (int, float)) else REALTIME_RESIDUAL
-    return maker.make(
+    return Maker(ENERGY, "bench/energy", (0.0, duration)).make(
         "residual", "energy residual", relative_residual(ledger), "", band=at_most(bound, "requested accuracy"),
         count=ledger.time.size, remark="share of the largest entry that the entries leave open",
     )  # fmt: skip
