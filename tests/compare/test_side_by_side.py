@@ -9,6 +9,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.compare.side_by_side import Compared, Curve, misses, read_tolerances, side_by_side
 from contact_sim_pkg.files import FileRefusedError
 from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.report.comparison.rows import rows_of, table_rows
 
 
 def metric(key, value, verdict="good"):
@@ -26,6 +27,18 @@ def test_what_moved_most_stands_first():
     assert (sides[0].change, sides[0].relative) == (2.0, 2.0)
     assert math.isnan(sides[-1].values[0])
     assert sides[-1].verdict == "absent → good"
+
+
+def test_each_side_keeps_its_spread_and_its_numerical_error():
+    one, other = (
+        metric("a", value)._replace(basis="event", error=error, spread=0.5)
+        for value, error in ((1.0, 0.25), (2.0, math.nan))
+    )
+    (side,) = side_by_side([Compared("A", [one], {}), Compared("B", [other], {})])
+    (row,) = rows_of(["A", "B"], [side])
+    assert (row["basis"], row["error of A"], row["error of B"], row["spread of B"]) == ("event", 0.25, None, 0.5)
+    (line,) = table_rows(["A", "B"], [side])
+    assert (line["A"], line["rests on"]) == ("1 ± 0.5", "event, error 0.25")
 
 
 @pytest.fixture

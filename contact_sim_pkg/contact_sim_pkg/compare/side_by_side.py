@@ -32,6 +32,12 @@ class ComparedMetric(NamedTuple):
     verdicts: tuple[str, ...]
     broken: tuple[str, ...]
     """assumptions that do not hold in a run"""
+    basis: str = ""
+    """event, stationary, state or self-check"""
+    errors: tuple[float, ...] = ()
+    """numerical error in each run, in `unit`; nan where it is not known"""
+    spreads: tuple[float, ...] = ()
+    """half the 95 % interval in each run, in `unit`; nan where it is not known"""
 
     @property
     def change(self) -> float:
@@ -113,7 +119,9 @@ def _side(runs: Sequence[Metric | None]) -> ComparedMetric:
     broken = dict.fromkeys(text for each in runs if each is not None for text in each.broken)
     return ComparedMetric(
         first.key, first.name, first.unit, tuple(math.nan if each is None else each.value for each in runs),
-        tuple("absent" if each is None else each.verdict for each in runs), tuple(broken),
+        tuple("absent" if each is None else each.verdict for each in runs), tuple(broken), first.basis,
+        tuple(math.nan if each is None else each.error for each in runs),
+        tuple(math.nan if each is None else each.spread for each in runs),
     )  # fmt: skip
 
 

@@ -10,12 +10,16 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 __all__ = [
-    "CLOSED_FORM", "GOOD", "LIMIT", "MET", "NO_BAND", "OUTSIDE", "REQUIRED", "UNDECIDED", "USUAL", "Band", "Metric", "Published",
-    "judged",
+    "CLOSED_FORM", "EVENT", "GOOD", "LIMIT", "MET", "NO_BAND", "OUTSIDE", "REQUIRED", "SELF_CHECK", "STATE", "STATIONARY",
+    "UNDECIDED", "USUAL", "Band", "Metric", "Published", "judged",
 ]  # fmt: skip
 
 GOOD, USUAL, MET, OUTSIDE, UNDECIDED, NO_BAND = "good", "usual", "met", "outside", "undecided", "no band"
 LIMIT, USUAL_RANGE, CLOSED_FORM, REQUIRED = "limit", "usual", "closed form", "yours"
+EVENT, STATIONARY, STATE, SELF_CHECK = "event", "stationary", "state", "self-check"
+"""What a metric is a number of: what happens once in its window (largest, smallest, duration); what all of the window
+shows alike, and a longer one more surely; how something stands; the run beside a closed form.
+"""
 ROUNDING = 1e-9
 """of an end of a band: forty cells of 3.75 mm are 150 mm"""
 
@@ -68,12 +72,16 @@ class Metric(NamedTuple):
     broken: tuple[str, ...] = ()
     """assumptions of the number that do not hold"""
     spread: float = math.nan
-    """half the 95 % interval, in `unit`; nan where it is not known"""
+    """half the 95 % interval of what chance does to it, in `unit`; nan where it is not known"""
     size: int = 0
     """segments, samples or events that it is taken from; 0: not counted"""
     topic: str = ""
     window: tuple[float, float] = (0.0, 0.0)
     """[s] of the run"""
+    basis: str = ""
+    """event, stationary, state or self-check; empty where who made it does not say"""
+    error: float = math.nan
+    """numerical error as the run estimates it, in `unit`; nan where nothing is estimated"""
 
 
 def judged(value: float, band: Band | None) -> str:

@@ -210,5 +210,7 @@ class Recording(NamedTuple):
     """
     estimates: Sequence[Estimate] = ()
     """numerical errors of outputs, the largest of the run"""
+    block_errors: Mapping[str, FloatArray] = MappingProxyType({})
+    """the same of each block, by column, in its unit"""
     unknown: Mapping[str, str] = MappingProxyType({})
     """what is no number in the messages of a topic such as `seat/force`; a topic without is absent"""

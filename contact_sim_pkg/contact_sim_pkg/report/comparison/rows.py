@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Sequence
 from typing import Any
 from xml.etree import ElementTree
@@ -22,9 +23,17 @@ def rows_of(names: Sequence[str], sides: Sequence[ComparedMetric]) -> list[dict[
         {
             "key": each.key, "name": each.name, "unit": each.unit, **dict(zip(names, each.values, strict=True)),
             "change": each.change, "relative": each.relative, "verdict": each.verdict, "broken": "; ".join(each.broken),
+            "basis": each.basis, **_of_runs("spread", names, each.spreads), **_of_runs("error", names, each.errors),
         }
         for each in sides
     ]  # fmt: skip
+
+
+def _of_runs(column: str, names: Sequence[str], values: Sequence[float]) -> dict[str, float | None]:
+    return {
+        f"{column} of {name}": value if math.isfinite(value) else None
+        for name, value in zip(names, values or [math.nan] * len(names), strict=True)
+    }
 
 
 def csv_text(names: Sequence[str], sides: Sequence[ComparedMetric]) -> str:

@@ -8,10 +8,9 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from scipy.stats import t as student
-
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.records.metric import Metric, judged
+from contact_sim_pkg.report.signal.confidence import half_interval
 from contact_sim_pkg.scene.resolved_scene import leaves_of
 
 __all__ = ["repeated"]
@@ -112,12 +111,11 @@ def _mean(runs: Sequence[Metric], names: Sequence[str]) -> Metric:
         if len(runs) < 3:
             broken.append(f"not valid by ISO 10326-1: {len(runs)} runs, 3 needed")
     said = f"{len(runs)} runs, largest deviation {100.0 * off:.3g} %" if math.isfinite(mean) else f"{len(runs)} runs"
-    scatter = math.sqrt(sum((value - mean) ** 2 for value in values) / (len(values) - 1))
-    spread = float(student.ppf(0.975, len(values) - 1)) * scatter / math.sqrt(len(values))
     return runs[0]._replace(
         value=mean,
         verdict=judged(mean, runs[0].band),
-        spread=spread,
+        spread=half_interval(values),
+        error=max(each.error for each in runs),
         size=len(runs),
         broken=tuple(broken),
         remark=said,

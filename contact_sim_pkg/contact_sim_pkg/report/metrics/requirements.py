@@ -104,7 +104,7 @@ def _finite(value: object, where: str) -> float:
 def required(metrics: Sequence[Metric], requirements: Sequence[Requirement]) -> list[Metric]:
     """The metrics, those that something is required of judged by that alone.
 
-    A metric whose spread reaches over the limit is undecided.
+    A metric whose spread and numerical error reach over the limit is undecided.
 
     Raises:
         BagError: a requirement is of a metric that the run does not have, or in another unit.
@@ -139,10 +139,11 @@ def _places(metrics: Sequence[Metric], named: str) -> list[int]:
 
 def _judged(metric: Metric, requirement: Requirement) -> Metric:
     """A metric with its band replaced; of several requirements that which it holds least stays, a miss before all."""
-    band, value, spread = requirement.band, metric.value, metric.spread
+    band, value = requirement.band, metric.value
+    unsure = sum(each for each in (metric.spread, metric.error) if math.isfinite(each))
     verdict = judged(value, band)
     ends = [end for end in (band.low, band.high) if math.isfinite(end)]
-    if math.isfinite(value) and math.isfinite(spread) and any(abs(value - end) < spread for end in ends):
+    if math.isfinite(value) and any(abs(value - end) < unsure for end in ends):
         verdict = UNDECIDED
     again = metric.band is not None and metric.band.kind == REQUIRED
     if again and (metric.verdict == OUTSIDE or (metric.verdict == UNDECIDED and verdict != OUTSIDE)):

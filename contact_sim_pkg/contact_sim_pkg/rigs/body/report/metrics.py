@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.records.metric import EVENT, Metric
 from contact_sim_pkg.report.energy import throughput
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, near
 from contact_sim_pkg.report.series import ContactSeries, LedgerSeries, MotionSeries, Recording
@@ -23,7 +23,7 @@ def block_metrics(recording: Recording) -> list[Metric]:
     if contact is None or motion is None:
         return []
     window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
-    make = Maker(BLOCK, f"{BLOCK}/force", window).make
+    make = Maker(BLOCK, f"{BLOCK}/force", window, basis=EVENT).make
     rests = rest_from(motion)
     found = [*_rest(make, motion, rests), *_impulses(make, recording, contact, motion, rests)]
     return [*found, *_friction(make, recording, contact), *_energy(make, recording, rests)]
@@ -33,7 +33,7 @@ def _rest(make: Any, motion: MotionSeries, rests: float | None) -> Iterator[Metr
     """When it comes to rest."""
     doubts = () if rests is not None else ("too short: it still moves at the end",)
     yield make("rest", "at rest from", math.nan if rests is None else rests, "s", topic="bench/motion", broken=doubts,
-               count=motion.time.size)  # fmt: skip
+               error=motion.sample_period, count=motion.time.size)  # fmt: skip
 
 
 def _impulses(
@@ -58,7 +58,7 @@ def _impulses(
     if total > 0.0:
         yield make("mass", "mass by momentum", total / needed, "kg", band=near(mass, 0.01, "mass of the scene"))
         first = next((float(each) for each in contact.time[contact.normal > 0.0]), math.nan)
-        yield make("first", "first contact", first, "s")
+        yield make("first", "first contact", first, "s", error=contact.sample_period)
 
 
 def _friction(make: Any, recording: Recording, contact: ContactSeries) -> Iterator[Metric]:
