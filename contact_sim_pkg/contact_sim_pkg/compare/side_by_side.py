@@ -15,7 +15,17 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
 from contact_sim_pkg.records.metric import OUTSIDE, Metric
 
-__all__ = ["Compared", "ComparedMetric", "Curve", "Miss", "Tolerance", "misses", "read_tolerances", "side_by_side"]
+__all__ = [
+    "Compared",
+    "ComparedMetric",
+    "Curve",
+    "Miss",
+    "Tolerance",
+    "misses",
+    "read_tolerances",
+    "side_by_side",
+    "undecided",
+]
 
 KEYS = ("absolute", "relative", "from", "to")
 FloatArray = NDArray[np.float64]
@@ -157,6 +167,15 @@ def misses(runs: Sequence[Compared], tolerances: Sequence[Tolerance]) -> list[tu
         BagError: a tolerance names nothing that the first run has.
     """
     return [(each, _missed(runs[0], runs[1:], each)) for each in tolerances]
+
+
+def undecided(runs: Sequence[Compared], tolerances: Sequence[Tolerance]) -> list[Miss]:
+    """Metrics that a tolerance is of and that are defined in no run, so that nothing can be judged."""
+    return [
+        Miss(each.key, runs[0].name, f"{each.name} is defined in no run")
+        for each in side_by_side(runs)
+        if all(map(math.isnan, each.values)) and any(fnmatchcase(each.key, wanted.pattern) for wanted in tolerances)
+    ]
 
 
 def _missed(reference: Compared, others: Sequence[Compared], tolerance: Tolerance) -> list[Miss]:

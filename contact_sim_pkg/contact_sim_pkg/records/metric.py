@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 __all__ = [
     "CLOSED_FORM", "EVENT", "GOOD", "LIMIT", "MET", "NO_BAND", "OUTSIDE", "REQUIRED", "SELF_CHECK", "STATE", "STATIONARY",
-    "UNDECIDED", "USUAL", "Band", "Metric", "Published", "judged",
+    "UNDECIDED", "USUAL", "Band", "Metric", "Published", "exit_status", "judged",
 ]  # fmt: skip
 
 GOOD, USUAL, MET, OUTSIDE, UNDECIDED, NO_BAND = "good", "usual", "met", "outside", "undecided", "no band"
@@ -93,6 +93,11 @@ def judged(value: float, band: Band | None) -> str:
     if not band.holds(value):
         return OUTSIDE
     return {USUAL_RANGE: USUAL, CLOSED_FORM: MET}.get(band.kind, GOOD)
+
+
+def exit_status(*, missed: bool, unjudged: bool) -> int:
+    """How every command that judges ends: 1 on a miss, 3 where something could not be judged, 0 where all holds."""
+    return 1 if missed else 3 if unjudged else 0
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
-from contact_sim_pkg.records.metric import NO_BAND, OUTSIDE, REQUIRED, UNDECIDED, Band, Metric, judged
+from contact_sim_pkg.records.metric import NO_BAND, OUTSIDE, REQUIRED, UNDECIDED, Band, Metric, exit_status, judged
 
 __all__ = ["Requirement", "exit_code", "read_requirements", "required"]
 
@@ -154,8 +154,8 @@ def _judged(metric: Metric, requirement: Requirement) -> Metric:
 
 def exit_code(metrics: Sequence[Metric]) -> int:
     """1 where a metric is outside its band, 3 where what is required could not be judged, else 0."""
-    if any(each.verdict == OUTSIDE for each in metrics):
-        return 1
-    unsure = (UNDECIDED, NO_BAND)
-    open_ones = [each for each in metrics if each.band is not None and each.band.kind == REQUIRED]
-    return 3 if any(each.verdict in unsure or each.broken for each in open_ones) else 0
+    own = [each for each in metrics if each.band is not None and each.band.kind == REQUIRED]
+    return exit_status(
+        missed=any(each.verdict == OUTSIDE for each in metrics),
+        unjudged=any(each.verdict in (UNDECIDED, NO_BAND) or each.broken for each in own),
+    )
