@@ -5,7 +5,7 @@ import pytest
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.records.metric import GOOD, OUTSIDE
+from contact_sim_pkg.records.metric import MET, OUTSIDE
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.report.metrics.maker import energy_residual
 from contact_sim_pkg.report.reading import read_recording
@@ -41,7 +41,7 @@ def test_with_all_effects_the_ledger_closes_and_without_an_energy_it_does_not(pa
     assert run_offline(scene, tmp_path / "bag").failure == ""
     recording = read_recording(open_bag(tmp_path / "bag"))
     ledger = recording.ledger
-    assert energy_residual(ledger, recording.duration, recording.scene).verdict == GOOD
+    assert energy_residual(ledger, recording.duration, recording.scene).verdict == MET
     for entry in entries.split():
         kept = getattr(ledger, entry)
         open_ = ledger.residual + (-kept if entry == "supplied" else kept)

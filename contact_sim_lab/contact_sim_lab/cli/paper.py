@@ -160,9 +160,11 @@ def _figure(
 
 
 def _end(verdicts: Sequence[str]) -> None:
-    """Status 1 where a number is beyond its tolerance."""
-    if "OUTSIDE" in verdicts:
-        click.get_current_context().exit(1)
+    """Status 1 where a number is beyond its tolerance, 3 where one was not obtained."""
+    from contact_sim_pkg.records.metric import exit_status
+
+    status = exit_status(missed="OUTSIDE" in verdicts, unjudged="not reached" in verdicts)
+    click.get_current_context().exit(status)
 
 
 def _line(number: Number) -> dict[str, Any]:
@@ -245,7 +247,7 @@ def _all(paper: Paper | None, output: Path | None, overwrite: bool, as_json: boo
         print_json({"figures": rows, "counted": counted})
     else:
         show_sections([Section("", rows, ", ".join(f"{count} {verdict}" for verdict, count in counted.items()))])
-    _end(list(counted))
+    _end([*counted, *("not reached" for row in rows if row["not reached"])])
 
 
 def _output(output: Path | None, name: str, overwrite: bool, inputs: Sequence[Path] = ()) -> Path:
