@@ -1,14 +1,16 @@
 """Runs side by side: order, differences, tolerances of metrics and of curves."""
 
 import math
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.compare.side_by_side import Compared, Curve, misses, read_tolerances, side_by_side
+from contact_sim_pkg.compare.side_by_side import Compared, Curve, misses, read_tolerances, side_by_side, undecided
 from contact_sim_pkg.files import FileRefusedError
 from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.report.comparison.rows import junit_text_of, rows_of, table_rows
 
 
 def metric(key, value, verdict="good"):
@@ -28,6 +30,18 @@ def test_what_moved_most_stands_first():
     assert sides[-1].verdict == "absent → good"
 
 
+def test_each_side_keeps_its_spread_and_its_numerical_error():
+    one, other = (
+        metric("a", value)._replace(basis="event", error=error, spread=0.5)
+        for value, error in ((1.0, 0.25), (2.0, math.nan))
+    )
+    (side,) = side_by_side([Compared("A", [one], {}), Compared("B", [other], {})])
+    (row,) = rows_of(["A", "B"], [side])
+    assert (row["basis"], row["error of A"], row["error of B"], row["spread of B"]) == ("event", 0.25, None, 0.5)
+    (line,) = table_rows(["A", "B"], [side])
+    assert (line["A"], line["rests on"]) == ("1 ± 0.5", "event, error 0.25")
+
+
 @pytest.fixture
 def tolerances(tmp_path):
     def read(text):
@@ -44,6 +58,16 @@ def test_a_tolerance_is_absolute_plus_relative(tolerances):
         assert len(found) == count
     ((_, (miss,)),) = misses([first, second], tolerances("a: {relative: 0.05}"))
     assert miss.sentence == "a is 106 N, 6 from 100; 5 allowed"
+
+
+def test_what_is_defined_in_no_run_cannot_be_judged(tolerances):
+    runs = [run("A", a=math.nan, b=math.nan), run("B", a=math.nan, b=1.0)]
+    wanted = tolerances("'*': {absolute: 6}")
+    (found,) = undecided(runs, wanted)
+    assert found.sentence == "a is defined in no run"
+    suite = ElementTree.fromstring(junit_text_of(["A", "B"], [(wanted[0], [])], [found]))
+    assert [each.get("message") for each in suite.iter("error")] == [found.sentence]
+    assert undecided(runs, tolerances("b: {absolute: 6}")) == []
 
 
 def test_a_curve_has_a_band_round_it_in_a_range(tolerances):

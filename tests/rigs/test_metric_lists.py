@@ -4,7 +4,7 @@ import pytest
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.records.metric import OUTSIDE
+from contact_sim_pkg.records.metric import CLOSED_FORM, EVENT, OUTSIDE, SELF_CHECK, STATE, STATIONARY
 from contact_sim_pkg.report.metrics.listing import metrics_of
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.run.offline import run_offline
@@ -24,3 +24,5 @@ def test_the_list_of_the_main_scene(scene, tmp_path):
     assert 2 * sum(each.band is not None for each in found) >= len(found)
     assert [each.name for each in found if each.verdict == OUTSIDE and not each.broken] == []
     assert all(each.topic and each.window[1] > each.window[0] for each in found)
+    assert all(each.basis == SELF_CHECK for each in found if each.band is not None and each.band.kind == CLOSED_FORM)
+    assert {each.basis for each in found} <= {EVENT, STATIONARY, STATE, SELF_CHECK}

@@ -126,9 +126,10 @@ def test_an_expectation_stands_in_the_resolved_scene_and_none_where_none_is_give
 def test_a_scene_without_one_and_a_run_that_ends_early_fail_the_table(tmp_path):
     row = row_of_scene("block_slope", ("duration=0.02", "expect=null"))
     assert row["verdict"] == "none"
-    assert regime_table.failed([row])
+    assert (regime_table.failed([row]), regime_table.unjudged([row])) == (False, True)
     row = row_of_scene("roller_flutter", ("roller.tilt=0.1", "duration=4.0"))
     assert row["verdict"] == MISSED
+    assert regime_table.failed([row])
     assert "tips over" in row["remark"]
 
 

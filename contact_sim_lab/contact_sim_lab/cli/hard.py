@@ -6,8 +6,9 @@ from typing import Any
 
 import click
 
-from contact_sim_pkg.cli.output.say import say
+from contact_sim_pkg.cli.output.say import announce, say
 from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show_sections
+from contact_sim_pkg.records.metric import exit_status
 
 USUAL_WIDTH = 15
 WIDTHS = {
@@ -34,47 +35,40 @@ WIDTHS = {
 @click.pass_context
 def command(context: click.Context, accuracy: bool, effects: bool, regimes: bool, as_json: bool) -> None:
     """Value, expectation, margin and verdict of each hard case, and the figure that shows that its run is
-    hard; exit code 1 if one fails or is not hard.
+    hard; exit code 1 if one fails, 3 if one is not hard.
 
     With --accuracy fifteen hard scenes at four requests, a line each as it comes; exit code 1 if one errs
-    by more than it requests in force or motion, and nothing names that, or if it is not hard. With
+    by more than it requests in force or motion, and nothing names that, 3 if it is not hard. With
     --effects forty effects of scenes that mislead a rule, a line each as it comes; exit code 1 if more
     than six verdicts are not the expected ones. With --regimes the regime that each shipped scene
-    expects, measured in a whole run; exit code 1 if one is missed.
+    expects, measured in a whole run; exit code 1 if one is missed, 3 if a scene expects none.
     """
     if accuracy + effects + regimes > 1:
         raise click.UsageError("--accuracy, --effects and --regimes are three tables; give one of them")
+    table: Any
     if accuracy:
-        from contact_sim_lab.hard import accuracy_table
-
-        rows = _told_at_once(accuracy_table, as_json)
-        failed = accuracy_table.failed(rows)
+        from contact_sim_lab.hard import accuracy_table as table
     elif effects:
-        from contact_sim_lab.hard import effect_table
-
-        rows = _told_at_once(effect_table, as_json)
-        failed = effect_table.failed(rows)
+        from contact_sim_lab.hard import effect_table as table
     elif regimes:
-        from contact_sim_lab.hard import regime_table
-
-        rows = _told_at_once(regime_table, as_json)
-        failed = regime_table.failed(rows)
+        from contact_sim_lab.hard import regime_table as table
     else:
-        from contact_sim_lab.hard import hard_cases
-
-        rows = hard_cases.study(None, _tell)
-        failed = hard_cases.failed(rows)
+        from contact_sim_lab.hard import hard_cases as table
+    if accuracy or effects or regimes:
+        rows = _told_at_once(table, as_json)
+    else:
+        rows = table.study(None, announce)
         if not as_json:
-            show_sections(hard_cases.sections(rows))
+            show_sections(table.sections(rows))
     if as_json:
         print_json_rows(rows)
-    context.exit(1 if failed else 0)
+    context.exit(exit_status(missed=table.failed(rows), unjudged=table.unjudged(rows)))
 
 
 def _told_at_once(table: Any, as_json: bool) -> list[dict[str, Any]]:
     """Rows of a table that takes minutes, each case a line as it comes, in columns of `WIDTHS`, and a summary."""
     rows: list[dict[str, Any]] = []
-    for found in table.study(_tell):
+    for found in table.study(announce):
         if not as_json:
             cells = table.cells(found)
             if not rows:
@@ -88,7 +82,3 @@ def _told_at_once(table: Any, as_json: bool) -> list[dict[str, Any]]:
 
 def _line(cells: dict[str, str]) -> str:
     return "  ".join(text.ljust(WIDTHS.get(name, USUAL_WIDTH)) for name, text in cells.items()).rstrip()
-
-
-def _tell(line: str) -> None:
-    say(line, err=True)

@@ -83,8 +83,13 @@ def cells(rows: Sequence[Row]) -> dict[str, str]:
 
 
 def failed(rows: Sequence[Row]) -> bool:
-    """Whether an error above its request is named by nothing, or a scene is not hard: then the command ends with 1."""
-    return _count(rows, MISSED) + _count(rows, NOT_HARD) > 0
+    """Whether an error above its request is named by nothing."""
+    return _count(rows, MISSED) > 0
+
+
+def unjudged(rows: Sequence[Row]) -> bool:
+    """Whether a scene is not hard, so that it shows nothing."""
+    return _count(rows, NOT_HARD) > 0
 
 
 def _rows(case: AccuracyCase, progress: Callable[[str], None]) -> list[Row]:

@@ -48,6 +48,11 @@ def failed(rows: Sequence[Row]) -> bool:
     return sum(1 for row in rows if row["mark"] != "right") > MOST_WRONG * len(rows)
 
 
+def unjudged(_rows: Sequence[Row]) -> bool:
+    """Whether a case has no verdict: each has one."""
+    return False
+
+
 def cells(rows: Sequence[Row]) -> dict[str, str]:
     """The row of one case as a line."""
     (row,) = rows

@@ -89,5 +89,10 @@ def _value(row: dict[str, Any]) -> str:
 
 
 def failed(rows: list[dict[str, Any]]) -> bool:
-    """Whether a row fails, or its run is not hard: then `bench hard` ends with 1."""
-    return any(row["verdict"] != PASSED for row in rows)
+    """Whether a row fails."""
+    return any(row["verdict"] == FAILED for row in rows)
+
+
+def unjudged(rows: list[dict[str, Any]]) -> bool:
+    """Whether the run of a row is not hard, so that it shows nothing."""
+    return any(row["verdict"] == NOT_HARD for row in rows)

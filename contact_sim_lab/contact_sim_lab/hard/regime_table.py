@@ -72,8 +72,13 @@ def _energy(recording: Recording) -> dict[str, Any]:
 
 
 def failed(rows: Iterable[dict[str, Any]]) -> bool:
-    """Whether a scene does not show its regime, or states none."""
-    return any(row["verdict"] != MET for row in rows)
+    """Whether a scene does not show its regime."""
+    return any(row["verdict"] == MISSED for row in rows)
+
+
+def unjudged(rows: Iterable[dict[str, Any]]) -> bool:
+    """Whether a scene states no regime."""
+    return any(row["verdict"] not in (MET, MISSED) for row in rows)
 
 
 def cells(rows: Sequence[dict[str, Any]]) -> dict[str, str]:

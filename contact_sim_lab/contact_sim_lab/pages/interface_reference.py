@@ -236,7 +236,13 @@ def _parameters_of(node: str, text: str) -> Iterator[tuple[str, str, str]]:
 
 def _exit_codes() -> str:
     rows = [(str(code), meaning) for code, meaning in sorted(EXIT_CODES.items())]
-    return "## Exit codes\n\nOf every `bench` command and of every node.\n\n" + _table(("code", "meaning"), rows)
+    judging = (
+        "`metrics`, `compare --tolerances`, `paper --figure`, `hard`, `validation` and `effects` judge, and end by one rule: "
+        "1 on a miss, 3 where something could not be judged (doubtful, undefined, undecided, not reached, not hard), 0 where "
+        "all holds."
+    )
+    head = "## Exit codes\n\nOf every `bench` command and of every node.\n\n"
+    return head + textwrap.fill(judging, WIDTH) + "\n\n" + _table(("code", "meaning"), rows)
 
 
 def _renamed() -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from contact_sim_pkg.cli.output.say import say
+from contact_sim_pkg.cli.output.say import announce, say
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
 
 if TYPE_CHECKING:
@@ -36,14 +36,17 @@ if TYPE_CHECKING:
 @json_option
 def command(
     scene: str, parts: bool, write: Path | None, without_observers: bool, start: str, overwrite: bool, as_json: bool
-) -> None:
-    """Which effects SCENE calls for: each left out or added, what that changes and saves."""
+) -> int:
+    """Which effects SCENE calls for: each left out or added, what that changes and saves. Exit code 1 where one is off
+    but needed, 3 where the error of the numbers decides.
+    """
     if without_observers and write is None:
         raise click.UsageError("--without-observers is for the scene that --write FILE writes")
     from contact_sim_pkg.files import check_output
+    from contact_sim_pkg.records.metric import exit_status
     from contact_sim_pkg.scene.load import find_scene
     from contact_sim_pkg.scene.resolve import load_resolved
-    from contact_sim_pkg.studies.effects import effects_study, effects_table, reduced
+    from contact_sim_pkg.studies.effects import effects_study, effects_table, reduced, verdicts
 
     if write is not None:
         check_output(write, [find_scene(scene)], overwrite=overwrite)
@@ -52,7 +55,7 @@ def command(
     resolved = load_resolved(scene)
     everything = start == "all"  # what is off then replaces what is on: a choice of the model
     studied = reduced.all_together(resolved) if everything else resolved
-    found = effects_study.study_of(studied, _report, off=not everything)
+    found = effects_study.study_of(studied, announce, off=not everything)
     if not as_json:
         say(effects_table.answer(found))
         say()
@@ -62,17 +65,15 @@ def command(
         print_json(effects_table.facts_of(found) | written)
     elif written:
         say(f"{write}: {written['written']['sentence']}")
+    found_ones = [row.verdict for row in found.rows]
+    return exit_status(missed=verdicts.OFF_NEEDED in found_ones, unjudged=verdicts.NUMBERS in found_ones)
 
 
 def _write(study: Study, scene: str, path: Path, *, observers: bool, overwrite: bool) -> dict[str, dict[str, object]]:
     from contact_sim_pkg.files import new_file
     from contact_sim_pkg.studies.effects import effects_table, reduced
 
-    found = reduced.reduced(study, _report, observers=observers)
+    found = reduced.reduced(study, announce, observers=observers)
     with new_file(path, overwrite=overwrite) as stream:
         stream.write(reduced.text_of(scene, (), found, study.base.request).encode())
     return {"written": effects_table.facts_of_reduced(found, path)}
-
-
-def _report(line: str) -> None:
-    say(line, err=True)

@@ -15,7 +15,17 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
 from contact_sim_pkg.records.metric import OUTSIDE, Metric
 
-__all__ = ["Compared", "ComparedMetric", "Curve", "Miss", "Tolerance", "misses", "read_tolerances", "side_by_side"]
+__all__ = [
+    "Compared",
+    "ComparedMetric",
+    "Curve",
+    "Miss",
+    "Tolerance",
+    "misses",
+    "read_tolerances",
+    "side_by_side",
+    "undecided",
+]
 
 KEYS = ("absolute", "relative", "from", "to")
 FloatArray = NDArray[np.float64]
@@ -32,6 +42,12 @@ class ComparedMetric(NamedTuple):
     verdicts: tuple[str, ...]
     broken: tuple[str, ...]
     """assumptions that do not hold in a run"""
+    basis: str = ""
+    """event, stationary, state or self-check"""
+    errors: tuple[float, ...] = ()
+    """numerical error in each run, in `unit`; nan where it is not known"""
+    spreads: tuple[float, ...] = ()
+    """half the 95 % interval in each run, in `unit`; nan where it is not known"""
 
     @property
     def change(self) -> float:
@@ -113,7 +129,9 @@ def _side(runs: Sequence[Metric | None]) -> ComparedMetric:
     broken = dict.fromkeys(text for each in runs if each is not None for text in each.broken)
     return ComparedMetric(
         first.key, first.name, first.unit, tuple(math.nan if each is None else each.value for each in runs),
-        tuple("absent" if each is None else each.verdict for each in runs), tuple(broken),
+        tuple("absent" if each is None else each.verdict for each in runs), tuple(broken), first.basis,
+        tuple(math.nan if each is None else each.error for each in runs),
+        tuple(math.nan if each is None else each.spread for each in runs),
     )  # fmt: skip
 
 
@@ -149,6 +167,15 @@ def misses(runs: Sequence[Compared], tolerances: Sequence[Tolerance]) -> list[tu
         BagError: a tolerance names nothing that the first run has.
     """
     return [(each, _missed(runs[0], runs[1:], each)) for each in tolerances]
+
+
+def undecided(runs: Sequence[Compared], tolerances: Sequence[Tolerance]) -> list[Miss]:
+    """Metrics that a tolerance is of and that are defined in no run, so that nothing can be judged."""
+    return [
+        Miss(each.key, runs[0].name, f"{each.name} is defined in no run")
+        for each in side_by_side(runs)
+        if all(map(math.isnan, each.values)) and any(fnmatchcase(each.key, wanted.pattern) for wanted in tolerances)
+    ]
 
 
 def _missed(reference: Compared, others: Sequence[Compared], tolerance: Tolerance) -> list[Miss]:

@@ -10,12 +10,16 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 __all__ = [
-    "CLOSED_FORM", "GOOD", "LIMIT", "NO_BAND", "OUTSIDE", "REQUIRED", "UNDECIDED", "USUAL", "Band", "Metric", "Published",
-    "judged",
+    "CLOSED_FORM", "EVENT", "GOOD", "LIMIT", "MET", "NO_BAND", "OUTSIDE", "REQUIRED", "SELF_CHECK", "STATE", "STATIONARY",
+    "UNDECIDED", "USUAL", "Band", "Metric", "Published", "exit_status", "judged",
 ]  # fmt: skip
 
-GOOD, USUAL, OUTSIDE, UNDECIDED, NO_BAND = "good", "usual", "outside", "undecided", "no band"
+GOOD, USUAL, MET, OUTSIDE, UNDECIDED, NO_BAND = "good", "usual", "met", "outside", "undecided", "no band"
 LIMIT, USUAL_RANGE, CLOSED_FORM, REQUIRED = "limit", "usual", "closed form", "yours"
+EVENT, STATIONARY, STATE, SELF_CHECK = "event", "stationary", "state", "self-check"
+"""What a metric is a number of: what happens once in its window (largest, smallest, duration); what all of the window
+shows alike, and a longer one more surely; how something stands; the run beside a closed form.
+"""
 ROUNDING = 1e-9
 """of an end of a band: forty cells of 3.75 mm are 150 mm"""
 
@@ -60,28 +64,40 @@ class Metric(NamedTuple):
     """in `unit`; nan where it is not defined"""
     unit: str
     verdict: str
-    """good, usual, outside, undecided (a limit of one's own lies within the spread) or no band"""
+    """good (inside a limit that one can miss), usual, met (equal to a closed form: the run checks itself), outside,
+    undecided (a limit of one's own lies within the spread) or no band"""
     band: Band | None
     remark: str = ""
     """what the verdict means in words, or why there is no band"""
     broken: tuple[str, ...] = ()
     """assumptions of the number that do not hold"""
     spread: float = math.nan
-    """half the 95 % interval, in `unit`; nan where it is not known"""
+    """half the 95 % interval of what chance does to it, in `unit`; nan where it is not known"""
     size: int = 0
     """segments, samples or events that it is taken from; 0: not counted"""
     topic: str = ""
     window: tuple[float, float] = (0.0, 0.0)
     """[s] of the run"""
+    basis: str = ""
+    """event, stationary, state or self-check; empty where who made it does not say"""
+    error: float = math.nan
+    """numerical error as the run estimates it, in `unit`; nan where nothing is estimated"""
 
 
 def judged(value: float, band: Band | None) -> str:
-    """The verdict on a value: a limit, a closed form or a limit of one's own that holds is good, a usual range usual."""
+    """The verdict on a value: a limit, of a standard or of one's own, that holds is good, a usual range usual, and a
+    closed form met.
+    """
     if band is None or not math.isfinite(value):
         return NO_BAND
     if not band.holds(value):
         return OUTSIDE
-    return USUAL if band.kind == USUAL_RANGE else GOOD
+    return {USUAL_RANGE: USUAL, CLOSED_FORM: MET}.get(band.kind, GOOD)
+
+
+def exit_status(*, missed: bool, unjudged: bool) -> int:
+    """How every command that judges ends: 1 on a miss, 3 where something could not be judged, 0 where all holds."""
+    return 1 if missed else 3 if unjudged else 0
 
 
 @dataclass(frozen=True, kw_only=True)

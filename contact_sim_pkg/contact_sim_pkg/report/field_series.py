@@ -19,6 +19,8 @@ SCALARS = ("load", "peak", "mean", "area", "lame_a", "lame_b", "lame_n", "centre
 _scalars_of = attrgetter(*SCALARS)
 AROUND_LARGEST_LOAD = 20
 """Fields kept before and after the one with the largest load."""
+BLOCK = 0.02
+"""[m] side of the square over which a peak is averaged: a tread block, more than a cell"""
 HISTORY_ROWS = 4000
 """Most rows of the history of the line load."""
 
@@ -56,11 +58,12 @@ class FieldReader:
         pressure = np.reshape(message.pressure, (message.rows, message.cols))
         # Sum over time, at the place of this grid in the widest one
         self._total[row : row + message.rows, col : col + message.cols] += pressure
-        size = _size(pressure != 0.0, message)
+        size = extent(pressure) * message.cell_x, extent(pressure.T) * message.cell_y
         self._first = self._first or (time, message)
         if self._touch is None and message.load > 0.0 and self._scalars and self._scalars[-1][1] <= 0.0:
             self._touch = time, message
-        self._scalars.append((time, *_scalars_of(message), *size))
+        over_block = peak_over(pressure, message.cell_x, message.cell_y, BLOCK)
+        self._scalars.append((time, *_scalars_of(message), *size, over_block))
         # Line load along x for the space-time picture
         line = np.zeros((1, self._widest.rows))
         line[0, row : row + message.rows] = pressure.sum(axis=1, dtype=np.float64) * message.cell_y
@@ -99,7 +102,7 @@ class FieldReader:
         time, *columns = np.array(self._scalars).T
         return FieldSeries(
             time=time,
-            **dict(zip((*SCALARS, "length", "width"), columns, strict=True)),
+            **dict(zip((*SCALARS, "length", "width", "block_peak"), columns, strict=True)),
             highest=pressure_map(self._highest, self._highest.pressure),
             highest_time=self._highest_time,
             average=pressure_map(self._widest, self._total / time.size),
@@ -143,16 +146,59 @@ def _snapshot(time: float, message: Any) -> Snapshot:
     return Snapshot(time, float(message.load), pressure_map(message, message.pressure))
 
 
-def _size(loaded: Any, message: Any) -> tuple[float, float]:
-    """Length and width [m] between the outermost loaded cells, these included; zeros without
-    load.
+def extent(pressure: Any) -> float:
+    """Length of a contact along the first axis of its ``pressure`` [rows, cols], in cells; 0 without load.
+
+    Along each line the edge lies where the square of the pressure comes to 0, as `pressure.field.patch.beyond` has it;
+    the extent runs from the first of these edges to the last.
     """
-    rows, cols = loaded.any(axis=1), loaded.any(axis=0)
-    if not rows.any():
-        return 0.0, 0.0
-    # From the first loaded line to the last
-    length, width = (len(each) - int(each.argmax()) - int(each[::-1].argmax()) for each in (rows, cols))
-    return length * message.cell_x, width * message.cell_y
+    squares = np.square(np.asarray(pressure, dtype=np.float64))
+    squares = squares[:, (squares > 0.0).any(axis=0)]
+    if not squares.size:
+        return 0.0
+    loaded = squares > 0.0
+    first, last = loaded.argmax(axis=0), squares.shape[0] - 1 - loaded[::-1].argmax(axis=0)
+    ends, starts = last + 0.5 + _beyond(squares, last, -1), first - 0.5 - _beyond(squares, first, 1)
+    return float(ends.max() - starts.min())
+
+
+def _beyond(squares: FloatArray, edge: Any, inwards: int) -> FloatArray:
+    """Reach of each line beyond its outermost cell, -1/2 to 1/2 of a cell; 0 at the edge of the grid, and where the
+    pressure does not fall outwards.
+    """
+    rows, lines = squares.shape[0], np.arange(squares.shape[1])
+    within = (edge > 0) & (edge < rows - 1)
+    own, inner = squares[edge, lines], squares[np.clip(edge + inwards, 0, rows - 1), lines]
+    falls = within & (inner > own)
+    return np.where(falls, np.minimum(own / np.where(falls, inner - own, 1.0), 1.0) - 0.5, 0.0)
+
+
+def peak_over(pressure: Any, cell_x: float, cell_y: float, side: float) -> float:
+    """Largest mean pressure [Pa] over squares of ``side`` [m], parts of cells included; of ``pressure`` [rows, cols]
+    [Pa], even in each cell of ``cell_x`` by ``cell_y`` [m].
+
+    The integral over a square is bilinear in its place as long as no edge passes one of a cell, so the largest lies
+    where one edge along x and one along y does: the near or the far ones.
+    """
+    rows, cols = (
+        min(side / cell, float(size)) for cell, size in zip((cell_x, cell_y), np.shape(pressure), strict=True)
+    )
+    integral = np.pad(np.asarray(pressure, dtype=np.float64), ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
+    return float(_strips(_strips(integral, rows).T, cols).max()) / (rows * cols)
+
+
+def _strips(integral: FloatArray, cells: float) -> FloatArray:
+    """Integrals over the strips of so many ``cells`` that begin or end at an edge of a cell, along the first axis of
+    an ``integral`` [edges, ...].
+    """
+    whole, part = divmod(cells, 1.0)
+    count = int(whole)
+    if part < 1e-9:
+        return integral[count:] - integral[: integral.shape[0] - count]
+    begun, ended = integral[: -count - 1], integral[count + 1 :]
+    from_begin = (1.0 - part) * integral[count:-1] + part * ended - begun
+    to_end = ended - (1.0 - part) * integral[1 : integral.shape[0] - count] - part * begun
+    return np.concatenate((from_begin, to_end))
 
 
 def _place(inner: Any, outer: Any) -> tuple[int, int]:

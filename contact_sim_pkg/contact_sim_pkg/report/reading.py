@@ -80,6 +80,7 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
     motion = next((_motion(_columns(stacks[name], name, unknown)) for name in topics[MOTION]), None)
     ledger = next((LedgerSeries(**_columns(stacks[name], name, unknown)) for name in topics[ENERGY]), None)
     costs = next((stacks[name].columns() for name in topics[COST]), None)
+    estimates, of_blocks = _estimates(costs or {})
     listed = [name for name, row in bag.topics.items() if row.type == EPISODES]
     episodes = next((_episodes(stacks.get(name)) for name in listed), None)
     scene = scene_of_text(bag.scene, f"scene of {bag.path}")
@@ -98,7 +99,8 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
         episodes=episodes,
         points=next((each.finish() for each in points.values()), None),
         series=_rig_series(of_rigs),
-        estimates=[] if costs is None else _estimates(costs),
+        estimates=estimates,
+        block_errors=of_blocks,
         unknown={name: each.describe() for name, each in unknown.items()},
     )
 
@@ -352,12 +354,14 @@ def cost_series(columns: dict[str, Any]) -> CostSeries:
     return {name: np.asarray(columns[name], dtype=np.float64) for name in ("time", *names) if name in columns}
 
 
-def _estimates(columns: dict[str, Any]) -> list[Estimate]:
-    """Largest of each estimated error; none in a bag of an earlier release."""
+def _estimates(columns: dict[str, Any]) -> tuple[list[Estimate], dict[str, FloatArray]]:
+    """Largest of each estimated error, and those of the blocks; none in a bag of an earlier release."""
     found: dict[str, Estimate] = {}
+    of_blocks: dict[str, list[float]] = {}
     rows = (columns.get(name, ()) for name in ("estimated", "estimated_error", "estimated_of"))
     for names, errors, largest in zip(*rows, strict=True):
         for column, error, size in zip(names, errors, largest, strict=True):
             before = found.get(str(column), Estimate(str(column), 0.0, 0.0))
             found[before.column] = Estimate(before.column, max(before.error, error), max(before.largest, size))
-    return list(found.values())
+            of_blocks.setdefault(before.column, []).append(float(error))
+    return list(found.values()), {column: np.array(errors) for column, errors in of_blocks.items()}

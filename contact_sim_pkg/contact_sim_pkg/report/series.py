@@ -87,7 +87,9 @@ class FieldSeries(NamedTuple):
     """exponent of that curve"""
     length: FloatArray
     width: FloatArray
-    """[m] along x and y between the outermost loaded cells, these included; 0 without contact"""
+    """[m] along x and y between the outermost edges, which lie between cells; 0 without contact"""
+    block_peak: FloatArray
+    """[Pa] largest mean pressure over a square of 20 mm, a tread block"""
     highest: PressureMap
     """map at the instant of the largest peak"""
     highest_time: float
@@ -208,5 +210,7 @@ class Recording(NamedTuple):
     """
     estimates: Sequence[Estimate] = ()
     """numerical errors of outputs, the largest of the run"""
+    block_errors: Mapping[str, FloatArray] = MappingProxyType({})
+    """the same of each block, by column, in its unit"""
     unknown: Mapping[str, str] = MappingProxyType({})
     """what is no number in the messages of a topic such as `seat/force`; a topic without is absent"""

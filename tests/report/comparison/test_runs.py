@@ -46,9 +46,11 @@ def test_the_table_has_the_metrics_of_every_run(bags):
     sides = side_by_side([compared(name, each) for name, each in zip(names, recordings, strict=True)])
     table = metric_table(names, sides)
     rows = {row[0]: row[1:] for row in table.rows}
-    assert table.header[1:-2] == tuple(names)
+    assert table.header[1:-3] == tuple(names)
+    assert table.header[-2:] == ("rests on", "verdict")
     assert rows["slaps"][:4] == tuple(str(known.touches(each).size) for each in FREQUENCIES)
-    assert rows["restitution e, mean"][:4] == ("0.5",) * 4
+    assert rows["restitution e, mean"][:4] == ("0.5 ± 0",) * 4  # all slaps are alike
+    assert rows["restitution e, mean"][-2] == "event"
     assert rows["largest area over that at rest"][:4] == ("6",) * 4
 
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from contact_sim_pkg.records.metric import GOOD, NO_BAND, OUTSIDE, USUAL, Band, judged
+from contact_sim_pkg.records.metric import GOOD, MET, NO_BAND, OUTSIDE, USUAL, Band, judged
 from contact_sim_pkg.report.metrics.bands import band_of, published_range
 from contact_sim_pkg.report.metrics.maker import Maker, conditions_of, near
 
@@ -45,7 +45,12 @@ def test_verdicts():
     assert [judged(value, usual) for value in (0.9, 1.0, 2.0, 2.1)] == [OUTSIDE, USUAL, USUAL, OUTSIDE]
     assert [judged(value, limit) for value in (-5.0, 2.1, math.nan)] == [GOOD, OUTSIDE, NO_BAND]
     assert judged(1.0, None) == NO_BAND
-    assert judged(102.0, near(100.0, 0.05, "")) == GOOD
+    assert judged(102.0, near(100.0, 0.05, "")) == MET
+
+
+def test_a_difference_of_large_terms_is_judged_by_their_scale():
+    assert judged(7.5e-14, near(0.0, 0.01, "", scale=10.0)) == MET
+    assert judged(2e-8, near(0.0, 0.01, "", scale=10.0)) == OUTSIDE
 
 
 def test_seat_isolates_below_100_per_cent_and_has_no_usual_band():

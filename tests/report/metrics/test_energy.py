@@ -3,7 +3,7 @@
 import pytest
 from tests.report import synthetic_bag as known
 
-from contact_sim_pkg.records.metric import GOOD, OUTSIDE
+from contact_sim_pkg.records.metric import MET, OUTSIDE
 from contact_sim_pkg.report.metrics.listing import all_metrics, metrics_of
 from contact_sim_pkg.report.reading import read_recording
 
@@ -21,7 +21,7 @@ def residual_of(bag):
 def test_a_balance_that_closes_is_good(make, tmp_path):
     found = residual_of(make(tmp_path / "bag", 200))
     assert found.value == pytest.approx(known.RESIDUAL / known.SUPPLIED)
-    assert (found.verdict, found.band.high, found.topic) == (GOOD, 0.01, "bench/energy")
+    assert (found.verdict, found.band.high, found.topic) == (MET, 0.01, "bench/energy")
     assert found.name == "energy residual"  # of the run, not of a contact
 
 

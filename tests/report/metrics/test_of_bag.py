@@ -195,7 +195,10 @@ def runs(*values):
 
 def test_three_runs_within_5_per_cent_are_a_test():
     (mean,) = repeated(list("ABC"), [{"seed": each} for each in range(3)], runs(58.0, 60.0, 62.0))
-    assert (mean.value, mean.spread, mean.size, mean.broken) == (60.0, 2.0, 3, ())
+    # Student's t of two degrees of freedom at p is (2 p - 1) / sqrt(2 p (1 - p)); the standard deviation is 2
+    student = 0.95 / math.sqrt(2.0 * 0.975 * 0.025)
+    assert (mean.value, mean.size, mean.broken) == (60.0, 3, ())
+    assert mean.spread == pytest.approx(student * 2.0 / math.sqrt(3.0), rel=1e-12)
 
 
 def test_runs_that_differ_more_or_are_too_few_are_not_valid():

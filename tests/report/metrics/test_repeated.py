@@ -1,5 +1,7 @@
 """Repeated runs are of one scene and differ; a band holds its ends whatever rounding adds."""
 
+import math
+
 import pytest
 
 from contact_sim_pkg.bag.errors import BagError
@@ -16,7 +18,8 @@ SCENE = {"name": "ride", "seed": 1, "seat": {"cushion_modulus": 4e4}, "vibration
 
 def test_runs_of_one_scene_with_other_seeds_are_pooled():
     (found,) = repeated(["a", "b"], [SCENE, {**SCENE, "seed": 2}], [[metric(1.0)], [metric(1.2)]])
-    assert (found.value, found.spread) == pytest.approx((1.1, 0.1))
+    # Student's t of one degree of freedom at 0.975 is tan(0.475 pi) = 12.706
+    assert (found.value, found.spread) == pytest.approx((1.1, 0.1 * math.tan(0.475 * math.pi)))
     other_part = {**SCENE, "vibration": {"start": 5.0}}
     assert repeated(["a", "b"], [SCENE, other_part], [[metric(1.0)], [metric(1.2)]])
 
@@ -45,3 +48,11 @@ def test_a_band_holds_its_ends_beside_rounding():
     assert band.holds(40 * 3.75000000000000075)
     assert not band.holds(150.001)
     assert Band(float("-inf"), 1.0, "limit", "").holds(-1e300)
+
+
+def test_parts_of_one_recording_that_overlap_are_no_repeats():
+    runs = [{**SCENE, "duration": 20.0, "vibration": {"file": "/data/bus.csv", "start": start}} for start in (0.0, 1.0)]
+    with pytest.raises(BagError, match=r"a and b share 19 s of bus\.csv.*vibration\.start=20 or later"):
+        repeated(["a", "b"], runs, [[metric(1.0)], [metric(1.2)]])
+    apart = [runs[0], {**runs[1], "vibration": {"file": "/data/bus.csv", "start": 20.0}}]
+    assert repeated(["a", "b"], apart, [[metric(1.0)], [metric(1.2)]])

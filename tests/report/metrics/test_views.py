@@ -17,8 +17,9 @@ LIMIT = Band(-math.inf, 100.0, "limit", "a standard")
 
 def metric(key, value, band=LIMIT, broken=(), spread=math.nan):
     return Metric(
-        f"seat.{key}", key, value, "%", judged(value, band), band, "said", broken, spread, 7, "bench/motion", (0.0, 5.0)
-    )
+        f"seat.{key}", key, value, "%", judged(value, band), band, "said", broken, spread, 7, "bench/motion", (0.0, 5.0),
+        "stationary", 0.125,
+    )  # fmt: skip
 
 
 METRICS = [
@@ -38,12 +39,14 @@ def test_a_row_holds_everything_and_is_json():
 def test_each_column_of_a_row_holds_its_own_value():
     band = Band(12.5, 98.5, "usual", "ISO 1", "class C")
     one = Metric(
-        "seat.a", "name", 57.25, "mm", "good", band, "said", ("short", "tilted"), 2.125, 7, "tire/force", (0.25, 5.75)
-    )
+        "seat.a", "name", 57.25, "mm", "good", band, "said", ("short", "tilted"), 2.125, 7, "tire/force", (0.25, 5.75),
+        "event", 0.375,
+    )  # fmt: skip
     expected = {
         "key": "seat.a", "name": "name", "value": 57.25, "unit": "mm", "verdict": "good", "low": 12.5, "high": 98.5,
         "kind": "usual", "source": "ISO 1", "conditions": "class C", "remark": "said", "broken": ["short", "tilted"],
-        "spread": 2.125, "count": 7, "topic": "tire/force", "window_start": 0.25, "window_end": 5.75,
+        "spread": 2.125, "error": 0.375, "basis": "event", "count": 7,
+        "topic": "tire/force", "window_start": 0.25, "window_end": 5.75,
     }  # fmt: skip
     assert row_of(one) == expected
     assert metric_of(row_of(one)) == one
@@ -61,7 +64,8 @@ def test_csv_has_a_row_a_metric_in_full_precision():
 def test_the_terminal_ends_with_what_is_outside_and_what_is_doubtful():
     rows = rows_of(METRICS)
     lines = lines_of(rows)
-    assert lines[0].split() == ["good", "57.2", "±", "2.1", "%", "good", "at", "most", "100;", "said"]
+    assert " ".join(lines[0].split()) == "good 57.2 ± 2.1 % good stationary, error 0.125 at most 100; said"
+    assert " ".join(lines[-1].split()) == "undefined – no band stationary at most 100; said"
     assert any(line.strip() == "! too short: 3 s, 34 s needed" for line in lines)
     last = verdict_line(rows)
     assert last.startswith(
@@ -77,6 +81,9 @@ def test_junit_counts_failures_errors_and_what_is_skipped():
     }  # fmt: skip
     (failure,) = suite.iter("failure")
     assert "bad: 131 %" in failure.get("message")
+    assert [each.text for each in suite.iter("system-out")][:2] == [
+        "57.2 ± 2.1 %; stationary, error 0.125", "131 %; stationary, error 0.125",
+    ]  # fmt: skip
 
 
 def test_tiles_say_the_same():
@@ -86,6 +93,7 @@ def test_tiles_say_the_same():
     assert sources_of(METRICS) == ["a standard"]
     assert doubts_of(METRICS) == ["too short: 3 s, 34 s needed (doubtful)"]
     assert tiles[3].doubtful
+    assert tiles[0].rests == "stationary, error 0.125"
 
 
 @pytest.mark.parametrize(

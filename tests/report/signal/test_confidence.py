@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import scipy.stats
 
 from contact_sim_pkg.report.signal import confidence
 
@@ -43,6 +44,15 @@ def test_the_interval_of_a_mean_holds_it_in_95_of_100_records():
         values = generator.normal(size=6000) + 2.0
         held += abs(values.mean() - 2.0) <= confidence.spread_of_mean(values, 100.0)
     assert 0.89 <= held / 200 <= 0.99
+
+
+def test_the_interval_of_few_values_is_that_of_students_t():
+    """Of one degree of freedom at 0.975 t is tan(0.475 pi); two values 2 apart have the standard error 1."""
+    assert confidence.half_interval([1.0, 3.0]) == pytest.approx(math.tan(0.475 * math.pi))
+    assert confidence.half_interval([1.0, 2.0, 5.0, 7.0]) == pytest.approx(
+        scipy.stats.t(3).ppf(0.975) * scipy.stats.sem([1.0, 2.0, 5.0, 7.0])
+    )
+    assert math.isnan(confidence.half_interval([1.0]))
 
 
 def test_short_records_have_no_interval_and_a_constant_ratio_has_none_to_speak_of():

@@ -6,7 +6,7 @@ import pytest
 from contact_sim_lab.cli.hard import command
 from contact_sim_lab.hard import accuracy_table
 from contact_sim_lab.hard.accuracy_cases import CASES, AccuracyCase
-from contact_sim_lab.hard.accuracy_table import cells, failed, mark_of, rows_of, study, summary
+from contact_sim_lab.hard.accuracy_table import cells, failed, mark_of, rows_of, study, summary, unjudged
 from contact_sim_pkg.compare.first_look import FirstLook, Request
 from contact_sim_pkg.compare.least_errors import LeastError, least_errors
 from contact_sim_pkg.scene.resolve import load_resolved
@@ -56,7 +56,7 @@ def test_a_run_that_ends_is_named_by_its_sentence_and_the_table_counts_the_marks
         "hard because": "touches: 3, ≥ 2",
     }
     assert summary(rows) == "held 1 of 4; named 2; missed 1; not hard 0; 7 CPU s"
-    assert failed(rows)
+    assert (failed(rows), unjudged(rows)) == (True, False)
     assert not failed([{**row, "mark": "held"} if row["requested"] < 1e-1 else row for row in rows])
 
 
@@ -74,7 +74,7 @@ def test_a_slip_that_does_not_jam_is_not_hard_whatever_its_errors():
     (rows,) = study(lambda _line: None, (slides,))
     assert {row["mark"] for row in rows} == {"not hard"}
     assert rows[0]["figure"] == pytest.approx(3.69, abs=5e-3)
-    assert failed(rows)
+    assert (failed(rows), unjudged(rows)) == (False, True)
 
 
 def test_the_command_prints_each_scene_as_it_comes(monkeypatch):

@@ -13,18 +13,20 @@ import click
 
 from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import overwrite_option, print_json, show_rows
+from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
     from contact_sim_pkg.bag.reader import Bag
     from contact_sim_pkg.compare.side_by_side import Compared
     from contact_sim_pkg.report.comparison.aligned import MapPair
+    from contact_sim_pkg.report.series import Recording
 
 
 @click.command("compare")
 @click.argument("bags", nargs=-1, required=True, metavar="A B...", type=click.Path(path_type=Path))
 @click.option(
     "--tolerances", type=click.Path(path_type=Path), metavar="FILE",
-    help="YAML: metric or curve, absolute, relative; exit code 1 where a bag misses one against A.",
+    help="YAML: metric or curve, absolute, relative; exit code 1 where a bag misses one against A, 3 where none can be judged.",
 )  # fmt: skip
 @click.option("--json", "form", flag_value="json", help="One JSON object on standard output.")
 @click.option("--csv", "form", flag_value="csv", help="A row a metric.")
@@ -57,7 +59,8 @@ def command(
     file, or the bag of `bench import`) and a run are laid over each other by shift and turn, which are printed.
     """
     from contact_sim_pkg.bag.errors import BagError
-    from contact_sim_pkg.compare.side_by_side import misses, read_tolerances, side_by_side
+    from contact_sim_pkg.compare.side_by_side import misses, read_tolerances, side_by_side, undecided
+    from contact_sim_pkg.records.metric import exit_status
     from contact_sim_pkg.report.comparison.rows import csv_text, junit_text_of, rows_of, table_rows
     from contact_sim_pkg.report.drawing import check_picture
 
@@ -70,25 +73,28 @@ def command(
     names, sides, missed = [each.name for each in runs], side_by_side(runs), misses(runs, wanted)
     if not sides:
         raise BagError(f"{', '.join(names)} have no metrics: there is nothing to compare")
-    failed = [miss for _, found in missed for miss in found]
+    failed, unsure = [miss for _, found in missed for miss in found], undecided(runs, wanted)
     if form == "json":
         print_json({"bags": [str(each) for each in bags], "metrics": rows_of(names, sides), **_alignment(pair),
-                    "misses": [miss._asdict() for miss in failed]})  # fmt: skip
+                    "misses": [miss._asdict() for miss in failed],
+                    "undecided": [each._asdict() for each in unsure]})  # fmt: skip
     elif form == "csv":
         say(csv_text(names, sides), nl=False)
     elif form == "junit":
-        say(junit_text_of(names, missed), nl=False)
+        say(junit_text_of(names, missed, unsure), nl=False)
     else:
         for sentence in [] if pair is None else pair.sentences:
             say(sentence)
         show_rows(table_rows(names, sides), as_json=False)
         for miss in failed:
             say(f"MISSED {miss.run}: {miss.sentence}")
-        if wanted and not failed:
+        for each in unsure:
+            say(f"UNDECIDED {each.sentence}")
+        if wanted and not failed and not unsure:
             say(f"all {len(wanted)} tolerances hold")
     if pair is not None and plot is not None:
         _draw(pair, plot, overwrite=overwrite)
-    return 1 if failed else 0
+    return exit_status(missed=bool(failed), unjudged=bool(unsure))
 
 
 def _runs(
@@ -112,7 +118,11 @@ def _runs(
             )
         if not mats:
             refuse_other_rigs([rig_of_bag(bag) for bag in opened])
-        recordings = [recording_of(bag) for bag in opened]
+        recordings: list[Recording] = []
+        for bag in opened:
+            doing(f"compare: reading {bag.path}", len(recordings) / len(opened))
+            recordings.append(recording_of(bag))
+        doing("compare: metrics and curves")
     names = distinct_names(recordings)
     if not mats:
         return [compared(name, each) for name, each in zip(names, recordings, strict=True)], None

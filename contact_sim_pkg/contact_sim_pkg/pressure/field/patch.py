@@ -22,7 +22,7 @@ class PatchSummary(NamedTuple):
     load: float  # [N] sum of the pressure times the cell area
     peak: float  # [Pa] largest pressure
     mean: float  # [Pa] load / area, 0 without contact
-    area: float  # [m^2] cells under pressure; too large on coarse grids; `contact_area` is closer
+    area: float  # [m^2] `contact_area`: the edge lies between cells
     centre_x: float  # [m] centre of pressure; the centre of the grid without contact
     centre_y: float  # [m]
 
@@ -36,7 +36,7 @@ def summarise(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
     field gives the same bits. Pressures >= 0, cells > 0. Not checked.
     """
     rows, cols = pressure.shape
-    total, moment_x, moment_y, peak, cells = 0.0, 0.0, 0.0, 0.0, 0
+    total, moment_x, moment_y, peak = 0.0, 0.0, 0.0, 0.0
     for i in range(rows):
         # Sums by row first: their order is part of the result
         row_total, row_moment = 0.0, 0.0
@@ -45,7 +45,6 @@ def summarise(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
             row_total += p
             row_moment += p * j
             peak = max(peak, p)
-            cells += 1 if p > 0.0 else 0
         total += row_total
         moment_x += row_total * i
         moment_y += row_moment
@@ -56,7 +55,8 @@ def summarise(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
         )
     centre_x = origin_x + moment_x / total * cell_x
     centre_y = origin_y + moment_y / total * cell_y
-    return PatchSummary(total * cell_x * cell_y, peak, total / cells, cells * cell_x * cell_y, centre_x, centre_y)
+    load, area = total * cell_x * cell_y, contact_area(pressure, cell_x, cell_y)
+    return PatchSummary(load, peak, load / area, area, centre_x, centre_y)
 
 
 @entry

@@ -22,7 +22,7 @@ def difference_table(names: Sequence[str], found: Sequence[Difference]) -> Table
 
 def metric_table(names: Sequence[str], sides: Sequence[ComparedMetric]) -> Table:
     """One row a metric, one column a run; of two runs their difference too."""
-    header = ("", *names, *(("Δ", "Δ %") if len(names) == 2 else ("range, %",)), "verdict")
+    header = ("", *names, *(("Δ", "Δ %") if len(names) == 2 else ("range, %",)), "rests on", "verdict")
     caption = "What moved most first."
     broken = dict.fromkeys(text for side in sides for text in side.broken)
     if broken:
@@ -33,12 +33,22 @@ def metric_table(names: Sequence[str], sides: Sequence[ComparedMetric]) -> Table
 def row_of(side: ComparedMetric) -> tuple[str, ...]:
     """Texts of one metric."""
     label = f"{side.name}, {side.unit}" if side.unit else side.name
-    values = tuple(_text(value) for value in side.values)
+    spreads = side.spreads or (math.nan,) * len(side.values)
+    values = tuple(
+        _text(value) + (f" ± {number(spread)}" if math.isfinite(spread) else "")
+        for value, spread in zip(side.values, spreads, strict=True)
+    )
     if len(side.values) == 2:
         moved: tuple[str, ...] = (_signed(side.change), _signed(100.0 * side.relative))
     else:
         moved = (NONE if side.moved < 0.0 else number(100.0 * side.moved),)
-    return (label, *values, *moved, side.verdict)
+    return (label, *values, *moved, _rests_on(side), side.verdict)
+
+
+def _rests_on(side: ComparedMetric) -> str:
+    """What it is a number of, and the largest numerical error of the runs."""
+    known = [each for each in side.errors if math.isfinite(each)]
+    return ", ".join(filter(None, (side.basis, f"error {number(max(known))}" if known else "")))
 
 
 def _text(value: float) -> str:

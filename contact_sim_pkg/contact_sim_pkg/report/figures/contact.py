@@ -205,8 +205,8 @@ def footprint_over_time(key: str, name: str, field: FieldSeries) -> Picture:
     caption = (
         f"Peak pressure up to {numbers['peak_pressure_Pa'] * 1e-3:.4g} kPa (cross, at {field.highest_time:.3f} s). "
         f"Contact area {field.area.min() * 1e4:.4g} to {field.area.max() * 1e4:.4g} cm², mean "
-        f"{numbers['contact_area_mean_m2'] * 1e4:.4g} cm²: all cells with a pressure above 0. Semi-axes and exponent of the "
-        "Lamé curve |x/a|ⁿ + |y/b|ⁿ = 1 through the boundary of these cells; n = 2 is an ellipse, larger is more like a "
+        f"{numbers['contact_area_mean_m2'] * 1e4:.4g} cm²: its edge between cells. Semi-axes and exponent of the "
+        "Lamé curve |x/a|ⁿ + |y/b|ⁿ = 1 through the boundary of the loaded cells; n = 2 is an ellipse, larger is more like a "
         "rectangle. A contact in several parts has no such outline: its values jump. Gaps: no contact."
         + _at_a_bound(field)
     )

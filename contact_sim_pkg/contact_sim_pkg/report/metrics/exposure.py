@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.records.metric import EVENT, Metric
 from contact_sim_pkg.report.series import FloatArray
 from contact_sim_pkg.report.signal import confidence
 from contact_sim_pkg.report.signal import spine as spine_model
@@ -78,8 +78,26 @@ def exposure_metrics(
             make("dose", "VDV of 8 h", dose, "m/s^1.75", quantity="daily_dose", broken=doubts, count=count, remark=said)
         )
     found += [
-        make("mtvv", "MTVV, linear 1 s", mtvv, axis.unit, broken=doubts, count=count, remark=_beside(mtvv, a_w)),
-        make("crest", "crest factor", metrics.crest_factor, "", quantity="crest_factor", broken=doubts, count=count),
+        make(
+            "mtvv",
+            "MTVV, linear 1 s",
+            mtvv,
+            axis.unit,
+            broken=doubts,
+            count=count,
+            basis=EVENT,
+            remark=_beside(mtvv, a_w),
+        ),
+        make(
+            "crest",
+            "crest factor",
+            metrics.crest_factor,
+            "",
+            quantity="crest_factor",
+            broken=doubts,
+            count=count,
+            basis=EVENT,
+        ),
     ]
     if axis.vertical:
         shocks = spine_model.dose(spine_model.spine_acceleration(acceleration, rate))

@@ -7,7 +7,7 @@ from itertools import zip_longest
 
 from contact_sim_pkg.bag.metadata import WARNINGS
 from contact_sim_pkg.files import printable
-from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.records.metric import EVENT, Metric
 from contact_sim_pkg.records.registry import announced
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.energy import throughput
@@ -106,6 +106,6 @@ def load_metrics(name: str, contact: ContactSeries) -> list[Metric]:
     spread = spread_of_mean(normal, 1.0 / contact.sample_period)
     return [
         make("load", "load, mean", normal.mean(), "N", spread=spread, count=normal.size),
-        make("load_largest", "load, largest", normal.max(), "N", count=normal.size),
+        make("load_largest", "load, largest", normal.max(), "N", count=normal.size, basis=EVENT),
         make("lift_off", "time without load", 100.0 * (normal <= 0.0).mean(), "%", count=normal.size),
     ]

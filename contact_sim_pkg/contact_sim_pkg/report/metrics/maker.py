@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from contact_sim_pkg.excitation.kinds import RoadKind, kind_known
-from contact_sim_pkg.records.metric import CLOSED_FORM, Band, Metric, judged
+from contact_sim_pkg.records.metric import CLOSED_FORM, SELF_CHECK, STATIONARY, Band, Metric, judged
 from contact_sim_pkg.report.energy import relative_residual
 from contact_sim_pkg.report.metrics.bands import Conditions, band_of
 from contact_sim_pkg.report.series import LedgerSeries
@@ -30,6 +30,8 @@ class Maker(NamedTuple):
     """[s]"""
     conditions: Conditions = MappingProxyType({})
     """what the run is, for the bands"""
+    basis: str = STATIONARY
+    """of metrics that name none"""
 
     def make(
         self,
@@ -45,8 +47,12 @@ class Maker(NamedTuple):
         spread: float = math.nan,
         count: int = 0,
         topic: str = "",
+        basis: str = "",
+        error: float = math.nan,
     ) -> Metric:
-        """A metric: its band is ``band``, or that of a ``quantity`` of the data file in this run."""
+        """A metric: its band is ``band``, or that of a ``quantity`` of the data file in this run. Beside a closed form
+        it is a self-check.
+        """
         words, reason = "", "" if band is not None else "no band"
         if band is None and quantity:
             found = band_of(quantity, self.conditions)
@@ -54,19 +60,26 @@ class Maker(NamedTuple):
         said = "; ".join(filter(None, (words, reason if reason != "no band" else "", remark)))
         return Metric(
             f"{self.prefix}.{key}", name, float(value), unit, judged(value, band), band, remark=said, broken=broken,
-            spread=float(spread), size=count, topic=topic or self.topic, window=self.window,
+            spread=float(spread), size=count, topic=topic or self.topic, window=self.window, error=float(error),
+            basis=SELF_CHECK if band is not None and band.kind == CLOSED_FORM else basis or self.basis,
         )  # fmt: skip
 
 
-def near(value: float, share: float, source: str) -> Band:
-    """Band of a closed form: ``value`` and a ``share`` of it on either side."""
-    reach = abs(value) * share
+ROUNDING = 1e-9
+"""of the scale of its terms, by which a closed form may be missed"""
+
+
+def near(value: float, share: float, source: str, scale: float = 0.0) -> Band:
+    """Band of a closed form: ``value`` and a ``share`` of it on either side; what is left of the difference of
+    terms as large as ``scale`` is rounding.
+    """
+    reach = abs(value) * share + ROUNDING * scale
     return Band(value - reach, value + reach, CLOSED_FORM, source)
 
 
-def at_most(value: float, source: str) -> Band:
-    """Band of a closed form that bounds from above."""
-    return Band(-math.inf, value, CLOSED_FORM, source)
+def at_most(value: float, source: str, kind: str = CLOSED_FORM) -> Band:
+    """Band that bounds from above: by a closed form, or by a limit."""
+    return Band(-math.inf, value, kind, source)
 
 
 def energy_residual(ledger: LedgerSeries, duration: float, scene: Mapping[str, object]) -> Metric:

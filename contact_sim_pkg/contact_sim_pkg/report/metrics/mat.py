@@ -38,7 +38,8 @@ def mat_metrics(contact: str, field: FieldSeries, duration: float, loaded: float
         make("map_peak", "peak of the mean map", 1e-3 * float(grid.pressure.max()), "kPa", count=count,
              remark=f"row {highest[0]:.4g}, column {highest[1]:.4g} of the map, from 0"),
         make("map_area", "loaded area of the mean map", 1e4 * area * int((grid.pressure > loaded).sum()), "cm²", count=count),
-        make("map_gradient", "largest gradient of the mean map", 1e-5 * gradient(grid), "kPa/cm", count=count),
+        make("map_gradient", "largest gradient of the mean map", 1e-5 * gradient(grid), "kPa/cm", count=count,
+             remark="between these cells; finer ones find a steeper one"),
         make("map_spd", "SPD of the mean map", spd(grid.pressure, loaded), "%", count=count),
         make("centre_x", "centre of pressure, forward", round(1e3 * centre_x, 9) + 0.0, "mm", count=count,
              remark=f"row {(centre_x - grid.origin_x) / grid.cell_x:.4g} of the map, from 0"),
@@ -48,7 +49,16 @@ def mat_metrics(contact: str, field: FieldSeries, duration: float, loaded: float
     ]  # fmt: skip
     names, rows = ZONES.get(contact, PAN)
     for name, share in zones(grid, names, rows, loaded).items():
-        found.append(make(f"zone_{name.replace(' ', '_')}", f"load of the zone {name}", share, "%", count=count))
+        found.append(
+            make(
+                f"zone_{name.replace(' ', '_')}",
+                f"load of the zone {name}",
+                share,
+                "%",
+                count=count,
+                remark="of whole cells",
+            )
+        )
     return found
 
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.records.metric import Metric, judged
+from contact_sim_pkg.report.signal.confidence import half_interval
 from contact_sim_pkg.scene.resolved_scene import leaves_of
 
 __all__ = ["repeated"]
@@ -23,18 +26,20 @@ MOST_NAMED = 3
 def repeated(
     names: Sequence[str], scenes: Sequence[Mapping[str, Any]], lists: Sequence[Sequence[Metric]]
 ) -> list[Metric]:
-    """Mean of each metric that all runs have, with half the range of the runs as spread.
+    """Mean of each metric that all runs have, with half its 95 % interval (Student's t) as spread.
 
     names, scenes, lists: of the runs, at least two; a bag of anybody has an empty scene.
 
     Raises:
-        BagError: two runs are the same simulation or of different scenes, or no metric is in all of them.
+        BagError: two runs are the same simulation, of parts of one recording that overlap, or of different scenes; or no
+            metric is in all of them.
     """
     refuse_equal(names, scenes)
     by_key = [{each.key: each for each in metrics} for metrics in lists]
     common = [key for key in by_key[0] if all(key in each for each in by_key)]
     if not common:
         raise BagError(f"{', '.join(names)} have no metric in common: repeated runs are of one scene")
+    _refuse_overlap(names, scenes)
     _refuse_equal_numbers(names, by_key, common)
     return [_mean([each[key] for each in by_key], names) for key in common]
 
@@ -59,6 +64,22 @@ def refuse_equal(names: Sequence[str], scenes: Sequence[Mapping[str, Any]]) -> N
             raise BagError(
                 f"{names[0]} and {name} are runs of different scenes ({', '.join(differing[:MOST_NAMED])}): a mean over them "
                 "says nothing; `bench compare` puts them side by side"
+            )
+
+
+def _refuse_overlap(names: Sequence[str], scenes: Sequence[Mapping[str, Any]]) -> None:
+    """BagError where two runs are driven by parts of one recording that share samples: they are no repeats."""
+    parts = sorted(
+        (str(vibration["file"]), float(vibration.get("start") or 0.0), float(scene["duration"]), name)
+        for name, scene in zip(names, scenes, strict=True)
+        if isinstance(vibration := scene.get("vibration"), Mapping) and vibration.get("file")
+    )
+    for (file, start, length, name), (other_file, other_start, _length, other) in pairwise(parts):
+        shared = start + length - other_start
+        if file == other_file and shared > 1e-9 * length:
+            raise BagError(
+                f"{name} and {other} share {shared:.4g} s of {Path(file).name}: repeats of a test have no part in common; "
+                f"begin the second at vibration.start={start + length:.6g} or later, or judge one run of all of it"
             )
 
 
@@ -90,11 +111,11 @@ def _mean(runs: Sequence[Metric], names: Sequence[str]) -> Metric:
         if len(runs) < 3:
             broken.append(f"not valid by ISO 10326-1: {len(runs)} runs, 3 needed")
     said = f"{len(runs)} runs, largest deviation {100.0 * off:.3g} %" if math.isfinite(mean) else f"{len(runs)} runs"
-    spread = 0.5 * (max(values) - min(values))
     return runs[0]._replace(
         value=mean,
         verdict=judged(mean, runs[0].band),
-        spread=spread,
+        spread=half_interval(values),
+        error=max(each.error for each in runs),
         size=len(runs),
         broken=tuple(broken),
         remark=said,

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
-from contact_sim_pkg.records.metric import NO_BAND, OUTSIDE, REQUIRED, UNDECIDED, Band, Metric, judged
+from contact_sim_pkg.records.metric import NO_BAND, OUTSIDE, REQUIRED, UNDECIDED, Band, Metric, exit_status, judged
 
 __all__ = ["Requirement", "exit_code", "read_requirements", "required"]
 
@@ -104,7 +104,7 @@ def _finite(value: object, where: str) -> float:
 def required(metrics: Sequence[Metric], requirements: Sequence[Requirement]) -> list[Metric]:
     """The metrics, those that something is required of judged by that alone.
 
-    A metric whose spread reaches over the limit is undecided.
+    A metric whose spread and numerical error reach over the limit is undecided.
 
     Raises:
         BagError: a requirement is of a metric that the run does not have, or in another unit.
@@ -139,10 +139,11 @@ def _places(metrics: Sequence[Metric], named: str) -> list[int]:
 
 def _judged(metric: Metric, requirement: Requirement) -> Metric:
     """A metric with its band replaced; of several requirements that which it holds least stays, a miss before all."""
-    band, value, spread = requirement.band, metric.value, metric.spread
+    band, value = requirement.band, metric.value
+    unsure = sum(each for each in (metric.spread, metric.error) if math.isfinite(each))
     verdict = judged(value, band)
     ends = [end for end in (band.low, band.high) if math.isfinite(end)]
-    if math.isfinite(value) and math.isfinite(spread) and any(abs(value - end) < spread for end in ends):
+    if math.isfinite(value) and any(abs(value - end) < unsure for end in ends):
         verdict = UNDECIDED
     again = metric.band is not None and metric.band.kind == REQUIRED
     if again and (metric.verdict == OUTSIDE or (metric.verdict == UNDECIDED and verdict != OUTSIDE)):
@@ -153,8 +154,8 @@ def _judged(metric: Metric, requirement: Requirement) -> Metric:
 
 def exit_code(metrics: Sequence[Metric]) -> int:
     """1 where a metric is outside its band, 3 where what is required could not be judged, else 0."""
-    if any(each.verdict == OUTSIDE for each in metrics):
-        return 1
-    unsure = (UNDECIDED, NO_BAND)
-    open_ones = [each for each in metrics if each.band is not None and each.band.kind == REQUIRED]
-    return 3 if any(each.verdict in unsure or each.broken for each in open_ones) else 0
+    own = [each for each in metrics if each.band is not None and each.band.kind == REQUIRED]
+    return exit_status(
+        missed=any(each.verdict == OUTSIDE for each in metrics),
+        unjudged=any(each.verdict in (UNDECIDED, NO_BAND) or each.broken for each in own),
+    )

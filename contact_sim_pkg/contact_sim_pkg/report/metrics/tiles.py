@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from contact_sim_pkg.records.metric import Metric
-from contact_sim_pkg.report.metrics.views import verdict_text
+from contact_sim_pkg.report.metrics.views import rests_on, verdict_text
 from contact_sim_pkg.report.rows import SUPERSCRIPT, number
 
 
@@ -21,6 +21,8 @@ class Tile(NamedTuple):
     verdict: str
     tone: str
     """class of its colour"""
+    rests: str
+    """what it is a number of, and its numerical error"""
     band: str
     remark: str
     doubtful: bool
@@ -55,7 +57,7 @@ def _tile(metric: Metric, footnote: int) -> Tile:
     return Tile(
         label=metric.name, value=number(metric.value) if defined else "–", unit=_printed(metric.unit) if defined else "",
         spread=number(metric.spread) if math.isfinite(metric.spread) else "",
-        verdict=verdict_text(metric), tone=metric.verdict.replace(" ", "-"),
+        verdict=verdict_text(metric), tone=metric.verdict.replace(" ", "-"), rests=rests_on(metric),
         band="" if band is None else f"{band.text} {_printed(metric.unit)}".rstrip(), remark=metric.remark,
         doubtful=bool(metric.broken), footnote=footnote,
     )  # fmt: skip

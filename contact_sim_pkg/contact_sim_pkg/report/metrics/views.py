@@ -10,14 +10,24 @@ from typing import Any
 from xml.etree import ElementTree
 
 from contact_sim_pkg.files import as_cell
-from contact_sim_pkg.records.metric import GOOD, NO_BAND, OUTSIDE, UNDECIDED, USUAL, Band, Metric
+from contact_sim_pkg.records.metric import CLOSED_FORM, GOOD, MET, NO_BAND, OUTSIDE, UNDECIDED, USUAL, Band, Metric
 from contact_sim_pkg.report.rows import number
 
-__all__ = ["csv_of", "junit_of", "lines_of", "row_of", "rows_of", "value_text", "verdict_line", "verdict_text"]
+__all__ = [
+    "csv_of",
+    "junit_of",
+    "lines_of",
+    "rests_on",
+    "row_of",
+    "rows_of",
+    "value_text",
+    "verdict_line",
+    "verdict_text",
+]
 
 COLUMNS = (
-    "key", "name", "value", "unit", "verdict", "low", "high", "kind", "source", "conditions", "remark", "broken", "spread", "count",
-    "topic", "window_start", "window_end",
+    "key", "name", "value", "unit", "verdict", "low", "high", "kind", "source", "conditions", "remark", "broken", "spread", "error",
+    "basis", "count", "topic", "window_start", "window_end",
 )  # fmt: skip
 
 
@@ -29,7 +39,8 @@ def row_of(metric: Metric) -> dict[str, Any]:
         "low": None if band is None else _finite(band.low), "high": None if band is None else _finite(band.high),
         "kind": "" if band is None else band.kind, "source": "" if band is None else band.source,
         "conditions": "" if band is None else band.conditions, "remark": metric.remark, "broken": list(metric.broken),
-        "spread": _finite(metric.spread), "count": metric.size or None, "topic": metric.topic,
+        "spread": _finite(metric.spread), "error": _finite(metric.error), "basis": metric.basis,
+        "count": metric.size or None, "topic": metric.topic,
         "window_start": metric.window[0], "window_end": metric.window[1],
     }  # fmt: skip
 
@@ -58,6 +69,12 @@ def value_text(metric: Metric) -> str:
     return f"{number(metric.value)}{spread} {metric.unit}".rstrip()
 
 
+def rests_on(metric: Metric) -> str:
+    """`stationary, error 0.012`: what it is a number of, and its numerical error in its unit where that is known."""
+    error = f"error {number(metric.error)}" if math.isfinite(metric.error) and math.isfinite(metric.value) else ""
+    return ", ".join(filter(None, (metric.basis, error)))
+
+
 def verdict_text(metric: Metric) -> str:
     """`good`, `OUTSIDE`, and `good?` where an assumption does not hold."""
     verdict = metric.verdict.upper() if metric.verdict in (OUTSIDE, UNDECIDED) else metric.verdict
@@ -65,18 +82,22 @@ def verdict_text(metric: Metric) -> str:
 
 
 def lines_of(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """A line a metric: value, verdict, band and remark; below it what of its assumptions does not hold."""
+    """A line a metric: value and spread, verdict, what it is a number of, numerical error, band and remark; below it
+    what of its assumptions does not hold.
+    """
     metrics = [metric_of(row) for row in rows]
     width = max((len(each.name) for each in metrics), default=0)
     values = [value_text(each) for each in metrics]
     wide = max(map(len, values), default=0)
+    rests = [rests_on(each) for each in metrics]
+    reach = max(map(len, rests), default=0)
     found: list[str] = []
     before: tuple[str, ...] = ()
-    for metric, value in zip(metrics, values, strict=True):
+    for metric, value, rest in zip(metrics, values, rests, strict=True):
         verdict = verdict_text(metric)
         band = "" if metric.band is None else metric.band.text
         said = "; ".join(filter(None, (band, metric.remark)))
-        found.append(f"{metric.name:<{width}}  {value:<{wide}}  {verdict:<8}  {said}".rstrip())
+        found.append(f"{metric.name:<{width}}  {value:<{wide}}  {verdict:<8}  {rest:<{reach}}  {said}".rstrip())
         if metric.broken and metric.broken != before:
             found.append(f"{'':<{width}}  ! {'; '.join(metric.broken)}")
         before = metric.broken
@@ -91,7 +112,10 @@ def verdict_line(rows: Sequence[Mapping[str, Any]]) -> str:
     doubts = list(dict.fromkeys(text for each in metrics for text in each.broken))
     sure = [each.verdict for each in metrics if not each.broken]
     counts = {verdict: sure.count(verdict) for verdict in (GOOD, USUAL, NO_BAND)}
-    rest = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
+    checks = [each for each in metrics if each.band is not None and each.band.kind == CLOSED_FORM]
+    met = sum(each.verdict == MET for each in checks)
+    closed = [f"{met} of {len(checks)} closed forms met"] if checks else []
+    rest = ", ".join([*(f"{count} {verdict}" for verdict, count in counts.items() if count), *closed])
     parts = [
         f"OUTSIDE: {', '.join(outside)}" if outside else "",
         f"UNDECIDED: {', '.join(undecided)}" if undecided else "",
@@ -111,17 +135,17 @@ def metric_of(row: Mapping[str, Any]) -> Metric:
     if row["kind"]:
         low, high = (end if row[name] is None else row[name] for name, end in (("low", -math.inf), ("high", math.inf)))
         band = Band(low, high, row["kind"], row["source"], row["conditions"])
-    value, spread = (math.nan if row[name] is None else row[name] for name in ("value", "spread"))
+    value, spread, error = (math.nan if row[name] is None else row[name] for name in ("value", "spread", "error"))
     return Metric(
         row["key"], row["name"], value, row["unit"], row["verdict"], band, remark=row["remark"],
         broken=tuple(row["broken"]), spread=spread, size=row["count"] or 0, topic=row["topic"],
-        window=(row["window_start"], row["window_end"]),
+        window=(row["window_start"], row["window_end"]), basis=row["basis"], error=error,
     )  # fmt: skip
 
 
 def junit_of(name: str, metrics: Sequence[Metric]) -> str:
     """JUnit XML of the list of the bag ``name``: outside its band is a failure, a broken assumption an error, as
-    is a limit within the spread, no band skipped."""
+    is a limit within the uncertainty, no band skipped. What a case rests on is its `system-out`."""
     cases = [_case(each) for each in metrics]
     return junit_text(name, cases)
 
@@ -130,12 +154,13 @@ def _case(metric: Metric) -> ElementTree.Element:
     case = ElementTree.Element("testcase", classname=metric.topic or metric.key, name=metric.key)
     said = f"{metric.name}: {value_text(metric)}; {_limit(metric)} {metric.remark}".strip()
     if metric.broken or metric.verdict == UNDECIDED:
-        message = "; ".join(metric.broken) or "the limit lies within the spread"
+        message = "; ".join(metric.broken) or "the limit lies within the uncertainty"
         ElementTree.SubElement(case, "error", message=message).text = said
     elif metric.verdict == OUTSIDE:
         ElementTree.SubElement(case, "failure", message=said)
     elif metric.verdict == NO_BAND:
         ElementTree.SubElement(case, "skipped", message=metric.remark or NO_BAND)
+    ElementTree.SubElement(case, "system-out").text = "; ".join(filter(None, (value_text(metric), rests_on(metric))))
     return case
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ PART_TIME = 2.0
 """[s] of the parts of a record that count as independent"""
 FEWEST_PARTS = 8
 TWO_SIDED = 1.96
-"""Standard errors in half the 95 % interval."""
+"""Standard errors in half the 95 % interval of an error that is known."""
 CLIPPED_SHARE = 1e-3
 """Share of samples at full scale above which the metrics of a recording are doubtful: a sample or two change no rms."""
 PLATEAU = 3
@@ -21,11 +22,23 @@ PLATEAU = 3
 LARGEST_CREST = 9.0
 
 
+def half_interval(values: Sequence[float] | NDArray[np.float64]) -> float:
+    """Half the 95 % interval of the mean of independent ``values`` [number], in their unit, by Student's t; nan for
+    fewer than two.
+    """
+    from scipy.special import stdtrit
+
+    count = len(values)
+    if count < 2:
+        return math.nan
+    return float(stdtrit(count - 1, 0.975)) * float(np.std(values, ddof=1)) / math.sqrt(count)
+
+
 def spread_of_mean(values: NDArray[np.float64], sample_rate: float) -> float:
     """Half the 95 % interval of the mean of ``values`` [samples], in their unit, by the scatter of parts of
     2 s; nan for fewer than 8 of them. sample_rate: [Hz]."""
     parts = _parts(values, sample_rate)
-    return math.nan if parts is None else TWO_SIDED * float(parts.std(ddof=1)) / math.sqrt(parts.size)
+    return math.nan if parts is None else half_interval(parts)
 
 
 def spread_of_rms(values: NDArray[np.float64], sample_rate: float) -> float:
@@ -41,7 +54,7 @@ def spread_of_ratio(above: NDArray[np.float64], below: NDArray[np.float64], samp
         return math.nan
     square = float(top.mean() / bottom.mean())
     rest = (top - square * bottom) / bottom.mean()
-    return TWO_SIDED * float(rest.std(ddof=1)) / math.sqrt(rest.size) / (2.0 * math.sqrt(square)) if square else 0.0
+    return half_interval(rest) / (2.0 * math.sqrt(square)) if square else 0.0
 
 
 def _parts(values: NDArray[np.float64], sample_rate: float) -> NDArray[np.float64] | None:

@@ -209,7 +209,7 @@ def area_over_time(key: str, name: str, field: FieldSeries, slaps: EpisodeSeries
     caption = (
         f"Area of the contact domain over S_ref = {area.reference * 1e4:.4g} cm², the area under the largest static load (the "
         f"contact at rest, at the start). It lies between {area.ratio.min():.3g} and {area.ratio.max():.3g}, mean "
-        f"{area.ratio.mean():.3g}; all cells with a pressure above 0 count."
+        f"{area.ratio.mean():.3g}; its edge lies between cells."
     )
     # Every slap from its first touch, the heaviest in colour.
     if chosen is not None:

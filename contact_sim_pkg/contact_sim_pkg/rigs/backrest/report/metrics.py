@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.records.metric import LIMIT, Band, Metric
+from contact_sim_pkg.records.metric import EVENT, LIMIT, Band, Metric
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, near
 from contact_sim_pkg.report.series import ContactSeries, FieldSeries, Recording
-from contact_sim_pkg.report.signal.confidence import TWO_SIDED
+from contact_sim_pkg.report.signal.confidence import half_interval
 from contact_sim_pkg.report.signal.episodes import durations, slaps_of
 from contact_sim_pkg.report.signal.loops import area_ratio, steady_start
 from contact_sim_pkg.rigs.backrest.report.numbers import BACKREST, back_load, drive_period
@@ -36,7 +35,7 @@ def _slaps(make: Any, recording: Recording, contact: ContactSeries) -> Iterator[
     """Number, restitution, duration and force of the slaps."""
     slaps, ledger, period = slaps_of(recording.episodes), recording.ledger, drive_period(recording.scene)
     count, topic = slaps.start.size, "bench/episodes"
-    yield make("slaps", "slaps", count, "", topic=topic)
+    yield make("slaps", "slaps", count, "", topic=topic, basis=EVENT)
     lifted = 100.0 * float((contact.normal <= 0.0).mean())
     yield make("lift_off", "time without load", lifted, "%", count=contact.normal.size)
     if not count:
@@ -46,16 +45,15 @@ def _slaps(make: Any, recording: Recording, contact: ContactSeries) -> Iterator[
         whole = max(1, round(between / period)) * period
         yield make("interval", "time from slap to slap", 1e3 * between, "ms", topic=topic, count=count - 1,
                    band=near(1e3 * whole, 0.02, "whole cycles of the drive"))  # fmt: skip
-    spread = TWO_SIDED * float(slaps.restitution.std(ddof=1)) / math.sqrt(count) if count > 1 else math.nan
-    yield make("restitution", "restitution e, mean", slaps.restitution.mean(), "", topic=topic, count=count, spread=spread,
-               band=Band(0.0, 1.0, LIMIT, "no slap gains energy"),
+    yield make("restitution", "restitution e, mean", slaps.restitution.mean(), "", topic=topic, count=count, basis=EVENT,
+               spread=half_interval(slaps.restitution), band=Band(0.0, 1.0, LIMIT, "no slap gains energy"),
                remark=f"{slaps.restitution.min():.3g} to {slaps.restitution.max():.3g}")  # fmt: skip
     lasted = 1e3 * durations(slaps)
-    yield make("duration", "duration of a slap, mean", lasted.mean(), "ms", topic=topic, count=count,
-               remark=f"{lasted.min():.4g} to {lasted.max():.4g}")  # fmt: skip
+    yield make("duration", "duration of a slap, mean", lasted.mean(), "ms", topic=topic, count=count, basis=EVENT,
+               spread=half_interval(lasted), remark=f"{lasted.min():.4g} to {lasted.max():.4g}")  # fmt: skip
     lost = -float((slaps.compression_work + slaps.restitution_work).sum())
     band = None if ledger is None else at_most(float(ledger.dissipated[-1]), "dissipated in the run, bench/energy")
-    yield make("loss", "energy lost in slaps", lost, "J", topic=topic, count=count, band=band)
+    yield make("loss", "energy lost in slaps", lost, "J", topic=topic, count=count, band=band, basis=EVENT)
 
 
 def _load(make: Any, recording: Recording, contact: ContactSeries) -> Iterator[Metric]:
@@ -70,7 +68,13 @@ def _load(make: Any, recording: Recording, contact: ContactSeries) -> Iterator[M
     law = _law(recording, float(contact.approach[deepest]))
     band = None if law is None else near(law, 0.05, "A δⁿ, where the approach turns")
     yield make(
-        "load_deepest", "load at the largest approach", contact.normal[deepest], "N", band=band, count=steady.size
+        "load_deepest",
+        "load at the largest approach",
+        contact.normal[deepest],
+        "N",
+        band=band,
+        count=steady.size,
+        basis=EVENT,
     )
 
 
@@ -96,7 +100,7 @@ def _friction(make: Any, recording: Recording, contact: ContactSeries) -> Iterat
     pressed = contact.normal > 0.01 * contact.normal.max()
     largest = float(np.abs(contact.tangential[pressed] / contact.normal[pressed]).max())
     coefficient = max(float(keys["coefficient_static"]), float(keys["coefficient_kinetic"]))
-    yield make("friction", "friction over load, largest", largest, "", count=int(pressed.sum()),
+    yield make("friction", "friction over load, largest", largest, "", count=int(pressed.sum()), basis=EVENT,
                band=at_most(coefficient * (1.0 + 1e-3), f"Coulomb, µ {coefficient:g}"))  # fmt: skip
     points = recording.points
     if points is not None and points.points == 1 and points.time.size > 1:
@@ -116,11 +120,17 @@ def _map(make: Any, recording: Recording, field: FieldSeries) -> Iterator[Metric
     yield make("mean_pressure", "mean pressure", 1e-3 * field.mean[carries].mean(), "kPa", quantity="back_mean_pressure",
                topic=topic, count=count)  # fmt: skip
     yield make("peak_pressure", "peak pressure", 1e-3 * float(field.peak.max()), "kPa", topic=topic, count=field.time.size,
-               remark=f"at {field.highest_time:.3f} s")  # fmt: skip
+               basis=EVENT, remark=f"at {field.highest_time:.3f} s")  # fmt: skip
     areas = area_ratio(field)
     if areas is not None:
         yield make(
-            "area_ratio", "largest area over that at rest", areas.ratio.max(), "", topic=topic, count=field.time.size
+            "area_ratio",
+            "largest area over that at rest",
+            areas.ratio.max(),
+            "",
+            topic=topic,
+            count=field.time.size,
+            basis=EVENT,
         )
     back = back_load(recording)
     if back is not None:

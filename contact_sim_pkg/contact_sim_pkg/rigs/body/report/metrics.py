@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.records.metric import EVENT, Metric
+from contact_sim_pkg.report.energy import throughput
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, near
 from contact_sim_pkg.report.series import ContactSeries, LedgerSeries, MotionSeries, Recording
 from contact_sim_pkg.rigs.body.report.numbers import BLOCK, bursts, rest_from
@@ -22,22 +23,26 @@ def block_metrics(recording: Recording) -> list[Metric]:
     if contact is None or motion is None:
         return []
     window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
-    make = Maker(BLOCK, f"{BLOCK}/force", window).make
+    make = Maker(BLOCK, f"{BLOCK}/force", window, basis=EVENT).make
     rests = rest_from(motion)
-    found = [*_rest(make, motion, rests, window[1]), *_impulses(make, recording, contact, motion)]
+    found = [*_rest(make, motion, rests), *_impulses(make, recording, contact, motion, rests)]
     return [*found, *_friction(make, recording, contact), *_energy(make, recording, rests)]
 
 
-def _rest(make: Any, motion: MotionSeries, rests: float | None, end: float) -> Iterator[Metric]:
+def _rest(make: Any, motion: MotionSeries, rests: float | None) -> Iterator[Metric]:
     """When it comes to rest."""
     doubts = () if rests is not None else ("too short: it still moves at the end",)
     yield make("rest", "at rest from", math.nan if rests is None else rests, "s", topic="bench/motion", broken=doubts,
-               band=at_most(end, "within the run"), count=motion.time.size)  # fmt: skip
+               error=motion.sample_period, count=motion.time.size)  # fmt: skip
 
 
-def _impulses(make: Any, recording: Recording, contact: ContactSeries, motion: MotionSeries) -> Iterator[Metric]:
-    """Contacts, their impulses, and the balance of vertical momentum: sum of impulses = m (g T + v_end - v_0)."""
-    found, block = bursts(contact), recording.scene.get("block") or {}
+def _impulses(
+    make: Any, recording: Recording, contact: ContactSeries, motion: MotionSeries, rests: float | None
+) -> Iterator[Metric]:
+    """Contacts, their impulses until the body rests, and the balance of vertical momentum over the run: sum of
+    impulses = m (g T + v_end - v_0).
+    """
+    found, block = bursts(contact, rests), recording.scene.get("block") or {}
     yield make("contacts", "contacts", len(found), "")
     yield make("impulse_largest", "largest impulse", max(found, default=0.0), "N s", count=len(found))
     total = float(contact.normal.sum()) * contact.sample_period
@@ -46,14 +51,14 @@ def _impulses(make: Any, recording: Recording, contact: ContactSeries, motion: M
         yield make("impulse", "sum of the impulses", total, "N s", count=len(found))
         return
     change = float(motion.velocity[name][-1] - motion.velocity[name][0])
-    needed = float(block["gravity"]) * contact.normal.size * contact.sample_period + change
-    mass = float(block["mass"])
-    yield make("impulse", "sum of the impulses", total, "N s", band=near(mass * needed, 0.01, "momentum, m (g T + Δv)"),
-               count=len(found))  # fmt: skip
-    if needed > 0.0:
+    weighed = float(block["gravity"]) * contact.normal.size * contact.sample_period
+    needed, mass = weighed + change, float(block["mass"])
+    yield make("impulse", "sum of the impulses", total, "N s", count=len(found),
+               band=near(mass * needed, 0.01, "momentum, m (g T + Δv)", scale=mass * weighed))  # fmt: skip
+    if total > 0.0:
         yield make("mass", "mass by momentum", total / needed, "kg", band=near(mass, 0.01, "mass of the scene"))
-    first = next((float(each) for each in contact.time[contact.normal > 0.0]), math.nan)
-    yield make("first", "first contact", first, "s")
+        first = next((float(each) for each in contact.time[contact.normal > 0.0]), math.nan)
+        yield make("first", "first contact", first, "s", error=contact.sample_period)
 
 
 def _friction(make: Any, recording: Recording, contact: ContactSeries) -> Iterator[Metric]:
@@ -74,5 +79,5 @@ def _energy(make: Any, recording: Recording, rests: float | None) -> Iterator[Me
         return
     lost, topic = float(ledger.dissipated[-1]), "bench/energy"
     fallen = -float(ledger.potential[-1] + ledger.kinetic[-1] + ledger.stored[-1] - ledger.supplied[-1])
-    band = near(fallen, 0.01, "kinetic and potential energy given up") if fallen > 0.0 else None
+    band = near(fallen, 0.01, "kinetic and potential energy given up", scale=throughput(ledger))
     yield make("loss", "energy lost", lost, "J", band=band, topic=topic, count=ledger.time.size)

@@ -8,7 +8,7 @@ import math
 from typing import Any
 
 from contact_sim_pkg.records.messages import ImpactEvents
-from contact_sim_pkg.records.metric import LIMIT, Band, Metric
+from contact_sim_pkg.records.metric import EVENT, LIMIT, Band, Metric
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, near
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.rigs.impact.material.estimate import EstimatedValue
@@ -25,7 +25,7 @@ LARGEST_LOSS = 0.1
 def impact_metrics(recording: Recording) -> list[Metric]:
     """The list of the impacts; where none ended, their number alone."""
     impacts = impacts_of(recording)
-    make = Maker(IMPACT, f"{IMPACT}/events", (0.0, recording.duration)).make
+    make = Maker(IMPACT, f"{IMPACT}/events", (0.0, recording.duration), basis=EVENT).make
     if impacts is None:
         return [make("count", "impacts", 0, "", broken=("too short: no impact ended",))] if _drops(recording) else []
     events = impacts.events
@@ -90,7 +90,7 @@ def _elastic(events: ImpactEvents) -> tuple[float, float, float]:
 
 def _below_yield(recording: Recording) -> Band | None:
     strength = ((recording.scene.get(IMPACT) or {}).get("sample") or {}).get("yield_strength")
-    return None if strength is None else at_most(1.6e-6 * float(strength), "first yield, 1.60 Y (Johnson, 6.1)")
+    return None if strength is None else at_most(1.6e-6 * float(strength), "first yield, 1.60 Y (Johnson, 6.1)", LIMIT)
 
 
 def _drop_speed(recording: Recording, events: ImpactEvents) -> Band | None:

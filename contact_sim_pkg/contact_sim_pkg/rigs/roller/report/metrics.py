@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.records.metric import EVENT, STATE, STATIONARY, Metric
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, near
 from contact_sim_pkg.report.ranges import FIRST_YIELD
 from contact_sim_pkg.report.rows import number
@@ -24,7 +24,7 @@ def roller_metrics(recording: Recording) -> list[Metric]:
     roller = roller_of(recording)
     if roller is None:
         return []
-    make = Maker(ROLLER, f"{ROLLER}/contact", (0.0, recording.duration)).make
+    make = Maker(ROLLER, f"{ROLLER}/contact", (0.0, recording.duration), basis=STATE).make
     return [
         *_contact(make, roller, recording.scene),
         *_volumes(make, roller),
@@ -58,10 +58,10 @@ def _contact(make: Any, roller: RollerSeries, scene: dict[str, Any]) -> Iterator
         yield make(key, name, 1e6 * value, "µm", band=band, count=count)
     band = None if expected[2] is None else near(1e6 * expected[2], 0.02, "Hertz, radii of the scene")
     yield make("approach", "approach", 1e6 * float(contact.approach[place]), "µm", band=band, count=count)
-    yield make("load", "load, mean", contact.load.mean(), "N", count=count,
+    yield make("load", "load, mean", contact.load.mean(), "N", count=count, basis=STATIONARY,
                remark=f"{contact.load.min():.4g} to {contact.load.max():.4g}")  # fmt: skip
     tilt = max(float(np.abs(contact.tilt).max()), float(np.abs(contact.yaw).max()))
-    yield make("tilt", "tilt or yaw, largest", 1e3 * tilt, "mrad", count=count)
+    yield make("tilt", "tilt or yaw, largest", 1e3 * tilt, "mrad", count=count, basis=EVENT)
 
 
 def _hertz(scene: dict[str, Any], roller: RollerSeries, place: int) -> tuple[float | None, float | None, float | None]:
@@ -91,7 +91,8 @@ def _volumes(make: Any, roller: RollerSeries) -> Iterator[Metric]:
     volumes = [float((each.with_bending if len(each.with_bending) else each.volume)[-1]) for each in roller.volumes]
     place = int(np.argmax(volumes))
     share = 100.0 * volumes[place] / roller.volumes[place].working_volume
-    yield make("volume", "dangerous volume, largest", 1e9 * volumes[place], "mm³", topic=f"{ROLLER}/volumes", count=len(volumes),
+    yield make("volume", "dangerous volume, largest", 1e9 * volumes[place], "mm³", topic=f"{ROLLER}/volumes",
+               count=len(volumes), basis=EVENT,
                remark=f"{number(share)} % of the working volume, at {roller.volumes[place].time:.3g} s")  # fmt: skip
     limit = roller.volumes[place].normal_limit
     depth = roller.volumes[place]

@@ -18,6 +18,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
+from contact_sim_pkg.pressure.field.patch import contact_area
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, FieldGrids, PressureField, make_grids
 from contact_sim_pkg.rigs.vehicle.field.coupling_rule import extent_of
@@ -166,7 +167,8 @@ class Halved:
             self._field.reset()
             return NOTHING
         cell, pressure, half = fine.cell_area, usual.pressure, self._field.pressure
-        areas = numpy.count_nonzero(pressure) * cell, numpy.count_nonzero(half) * 4.0 * cell
+        # cells count alone: their shape does not matter to the share of them that an edge leaves out
+        areas = contact_area(pressure, 1.0, cell), contact_area(half, 1.0, 4.0 * cell)
         return Missed(
             normal=self._load_missed(self._field.load - usual.load) / self._order,
             peak=abs(float(half.max()) - float(pressure.max())) / self._order,

@@ -5,9 +5,9 @@ import pytest
 import scipy.stats
 from tests.report import uneven_bag as known
 
+from contact_sim_pkg.report.field_series import extent, peak_over
 from contact_sim_pkg.report.reading import read_recording
-from contact_sim_pkg.report.series import PressureMap
-from contact_sim_pkg.rigs.vehicle.tire.report.metrics import peak_over, tire_metrics
+from contact_sim_pkg.rigs.vehicle.tire.report.metrics import tire_metrics
 
 FORCE, FIELD = known.FORCES["tire"], known.FIELDS["tire"]
 
@@ -39,9 +39,10 @@ def test_the_stiffness_is_the_slope_of_load_over_approach_about_the_standing_loa
 def test_the_footprint_is_the_median_of_the_fields_about_the_standing_load(metrics):
     about = abs(FIELD["load"] - known.STANDING) <= 0.1 * known.STANDING
     assert 2 < about.sum() < known.BLOCKS - 1
+    fields = known.PRESSURES["tire"].astype(float)
     sizes = {
-        "length": 1e3 * known.CELL_X * np.array(known.LENGTHS),
-        "width": 1e3 * known.CELL_Y * np.array(known.WIDTHS),
+        "length": 1e3 * known.CELL_X * np.array([extent(field) for field in fields]),
+        "width": 1e3 * known.CELL_Y * np.array([extent(field.T) for field in fields]),
     }
     for key, values in {**sizes, "area": 1e4 * FIELD["area"], "mean_pressure": 1e-3 * FIELD["mean"]}.items():
         assert metrics[key].value == pytest.approx(np.median(values[about]), rel=1e-9)
@@ -49,16 +50,29 @@ def test_the_footprint_is_the_median_of_the_fields_about_the_standing_load(metri
     assert metrics["peak_pressure"].remark.endswith(f"at {known.STAMPS[FIELD['peak'].argmax()] * 1e-9:.3f} s")
 
 
-def test_the_peak_over_a_tread_block_is_the_largest_mean_over_its_cells(metrics):
-    """20 mm are two cells along and three across."""
-    highest = known.PRESSURES["tire"][FIELD["peak"].argmax()].astype(float)
-    blocks = np.lib.stride_tricks.sliding_window_view(highest, (2, 3)).mean(axis=(2, 3))
-    assert metrics["patch_pressure"].value == pytest.approx(1e-3 * blocks.max(), rel=1e-12)
-    uneven = np.random.default_rng(4).uniform(0.0, 1e5, (9, 7))
-    for side, shape in ((0.02, (2, 3)), (0.033, (3, 5))):
-        blocks = np.lib.stride_tricks.sliding_window_view(uneven, shape).mean(axis=(2, 3))
-        grid = PressureMap(uneven, known.CELL_X, known.CELL_Y, 0.0, 0.0)
-        assert peak_over(grid, side) == pytest.approx(blocks.max(), rel=1e-12)
+def test_a_footprint_ends_where_the_square_of_its_pressure_comes_to_0():
+    """An ellipse of Hertz, whose square is a parabola, within a tenth of a cell wherever its middle lies."""
+    for shift in (0.0, 0.3, 0.5):
+        x, y = np.arange(40) - 19.5 + shift, np.arange(30) - 14.5
+        pressure = np.sqrt(np.maximum(1.0 - (x[:, None] / 13.3) ** 2 - (y[None, :] / 9.7) ** 2, 0.0))
+        assert extent(pressure) == pytest.approx(2 * 13.3, abs=0.1)
+        assert extent(pressure.T) == pytest.approx(2 * 9.7, abs=0.1)
+    assert extent(np.zeros((4, 5))) == 0.0
+    assert extent(np.ones((4, 5))) == 4.0
+
+
+def test_the_peak_over_a_tread_block_is_the_largest_mean_over_a_square(metrics):
+    """By brute force: each cell in 60 x 60 even parts, of which squares of 20 mm are whole numbers."""
+    fine = 60
+    uneven = np.random.default_rng(4).uniform(0.0, 1e5, (7, 6))
+    parts = np.repeat(np.repeat(uneven, fine, axis=0), fine, axis=1)
+    sums = np.pad(parts, ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
+    for cells_x, cells_y in ((1.5, 2.25), (2.0, 1.1), (0.4, 0.75)):
+        rows, cols = round(fine * cells_x), round(fine * cells_y)
+        means = (sums[rows:, cols:] - sums[:-rows, cols:] - sums[rows:, :-cols] + sums[:-rows, :-cols]) / (rows * cols)
+        assert peak_over(uneven, 0.02 / cells_x, 0.02 / cells_y, 0.02) == pytest.approx(means.max(), rel=1e-9)
+    each = [peak_over(field, known.CELL_X, known.CELL_Y, 0.02) for field in known.PRESSURES["tire"].astype(float)]
+    assert metrics["patch_pressure"].value == pytest.approx(1e-3 * max(each), rel=1e-9)
 
 
 def test_the_resistance_is_the_force_against_the_way_over_the_load(metrics):

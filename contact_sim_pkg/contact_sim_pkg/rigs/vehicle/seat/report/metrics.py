@@ -12,10 +12,11 @@ import numpy as np
 
 from contact_sim_pkg.bag.texts import excitation_of_text
 from contact_sim_pkg.pressure.cushion import VALID_STRAIN
-from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.records.metric import EVENT, LIMIT, STATE, Metric
 from contact_sim_pkg.report.facts import EXCITATION_KEY
 from contact_sim_pkg.report.metrics.exposure import exposure_metrics
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of
+from contact_sim_pkg.report.metrics.numerical import Errors, errors_of
 from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.report.series import FieldSeries, Recording
 from contact_sim_pkg.report.signal import confidence
@@ -33,22 +34,30 @@ def seat_metrics(recording: Recording) -> list[Metric]:
     """The list of a seat; none without one."""
     signals = ride_signals(recording.motion)
     contact = recording.contacts.get(SEAT)
-    found = [] if signals is None else vibration_metrics(signals, recorded_faults(recording))
+    errors = errors_of(recording)
+    found = []
+    if signals is not None:
+        found = vibration_metrics(signals, recorded_faults(recording), errors.of_mean("motion", "motion"))
     if contact is None:
         return found
     window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
     make = Maker(SEAT, f"{SEAT}/force", window, conditions_of(recording.scene))
-    found += cushion_metrics(recording, make)
+    found += cushion_metrics(recording, make, errors)
     share = 100.0 * float((contact.normal <= 0.0).mean())
     lifts = make.make(
-        "lift_off", "time without load", share, "%", band=at_most(0.0, "contact is kept"), count=contact.normal.size
+        "lift_off",
+        "time without load",
+        share,
+        "%",
+        band=at_most(0.0, "contact is kept", LIMIT),
+        count=contact.normal.size,
     )
     return [*found, lifts, *occupant_metrics(recording, make.make)]
 
 
-def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = ()) -> list[Metric]:
+def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = (), error: float = math.nan) -> list[Metric]:
     """SEAT, exposure and the peak of the way from floor to seat; ``faults`` of the recording that drives the
-    floor hold for all of them."""
+    floor hold for all of them, and the numerical ``error`` of the motion's mean over its largest value."""
     rate, length = signals.sample_rate, signals.time.size
     floor, seat = (ride_metrics(each, rate) for each in (signals.floor, signals.seat))
     window = float(signals.time[0]), float(signals.time[0]) + length / rate
@@ -57,14 +66,17 @@ def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = ()) -> lis
     peaky = (*doubts, *confidence.peaky(seat.crest_factor))
     factor = seat_factor(seat.weighted_rms, floor.weighted_rms)
     spread = 100.0 * confidence.spread_of_ratio(seat.weighted, floor.weighted, rate)
+    of_rms = error * seat.crest_factor  # over the rms
     found = [
         make("factor", "SEAT", factor, "%", quantity="seat_factor", broken=peaky, spread=spread, count=length,
-             remark=f"floor {floor.weighted_rms:.3g} m/s²"),
+             error=of_rms * factor, remark=f"floor {floor.weighted_rms:.3g} m/s²"),
     ]  # fmt: skip
     found += _way_to_seat(make, signals, doubts)
-    found += exposure_metrics(make, seat, signals.seat, rate, doubts)
+    found += [each if each.key.endswith((".crest", ".spine_risk")) else each._replace(error=of_rms * each.value)
+              for each in exposure_metrics(make, seat, signals.seat, rate, doubts)]  # fmt: skip
     dose = seat_factor(seat.vibration_dose, floor.vibration_dose)
-    return [*found, make("factor_dose", "SEAT by VDV", dose, "%", quantity="seat_factor", broken=doubts, count=length)]
+    return [*found, make("factor_dose", "SEAT by VDV", dose, "%", quantity="seat_factor", broken=doubts, count=length,
+                         error=of_rms * dose)]  # fmt: skip
 
 
 def _way_to_seat(make: Callable[..., Metric], signals: RideSignals, doubts: tuple[str, ...]) -> list[Metric]:
@@ -82,19 +94,19 @@ def _way_to_seat(make: Callable[..., Metric], signals: RideSignals, doubts: tupl
         make("peak", "T(f) at its peak", peak[0], "", quantity="seat_peak", broken=doubts, count=way.segments,
              spread=confidence.TWO_SIDED * error, remark=f"coherence {coherence:.3g}"),
         make("peak_frequency", "frequency of the peak", peak[1], "Hz", quantity="seat_peak_frequency", broken=doubts,
-             count=way.segments, spread=0.5 * float(way.frequency[1])),
+             count=way.segments, error=0.5 * float(way.frequency[1])),
     ]  # fmt: skip
 
 
-def cushion_metrics(recording: Recording, maker: Maker) -> list[Metric]:
+def cushion_metrics(recording: Recording, maker: Maker, errors: Errors) -> list[Metric]:
     """How the cushion carries: pressures and area of its map, or how deep the sitter sinks."""
     field, contact = recording.fields.get(SEAT), recording.contacts[SEAT]
     if field is not None:
-        return map_metrics(SEAT, field, maker, "cushion")
+        return map_metrics(SEAT, field, maker, "cushion", errors)
     keys = ((recording.scene.get("effects") or {}).get(SEAT) or {}).get("cushion")
     deepest = 1e3 * float(contact.approach.max())
     band = None if not keys else at_most(1e3 * VALID_STRAIN * float(keys["thickness"]), "range of the foam's law")
-    return [maker.make("sink", "deepest sink", deepest, "mm", band=band, count=contact.approach.size)]
+    return [maker.make("sink", "deepest sink", deepest, "mm", band=band, count=contact.approach.size, basis=EVENT)]
 
 
 def occupant_metrics(recording: Recording, make: Callable[..., Metric]) -> list[Metric]:
@@ -105,7 +117,9 @@ def occupant_metrics(recording: Recording, make: Callable[..., Metric]) -> list[
     found, touching = [], signals.force > 0.0
     if touching.any():
         height = 1e3 * (H_POINT - float(signals.approach[touching].mean()))
-        found.append(make("h_point", "H-point over the unloaded cushion", height, "mm", count=int(touching.sum())))
+        found.append(
+            make("h_point", "H-point over the unloaded cushion", height, "mm", count=int(touching.sum()), basis=STATE)
+        )
     ways = (
         ("apparent_mass", "apparent mass", "kg", apparent_mass_of(signals)),
         ("to_head", "head over seat", "", seat_to_head_of(signals)),
@@ -130,27 +144,29 @@ def occupant_metrics(recording: Recording, make: Callable[..., Metric]) -> list[
                     peak[1],
                     "Hz",
                     count=way.segments,
+                    error=0.5 * float(way.frequency[1]),
                     topic="bench/motion",
                 ),
             ]
     return found
 
 
-def map_metrics(contact: str, field: FieldSeries, maker: Maker, kind: str) -> list[Metric]:
+def map_metrics(contact: str, field: FieldSeries, maker: Maker, kind: str, errors: Errors) -> list[Metric]:
     """Pressures and area of the maps of a run, mean over those that carry; ``kind`` names their bands."""
     carries = field.load > 0.0
     if not carries.any():
         return []
     topic, count = f"{contact}/patch", int(carries.sum())
     rows = (
-        ("mean_pressure", "mean pressure", 1e-3 * field.mean[carries], "kPa"),
-        ("peak_pressure", "peak pressure", 1e-3 * field.peak[carries], "kPa"),
-        ("area", "loaded area", 1e4 * field.area[carries], "cm²"),
+        ("mean_pressure", "mean pressure", 1e-3 * field.mean[carries], "kPa", "area"),
+        ("peak_pressure", "peak pressure", 1e-3 * field.peak[carries], "kPa", "peak"),
+        ("area", "loaded area", 1e4 * field.area[carries], "cm²", "area"),
     )
     return [
         maker.make(key, name, values.mean(), unit, quantity=f"{kind}_{key}", count=count, topic=topic,
+                   error=errors.largest(contact, of) * float(values.max()),
                    remark=f"{number(values.min())} to {number(values.max())}")
-        for key, name, values, unit in rows
+        for key, name, values, unit, of in rows
     ]  # fmt: skip
 
 

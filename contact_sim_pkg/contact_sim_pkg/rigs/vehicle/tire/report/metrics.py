@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.excitation.kinds import RoadKind, kind_known
+from contact_sim_pkg.records.metric import EVENT, STATE, Metric
 from contact_sim_pkg.report.metrics.maker import Maker, conditions_of, near
-from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray, PressureMap, Recording
-from contact_sim_pkg.report.signal.confidence import spread_of_mean
+from contact_sim_pkg.report.metrics.numerical import Errors, errors_of, not_resolved
+from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray, Recording
+from contact_sim_pkg.report.signal.confidence import spread_of_mean, spread_of_rms
 from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import AxleSeries, axle_of
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
@@ -23,8 +25,6 @@ STANDING_RANGE = 0.1
 """Share of the standing load by which the load may differ where the standing tire is meant."""
 STIFFNESS_RANGE = 0.2
 """Share of the standing load over which the stiffness is a slope."""
-PATCH = 0.02
-"""[m] side of the square over which a peak pressure is averaged: a tread block, more than a cell"""
 LOWEST_RINGING = 15.0
 """[Hz] below which the axle's force follows body and wheel"""
 RINGING_TIME = 0.3
@@ -43,6 +43,10 @@ class _Ride(NamedTuple):
     make: Any
     rough: bool
     """whether the road is uneven all along, so that a mean needs time"""
+    event: bool
+    """whether the road is even but for one obstacle, so that what varies is over when it is passed"""
+    errors: Errors
+    """numerical ones of the run"""
 
 
 def tire_metrics(recording: Recording) -> list[Metric]:
@@ -54,7 +58,7 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     standing, conditions = standing_load_of(recording.scene), _conditions(recording)
     ride = _Ride(
         recording, contact, standing, Maker(TIRE, f"{TIRE}/force", window, conditions).make,
-        str(conditions.get("road", "")).startswith("class"),
+        str(conditions.get("road", "")).startswith("class"), _has_one_obstacle(recording.scene), errors_of(recording),
     )  # fmt: skip
     field = recording.fields.get(TIRE)
     stiffness = None if standing is None else _stiffness(contact, standing)
@@ -62,6 +66,14 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     if field is not None and standing is not None:
         found += _footprint(ride, field, standing)
     return [*found, *_along(ride)]
+
+
+def _has_one_obstacle(scene: Mapping[str, Any]) -> bool:
+    """Whether the road of a scene is even but for one obstacle."""
+    road = scene.get("road")
+    known: RoadKind | None = kind_known("road", road) if isinstance(road, Mapping) else None
+    obstacle = None if known is None else known.obstacle()
+    return obstacle is not None and obstacle.period is None
 
 
 def _conditions(recording: Recording) -> dict[str, float | str]:
@@ -78,29 +90,54 @@ def _conditions(recording: Recording) -> dict[str, float | str]:
     found["belt"] = "yes" if effects.get("sidewall_compliance") is not None else "no"
     if road is not None and recording.duration > 0.0:
         found["speed_m_s"] = float(road.travel.distance[-1] - road.travel.distance[0]) / recording.duration
+    found["largest_slip"] = 0.0
     if shear is not None:
         found["largest_slip"] = float(np.hypot(shear.slip, np.tan(shear.slip_angle)).max())
     return found
 
 
 def _load(ride: _Ride) -> Iterator[Metric]:
-    """Variation and mean of the load, time off the road."""
+    """Of an obstacle the largest and the smallest load and how long the tire is off the road; of any other road the
+    load's variation and mean over the run, and the share of it off the road.
+    """
     normal, rate, count = ride.contact.normal, 1.0 / ride.contact.sample_period, ride.contact.normal.size
     # The asperities carry a share of the weight beside the contact.
     carried = normal + ride.contact.impulses if ride.contact.impulses.size else normal
+    if ride.event:
+        yield from _load_of_event(ride, carried)
+        return
     doubts = _short(ride)
     lifted = 100.0 * float((normal <= 0.0).mean())
     lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
+    error = ride.errors.of_mean(TIRE, "force") * float(normal.max())
     if ride.standing is not None:
-        coefficient = float(carried.std()) / ride.standing
-        yield ride.make(
-            "dlc", "dynamic load coefficient", coefficient, "", quantity="dynamic_load", broken=doubts, count=count
-        )
+        spread = spread_of_rms(carried - carried.mean(), rate) / ride.standing
+        yield ride.make("dlc", "dynamic load coefficient", float(carried.std()) / ride.standing, "", quantity="dynamic_load",
+                        broken=doubts, count=count, spread=spread, error=error / ride.standing)  # fmt: skip
     yield ride.make("lift_off", "time off the road", lifted, "%", quantity="lift_off", broken=doubts, count=count,
+                    spread=spread_of_mean(np.where(normal <= 0.0, 100.0, 0.0), rate), error=100.0 * lifts / count,
                     remark=f"{lifts} times")  # fmt: skip
     band = None if ride.standing is None else near(ride.standing, 0.05, "weight, mean over the run")
     yield ride.make("load", "load, mean", carried.mean(), "N", band=band, broken=doubts, count=count,
-                    spread=spread_of_mean(carried, rate), remark=f"{carried.min():.4g} to {carried.max():.4g} N")  # fmt: skip
+                    spread=spread_of_mean(carried, rate), error=error,
+                    remark=f"{carried.min():.4g} to {carried.max():.4g} N")  # fmt: skip
+
+
+def _load_of_event(ride: _Ride, carried: FloatArray) -> Iterator[Metric]:
+    """What an obstacle does to the load, however long the run goes on behind it."""
+    times, count, normal = ride.contact.time, carried.size, ride.contact.normal
+    error = ride.errors.largest(TIRE, "force") * float(normal.max())
+    for key, name, place in (
+        ("load_largest", "load, largest", int(carried.argmax())),
+        ("load_smallest", "load, smallest", int(carried.argmin())),
+    ):
+        share = "" if ride.standing is None else f"{carried[place] / ride.standing:.3g} of the standing load, "
+        yield ride.make(key, name, carried[place], "N", count=count, basis=EVENT, error=error,
+                        remark=f"{share}at {times[place]:.3f} s")  # fmt: skip
+    sample = 1e3 * ride.contact.sample_period
+    lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
+    yield ride.make("off_the_road", "time off the road", sample * float(np.count_nonzero(normal <= 0.0)), "ms", count=count,
+                    basis=EVENT, error=sample * max(1, lifts))  # fmt: skip
 
 
 def _short(ride: _Ride) -> tuple[str, ...]:
@@ -113,7 +150,7 @@ def _standing(ride: _Ride, stiffness: float | None) -> Iterator[Metric]:
     """Stiffness about the standing load, and the frequency at which the wheel hops on it."""
     if stiffness is None:
         return
-    yield ride.make("stiffness", "vertical stiffness", 1e-3 * stiffness, "kN/m", quantity="tire_stiffness",
+    yield ride.make("stiffness", "vertical stiffness", 1e-3 * stiffness, "kN/m", quantity="tire_stiffness", basis=STATE,
                     remark="slope of the contact within 20 % of the standing load")  # fmt: skip
     tire, motion = ride.recording.scene["tire"], ride.recording.motion
     wheel = None if motion is None else motion.acceleration.get("wheel_z")
@@ -125,6 +162,7 @@ def _standing(ride: _Ride, stiffness: float | None) -> Iterator[Metric]:
     expected = math.sqrt(float(modes.real.max())) / (2.0 * math.pi)
     found = _highest_line(wheel, 1.0 / motion.sample_period, *HOP_BAND)
     yield ride.make("hop", "frequency of wheel hop", found, "Hz", topic="bench/motion", count=wheel.size, broken=_short(ride),
+                    error=0.5 / (wheel.size * motion.sample_period),
                     band=near(expected, 0.15, "wheel on tire and suspension, no damping"))  # fmt: skip
 
 
@@ -132,41 +170,36 @@ def _footprint(ride: _Ride, field: FieldSeries, standing: float) -> Iterator[Met
     """The footprint where the load is the standing one, the largest pressure, and that over a patch."""
     about = np.abs(field.load - standing) <= STANDING_RANGE * standing
     count, topic = int(about.sum()), f"{TIRE}/patch"
+    of_area, of_peak = (ride.errors.largest(TIRE, kind) for kind in ("area", "peak"))
     values = (
-        ("length", "footprint length", 1e3 * field.length, "mm"),
-        ("width", "footprint width", 1e3 * field.width, "mm"),
-        ("area", "footprint area", 1e4 * field.area, "cm²"),
-        ("mean_pressure", "mean pressure", 1e-3 * field.mean, "kPa"),
+        ("length", "footprint length", 1e3 * field.length, "mm", math.nan),
+        ("width", "footprint width", 1e3 * field.width, "mm", math.nan),
+        ("area", "footprint area", 1e4 * field.area, "cm²", of_area),
+        ("mean_pressure", "mean pressure", 1e-3 * field.mean, "kPa", of_area),
     )
-    for key, name, column, unit in values if count else ():
+    for key, name, column, unit, error in values if count else ():
         yield ride.make(key, name, float(np.median(column[about])), unit, quantity=f"tire_{key}", topic=topic, count=count,
+                        basis=STATE, error=error * float(column[about].max()),
                         remark="median about the standing load")  # fmt: skip
     yield ride.make("peak_pressure", "peak pressure", 1e-3 * float(field.peak.max()), "kPa", quantity="tire_peak_pressure",
-                    topic=topic, count=field.time.size, remark=f"at {field.highest_time:.3f} s")  # fmt: skip
-    yield ride.make("patch_pressure", "peak over 20 by 20 mm", 1e-3 * peak_over(field.highest, PATCH), "kPa", topic=topic,
-                    remark="squares of a tread block")  # fmt: skip
-
-
-def peak_over(grid: PressureMap, side: float) -> float:
-    """Largest mean pressure [Pa] over squares of ``side`` [m], of whole cells."""
-    rows, cols = (
-        min(max(1, round(side / cell)), size)
-        for cell, size in zip((grid.cell_x, grid.cell_y), grid.pressure.shape, strict=True)
-    )
-    sums = np.pad(grid.pressure, ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
-    squares = sums[rows:, cols:] - sums[:-rows, cols:] - sums[rows:, :-cols] + sums[:-rows, :-cols]
-    return float(squares.max()) / (rows * cols)
+                    topic=topic, count=field.time.size, basis=EVENT, error=1e-3 * of_peak * float(field.peak.max()),
+                    remark=f"at {field.highest_time:.3f} s")  # fmt: skip
+    place = int(field.block_peak.argmax())
+    yield ride.make("patch_pressure", "peak over 20 by 20 mm", 1e-3 * float(field.block_peak[place]), "kPa", topic=topic,
+                    count=field.time.size, basis=EVENT,
+                    remark=f"squares of a tread block, at {field.time[place]:.3f} s")  # fmt: skip
 
 
 def _along(ride: _Ride) -> Iterator[Metric]:
     """Rolling resistance, friction and what rings behind an obstacle."""
     axle, shear = axle_of(ride.recording), shear_of(ride.recording)
     topic = f"{TIRE}/axle"
-    if axle is not None:
+    if axle is not None and not ride.event:  # a mean over the run, which an obstacle is a part of
         load = float(ride.contact.normal.mean())
         resistance = -float(axle.longitudinal.mean()) / load if load > 0.0 else math.nan
+        error = ride.errors.of_column_mean(f"{topic}.longitudinal") / load if load > 0.0 else math.nan
         yield ride.make("resistance", "force along over load", resistance, "", quantity="tire_rolling_resistance", topic=topic,
-                        count=axle.time.size,
+                        count=axle.time.size, error=error, broken=not_resolved(resistance, error),
                         remark=f"{axle.longitudinal.min():.4g} to {axle.longitudinal.max():.4g} N")  # fmt: skip
     if shear is not None:
         pressed = np.interp(shear.time, ride.contact.time, ride.contact.normal)
@@ -174,10 +207,11 @@ def _along(ride: _Ride) -> Iterator[Metric]:
         place = int(ratio.argmax())
         slip = math.hypot(shear.slip[place], math.tan(shear.slip_angle[place]))
         yield ride.make("friction", "largest friction over load", ratio[place], "", quantity="tire_friction", topic=f"{TIRE}/shear",
-                        count=shear.time.size, remark=f"at a slip of {slip:.3g}")  # fmt: skip
+                        count=shear.time.size, basis=EVENT, remark=f"at a slip of {slip:.3g}")  # fmt: skip
     ringing = None if axle is None or ride.rough else ringing_of(axle)
     if ringing is not None:
-        yield ride.make("ringing", "force along rings at", ringing, "Hz", quantity="tire_ringing", topic=topic)
+        yield ride.make("ringing", "force along rings at", ringing, "Hz", quantity="tire_ringing", topic=topic, basis=EVENT,
+                        error=0.5 / RINGING_TIME)  # fmt: skip
 
 
 def _stiffness(contact: ContactSeries, standing: float) -> float | None:
