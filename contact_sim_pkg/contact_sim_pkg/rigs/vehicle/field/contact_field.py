@@ -36,6 +36,7 @@ TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law
 TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
 SOFTENING_PASSES = 40  # most solutions at one instant of a belt whose sidewalls soften; each is closer by a factor of 7
 
+OF_SIDEWALLS = 0.3  # of the field's tolerance: what its sidewalls may miss of the depth, which the loss sees as a speed
 FEW_PASSES, NOISE = 12, 1e-5  # what the line load of a certified field leaves of that depth undecided
 SHALLOW = 1e-3  # [m]: a contact less deep has its sidewalls settled as if it were so deep
 
@@ -131,9 +132,9 @@ class PressureField:
         return gap if self.softening is None else gap + self.softening.gap[self.softening.rows(len(gap))][:, None]
 
     def _passes(self, gap: Field, tolerance: float) -> Iterator[Field]:
-        """Gaps to be solved one after the other, until the sidewalls bear what they were taken to bear: to a
-        ``tolerance`` of the depth of the contact, or after `FEW_PASSES` to `NOISE`. Raises FieldError where that is not so after
-        `SOFTENING_PASSES`.
+        """Gaps to be solved one after the other, until the sidewalls bear what they were taken to bear: to
+        `OF_SIDEWALLS` of a ``tolerance`` of the depth of the contact, or after `FEW_PASSES` to `NOISE`. Raises FieldError where
+        that is not so after `SOFTENING_PASSES`.
         """
         if self.softening is None:
             yield gap
@@ -143,7 +144,7 @@ class PressureField:
         for count in range(SOFTENING_PASSES):
             yield self.opened(gap)
             missed = self.softening.follow(self.pressure.sum(axis=1) * self.settings.cell_y)
-            allowed = tolerance if count < FEW_PASSES else max(tolerance, NOISE)
+            allowed = OF_SIDEWALLS * tolerance if count < FEW_PASSES else max(OF_SIDEWALLS * tolerance, NOISE)
             if missed <= allowed * max(self._approach - lowest, SHALLOW):
                 return
         raise FieldError(

@@ -229,6 +229,16 @@ class Softening:
         change = self.gap - before
         return float(abs(change).max()) if total == 0.0 else abs(float(line @ change[place])) / total
 
+    def climb(self, line: Field) -> float:
+        """Force [N] against the travel of a line load ``line`` [N/m] [rows of a grid] on the slope of `gap`: of the ring's
+        translation, which stays with the wheel; what the belt's memory does in it is `remembered`.
+        """
+        return float(line @ numpy.gradient(self.gap[self.rows(len(line))])) - self.remembered()
+
+    def remembered(self) -> float:
+        """Force [N] against the travel, negative where it takes energy, of `load` on the slope of `bent`."""
+        return float(self.load @ numpy.gradient(self.bent))
+
     def _bend(self, load: Field) -> Field:
         """Displacement G * load of the belt [m]."""
         count = 2 * len(load)

@@ -13,6 +13,7 @@ from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field.driver import AT_REST, ContactField, FieldRecord, Gap
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import Softening
 from contact_sim_pkg.rigs.vehicle.tire.footprint import clear_beyond, level_under, mean_slope, tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
@@ -104,6 +105,10 @@ class RoadField(ContactField):
             field = usual if pressure.shape == usual.pressure.shape else wide
             self._tread_state.store(self._on_wide(pressure), self._softer(field))
 
+    @property
+    def _softening(self) -> Softening | None:
+        return None if self.grids is None else self.grids.wide.softening
+
     def _softer(self, field: PressureField) -> Line | None:
         """Line load [N/m] on the rows of the wide grid that softening sidewalls leave to the belt."""
         softening = field.softening
@@ -147,7 +152,7 @@ class RoadField(ContactField):
             whole = self._tread_state.gap
             row, col = whole.shape[0] // 2 - settings.rows // 2, (whole.shape[1] - settings.cols) // 2
             out += whole[row : row + settings.rows, col : col + settings.cols]
-            softening = None if self.grids is None else self.grids.wide.softening
+            softening = self._softening
             if softening is not None:
                 softening.bent[softening.rows(len(whole))] = self._tread_state.bent
         return out
@@ -224,21 +229,24 @@ class RoadField(ContactField):
         """Slope [1] of the even ground with the same longitudinal force, of the last solution.
 
         Rolling on by ds at the same approach changes the elastic energy by ``sum p z'(x) A ds``, z the
-        height of the unloaded tire over its lowest point: that is the force against the travel. On
-        level road it is 0 for an elastic tread.
+        height of the unloaded tire over its lowest point, and what softening sidewalls add to it: that
+        is the force against the travel. On level road it is 0 for an elastic tread.
         """
         found, geometry = self.published, self._geometry
         if found is None or geometry is None:
             return 0.0
         if self._slope_of[0] is not found:
             slope = mean_slope(geometry.form, found.pressure, found.origin_x, geometry.lattice.cell_x)
+            softening, line = self._softening, found.pressure.sum(axis=1) * geometry.lattice.cell_y
+            if softening is not None and line.any():
+                slope += softening.climb(line) / float(line.sum()) / geometry.lattice.cell_x
             self._slope_of = found, 0.0 if found.is_level else slope
         return self._slope_of[1]
 
     def rolling_force(self) -> float:
         """Moment of rolling resistance over the radius in [N], of the last solution: what a tread
-        with memory takes from the rotation, ``-sum p g'(x) A``, g the gap that its memory adds; 0 for
-        an elastic tread.
+        with memory takes from the rotation, ``-sum p g'(x) A``, g the gap that its memory adds, and from
+        what sidewalls put on the belt beside it; 0 for an elastic tread.
         """
         found, geometry = self.published, self._geometry
         if self._tread_state is None or found is None or geometry is None:
@@ -247,7 +255,8 @@ class RoadField(ContactField):
         whole = self._tread_state.gap
         row, col = whole.shape[0] // 2 - rows // 2, (whole.shape[1] - cols) // 2
         climb = numpy.gradient(whole[row : row + rows, col : col + cols], axis=0)
-        return float(-(found.pressure * climb).sum() * geometry.lattice.cell_y)
+        beside = 0.0 if self._softening is None else self._softening.remembered()
+        return float(-(found.pressure * climb).sum() * geometry.lattice.cell_y) - beside
 
     def slope_force(self, load: float) -> float:
         """Force [N] of the last solution's pressure, of resultant ``load`` [N], on slopes of the
