@@ -1,5 +1,6 @@
 """Bad, missing and foreign messages over the real middleware (FAULTS part B)."""
 
+import json
 import time
 
 import numpy
@@ -120,6 +121,10 @@ def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes,
     assert open_bag(nodes.bag).metadata["dropped platform/vibration"] == "4"
     run_offline(scene, tmp_path / "offline")
     assert messages(nodes.bag) == messages(tmp_path / "offline")
+    # The stand-in is no node of the bench, so what the scene says of the vibration is not recorded as its description
+    described = json.loads(open_bag(nodes.bag).metadata["excitation"])["platform/vibration"]
+    assert described["published by"] == "/stand_in"
+    assert "/stand_in, which is no node of the bench" in described["notes"][0]
 
 
 def test_a_run_that_gets_nothing_but_nan_ends_by_name(scene, nodes, stand_in):

@@ -16,7 +16,7 @@ from contact_sim_pkg.cli.output.tables import overwrite_option, print_json, show
 
 if TYPE_CHECKING:
     from contact_sim_pkg.bag.reader import Bag
-    from contact_sim_pkg.compare.side_by_side import Compared
+    from contact_sim_pkg.compare.side_by_side import Compared, Miss
     from contact_sim_pkg.report.comparison.aligned import MapPair
 
 
@@ -72,8 +72,12 @@ def command(
     if not sides:
         raise BagError(f"{', '.join(names)} have no metrics: there is nothing to compare")
     failed, unsure = [miss for _, found in missed for miss in found], undecided(runs, wanted)
+    warnings = [f"{each.name}: {said}" for each in runs for said in each.warnings]
+    for warning in warnings:
+        say(warning, err=True)
     if form == "json":
-        print_json({"bags": [str(each) for each in bags], "metrics": rows_of(names, sides), **_alignment(pair),
+        print_json({"bags": [str(each) for each in bags], "warnings": warnings, "metrics": rows_of(names, sides),
+                    **_alignment(pair),
                     "misses": [miss._asdict() for miss in failed],
                     "undecided": [each._asdict() for each in unsure]})  # fmt: skip
     elif form == "csv":
@@ -84,15 +88,20 @@ def command(
         for sentence in [] if pair is None else pair.sentences:
             say(sentence)
         show_rows(table_rows(names, sides), as_json=False)
-        for miss in failed:
-            say(f"MISSED {miss.run}: {miss.sentence}")
-        for each in unsure:
-            say(f"UNDECIDED {each.sentence}")
-        if wanted and not failed and not unsure:
-            say(f"all {len(wanted)} tolerances hold")
+        _say_judgement(len(wanted), failed, unsure)
     if pair is not None and plot is not None:
         _draw(pair, plot, overwrite=overwrite)
     return exit_status(missed=bool(failed), unjudged=bool(unsure))
+
+
+def _say_judgement(count: int, failed: Sequence[Miss], unsure: Sequence[Miss]) -> None:
+    """What misses and what cannot be judged, or that all ``count`` tolerances hold."""
+    for miss in failed:
+        say(f"MISSED {miss.run}: {miss.sentence}")
+    for each in unsure:
+        say(f"UNDECIDED {each.sentence}")
+    if count and not failed and not unsure:
+        say(f"all {count} tolerances hold")
 
 
 def _runs(
@@ -104,6 +113,7 @@ def _runs(
     from contact_sim_pkg.report.comparison.aligned import compare_maps
     from contact_sim_pkg.report.comparison.curves import compared
     from contact_sim_pkg.report.comparison.runs import distinct_names
+    from contact_sim_pkg.report.facts import warnings_of
     from contact_sim_pkg.report.metrics.of_bag import recording_of
     from contact_sim_pkg.report.reading import refuse_other_rigs, rig_of_bag
 
@@ -119,7 +129,10 @@ def _runs(
         recordings = [recording_of(bag) for bag in opened]
     names = distinct_names(recordings)
     if not mats:
-        return [compared(name, each) for name, each in zip(names, recordings, strict=True)], None
+        return [
+            compared(name, each)._replace(warnings=tuple(warnings_of(each)))
+            for name, each in zip(names, recordings, strict=True)
+        ], None
     pair = compare_maps(names, recordings, loaded)
     return [Compared(name, each, {}) for name, each in zip(names, pair.metrics, strict=True)], pair
 

@@ -74,15 +74,15 @@ def command(
     for_foreign = None if given == ForeignOptions() else given
     requirements = read_requirements(wanted)
     found = metrics_of_bags(bags, whole=whole, loaded=loaded, chosen=for_foreign, skip_bad=skip_bad)
-    _notes(found.notes)
+    _notes([*found.warnings, *found.notes])
     metrics = required(found.metrics, requirements)
     rows = rows_of(metrics)
     if form == "json":
-        print_json({"bags": [str(each) for each in bags], "metrics": rows})
+        print_json({"bags": [str(each) for each in bags], "warnings": found.warnings, "metrics": rows})
     elif form == "csv":
         say(csv_of(metrics), nl=False)
     elif form == "junit":
-        say(junit_of(suite_name(bags), metrics), nl=False)
+        say(junit_of(suite_name(bags), metrics, found.warnings), nl=False)
     else:
         for line in (*lines_of(rows), verdict_line(rows)):
             say(line)

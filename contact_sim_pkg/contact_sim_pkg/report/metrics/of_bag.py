@@ -10,6 +10,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.metadata import IMPORTED_FROM
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.report.facts import warnings_of
 from contact_sim_pkg.report.metrics.foreign import ForeignOptions, foreign_metrics
 from contact_sim_pkg.report.metrics.listing import all_metrics, metrics_of
 from contact_sim_pkg.report.metrics.repeated import repeated
@@ -24,6 +25,8 @@ class FoundMetrics(NamedTuple):
 
     metrics: list[Metric]
     notes: list[str]
+    warnings: list[str]
+    """runs that failed or were stopped, and excitation that no node of the bench published"""
 
 
 def metrics_of_bags(
@@ -48,6 +51,7 @@ def metrics_of_bags(
     """
     bags = [open_bag(path, skip_bad=skip_bad) for path in paths]
     notes = [note for bag in bags for note in bag.notes]
+    warnings: list[str] = []
     lists: list[list[Metric]] = []
     scenes: list[dict[str, Any]] = []
     for bag in bags:
@@ -63,11 +67,12 @@ def metrics_of_bags(
             else:
                 lists.append(all_metrics(recording) if whole else metrics_of(recording))
             notes += [f"{bag.path.name}: {bag.metadata['imported_as']}"] if IMPORTED_FROM in bag.metadata else []
+            warnings += [f"{suite_name([bag.path])}: {said}" for said in warnings_of(recording)]
             scenes.append(recording.scene)
     names = [suite_name([path]) for path in paths]
     if len(bags) == 1:
-        return FoundMetrics(lists[0], notes)
-    return FoundMetrics(repeated(names, scenes, lists), notes)
+        return FoundMetrics(lists[0], notes, warnings)
+    return FoundMetrics(repeated(names, scenes, lists), notes, warnings)
 
 
 def recording_of(bag: Bag) -> Recording:

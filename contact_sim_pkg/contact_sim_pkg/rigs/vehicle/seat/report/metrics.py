@@ -13,7 +13,6 @@ import numpy as np
 from contact_sim_pkg.bag.texts import excitation_of_text
 from contact_sim_pkg.pressure.cushion import VALID_STRAIN
 from contact_sim_pkg.records.metric import EVENT, LIMIT, STATE, Metric
-from contact_sim_pkg.report.facts import EXCITATION_KEY
 from contact_sim_pkg.report.metrics.exposure import exposure_metrics
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of
 from contact_sim_pkg.report.metrics.numerical import Errors, errors_of
@@ -26,6 +25,7 @@ from contact_sim_pkg.rigs.vehicle.seat.occupants import H_POINT
 from contact_sim_pkg.rigs.vehicle.seat.report.occupant import apparent_mass_of, occupant_signals, seat_to_head_of
 from contact_sim_pkg.rigs.vehicle.seat.report.response import peak_of, trusted_part
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals, ride_signals
+from contact_sim_pkg.run.bag_content import EXCITATION_KEY
 
 SEAT = "seat"
 
