@@ -31,6 +31,7 @@ os.environ["ROS_DOMAIN_ID"] = str(
 )
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ["CONTACT_BENCH_PLUGINS"] = "off"  # what else is installed here is no part of the tests
+os.environ["CONTACT_BENCH_PROGRESS"] = "off"  # on a busy machine any command may last a second
 os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # Every test with `@given` draws the same in every run; `pytest --random` draws anew.

@@ -1,16 +1,21 @@
 """The bench as a library: the examples run, and a series has one row a sample, as the messages hold them."""
 
+import json
 import re
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy
 import pytest
 from tests.bench_process import ENVIRONMENT, LONGEST_COMMAND
 
 import contact_sim_pkg
-from contact_sim_pkg import load_scene, open_bag, series
+from contact_sim_pkg import compare, load_scene, open_bag, series
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.cli.output import progress, working
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "library"
 
@@ -77,3 +82,71 @@ def test_what_is_public_is_there():
             assert callable(getattr(module, name)), name
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         getattr(pressure, "nothing")  # noqa: B009
+
+
+@pytest.fixture(scope="module")
+def two(tmp_path_factory):
+    """Two runs of a seat over parts of one recording."""
+    folder = tmp_path_factory.mktemp("two")
+    return [
+        contact_sim_pkg.run(load_scene("seat_ride", "duration=2", f"vibration.start={start}"), folder / name)
+        for name, start in (("once", 1.0), ("later", 2.0))
+    ]
+
+
+def test_a_bag_says_its_metrics_as_the_command_does(two, capsys):
+    found = two[0].metrics()
+    main(["metrics", str(two[0].path.parent), "--json"])
+    printed = {row["key"]: row for row in json.loads(capsys.readouterr().out)["metrics"]}
+    assert found.keys() == [*printed]
+    assert {each.key: each.value for each in found} == {key: row["value"] for key, row in printed.items()}
+    main(["metrics", str(two[0].path.parent)])
+    assert f"{found}\n" == capsys.readouterr().out
+    with pytest.raises(KeyError, match=r"no 'seat.a_v'; nearest are seat.a_w"):
+        found["seat.a_v"]
+
+
+def test_two_bags_side_by_side(two):
+    found = compare(*two)
+    a, b = (bag.metrics()["seat.a_w"].value for bag in two)
+    assert found["seat.a_w"].values == (a, b)
+    assert a != b
+    assert compare(*(bag.path.parent for bag in two)).keys() == found.keys()
+    assert found[0].moved == max(each.moved for each in found)
+    with pytest.raises(BagError, match="rig"):
+        compare(two[0], contact_sim_pkg.run(load_scene("block_fall", "duration=0.1")))
+
+
+def test_a_notebook_shows_tables(two):
+    shown = [
+        two[0].scene and load_scene("seat_ride"),
+        two[0],
+        series(two[0], "seat/force"),
+        two[0].metrics(),
+        compare(*two),
+    ]
+    texts = [each._repr_html_() for each in shown]
+    for text in texts:
+        ElementTree.fromstring(f"<div>{text}</div>")
+    for text, part in zip(
+        texts, ("rig seat", "<td>/seat/force</td>", "<td>normal</td><td>N</td>", "SEAT", "A: once"), strict=True
+    ):
+        assert part in text
+
+
+def test_a_fault_of_a_value_is_in_words_of_python():
+    with pytest.raises(contact_sim_pkg.SceneError, match="the value duration=-1: duration: ") as refused:
+        load_scene("seat_ride", "duration=-1")
+    assert "--set" not in str(refused.value)
+
+
+def test_a_run_that_lasts_shows_what_it_does(capsys, monkeypatch):
+    monkeypatch.delenv(working.SWITCH)
+    monkeypatch.setattr(working, "PATIENCE", 0.0)
+    monkeypatch.setattr(working, "IN_A_FILE", 0.0)
+    monkeypatch.setattr(working, "LOOK", 0.001)
+    monkeypatch.setattr(progress, "PLAIN_SECONDS", 0.0)
+    contact_sim_pkg.run(load_scene("seat_ride", "duration=0.5"))
+    assert re.search(r"0\.\d\d s simulated, [0-9.]+x real time", capsys.readouterr().err)
+    contact_sim_pkg.run(load_scene("seat_ride", "duration=0.1"), progress=False)
+    assert capsys.readouterr().err == ""

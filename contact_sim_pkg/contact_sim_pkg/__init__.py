@@ -1,6 +1,6 @@
 """Contact forces and pressure fields of simulated rigs, as ROS 2 topics and bags.
 
-As a library: ``from contact_sim_pkg import load_scene, open_bag, run, series``; laws of a contact
+As a library: ``from contact_sim_pkg import compare, load_scene, open_bag, run, series``; laws of a contact
 point in ``contact_sim_pkg.laws``, pressure fields in ``contact_sim_pkg.pressure``, rigs in
 ``contact_sim_pkg.rigs``. `docs/library.md` has examples. ``run`` is also the package of that name:
 it can be called.
@@ -17,8 +17,9 @@ __getattr__ = on_use(
         "BagError": "contact_sim_pkg.bag.errors:BagError",
         "RunError": "contact_sim_pkg.run.errors:RunError",
         "SceneError": "contact_sim_pkg.scene.errors:SceneError",
+        "compare": "contact_sim_pkg.library:compare",
         "load_scene": "contact_sim_pkg.library:load_scene",
-        "open_bag": "contact_sim_pkg.bag.reader:open_bag",
+        "open_bag": "contact_sim_pkg.library:open_bag",
         "series": "contact_sim_pkg.library:series",
     },
 )

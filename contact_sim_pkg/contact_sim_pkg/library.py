@@ -1,4 +1,4 @@
-"""The bench as a library: a scene, its run, and the series of its bag as arrays."""
+"""The bench as a library: a scene, its run, the series and metrics of its bag, and two bags side by side."""
 
 from __future__ import annotations
 
@@ -6,21 +6,32 @@ import shutil
 import tempfile
 import weakref
 from collections.abc import Iterator
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
+from contact_sim_pkg.bag import reader
 from contact_sim_pkg.bag.errors import BagWriteError
-from contact_sim_pkg.bag.reader import Bag, open_bag
+from contact_sim_pkg.bag.parts.find import parts_of
+from contact_sim_pkg.cli.output.working import doing, working
+from contact_sim_pkg.records.table import table_html
 from contact_sim_pkg.report.export.table import table_of
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.run.offline import run_offline
-from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.run.offline import RunProgress, run_offline
+from contact_sim_pkg.scene.load import load_scene as load_checked
+from contact_sim_pkg.scene.overrides import set_value
+from contact_sim_pkg.scene.resolve import resolve
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["Series", "load_scene", "open_bag", "run", "series"]
+if TYPE_CHECKING:
+    from contact_sim_pkg.answers import Answers
+    from contact_sim_pkg.compare.side_by_side import ComparedMetric
+    from contact_sim_pkg.records.metric import Metric
+
+__all__ = ["Bag", "Series", "compare", "load_scene", "open_bag", "run", "series"]
 
 
 def load_scene(name: str | Path, *values: str) -> ResolvedScene:
@@ -29,15 +40,24 @@ def load_scene(name: str | Path, *values: str) -> ResolvedScene:
 
     Raises SceneError with every fault.
     """
-    return load_resolved(str(name), *values)
+    return resolve(load_checked(str(name), [set_value(each, "the value ") for each in values]))
 
 
-def run(scene: ResolvedScene | str | Path, directory: str | Path | None = None) -> Bag:
+def open_bag(path: str | Path, *, skip_bad: bool = False) -> Bag:
+    """Open the bag in a directory or a file, of the bench or of anybody; ``skip_bad`` goes on after damaged chunks.
+
+    Raises BagError where there is none, or its texts do not hold.
+    """
+    return Bag(parts_of(Path(path), skip_bad=skip_bad), skip_bad)
+
+
+def run(scene: ResolvedScene | str | Path, directory: str | Path | None = None, *, progress: bool = True) -> Bag:
     """Run a scene offline, as fast as it goes, and return its bag.
 
     Args:
         scene: a scene, or its name or path.
         directory: of the bag, which must not exist; None: a temporary one, removed with the bag.
+        progress: whether a run that lasts more than a second is shown on standard error, its compiling too.
 
     Raises:
         SceneError: the scene is faulty.
@@ -48,7 +68,8 @@ def run(scene: ResolvedScene | str | Path, directory: str | Path | None = None) 
     folder = Path(tempfile.mkdtemp(prefix="contact_bench_")) if directory is None else None
     path = folder / found.name if folder is not None else Path(str(directory))
     try:
-        outcome = run_offline(found, path)
+        with working(f"{found.name}: starting") if progress else nullcontext():
+            outcome = run_offline(found, path, _show, on_set_up=doing)
         if outcome.failure:
             raise RunError(outcome.failure)
         if outcome.loss:
@@ -61,6 +82,41 @@ def run(scene: ResolvedScene | str | Path, directory: str | Path | None = None) 
     if folder is not None:
         weakref.finalize(bag, shutil.rmtree, folder, ignore_errors=True)
     return bag
+
+
+def _show(progress: RunProgress) -> None:
+    if progress.simulated > 0.0:
+        text = f"{progress.simulated:.2f} s simulated, {progress.real_time_factor:.2f}x real time"
+        doing(text, progress.block / progress.blocks)
+
+
+class Bag(reader.Bag):
+    """A bag that is read, with the answers of the bench on it. In a notebook it shows its topics."""
+
+    def metrics(self) -> Answers[Metric]:
+        """The metrics of the run with their bands and verdicts, those of `bench metrics`; of a bag of anybody what its
+        vibration gives. Raises BagError where there is nothing to measure.
+        """
+        from contact_sim_pkg.answers import metrics
+
+        return metrics(self)
+
+    def _repr_html_(self) -> str:
+        rows = [
+            {"topic": name, "type": row.type, "messages": self.count(name)}
+            for name, row in self.topics.items() if self.count(name)
+        ]  # fmt: skip
+        return table_html(rows, f"{self.path}: {'complete' if self.complete else '; '.join(self.notes)}")
+
+
+def compare(*bags: Bag | str | Path) -> Answers[ComparedMetric]:
+    """The metrics of bags of one rig side by side, what moved most first: those of `bench compare`.
+
+    Raises BagError where they are of different rigs, or have no metrics.
+    """
+    from contact_sim_pkg import answers
+
+    return answers.compare(*(each if isinstance(each, Bag) else open_bag(each) for each in bags))
 
 
 @dataclass(frozen=True)
@@ -93,6 +149,16 @@ class Series:
         """Number of rows."""
         return len(self.time)
 
+    def _repr_html_(self) -> str:
+        numbers = [name for name in self.columns if self.columns[name].dtype.kind in "biuf" and len(self)]
+        rows = [
+            {"column": name, "unit": self.units[name], "smallest": f"{self[name].min():.6g}",
+             "largest": f"{self[name].max():.6g}"}
+            for name in numbers
+        ]  # fmt: skip
+        span = f", {self.time[0]:.6g} to {self.time[-1]:.6g} s" if len(self) else ""
+        return table_html(rows, f"{self.topic}: {len(self)} rows{span}")
+
     def to_pandas(self) -> Any:
         """A pandas DataFrame, its index the time [s]. Raises ImportError where pandas is not
         installed.
@@ -102,13 +168,13 @@ class Series:
         return pandas.DataFrame(self.columns, index=pandas.Index(self.time, name="time"))
 
 
-def series(bag: Bag | str | Path, topic: str) -> Series:
+def series(bag: reader.Bag | str | Path, topic: str) -> Series:
     """The series of a topic of a bag, or of the bag in a directory: samples of a block are rows, each
     with its own time; the pressure of a patch is read by ``bag.columns``.
 
     Raises BagError where there is no such topic, or it holds no numbers.
     """
-    opened = bag if isinstance(bag, Bag) else open_bag(bag)
+    opened = bag if isinstance(bag, reader.Bag) else open_bag(bag)
     time, *columns = table_of(opened, topic).columns
     return Series(
         opened.topic(topic).name, time.values, {each.name: each.values for each in columns},

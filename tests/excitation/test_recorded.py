@@ -59,7 +59,7 @@ def test_a_comma_that_may_be_meant_in_two_ways_is_refused_with_its_line(tmp_path
 
 def test_a_column_of_another_name_is_refused_with_the_key_that_names_it(tmp_path):
     path = write(tmp_path / "a.csv", {"t": TIME, "Az": Z + 9.81})
-    names = "the header names t, az; name the right one with --set vibration"
+    names = "the header names t, az; name the right one by vibration"
     with pytest.raises(ExcitationError, match=f"no column 'z'; {names}.vertical_column=NAME"):
         RecordedVibration(path, unused="x")
     with pytest.raises(ExcitationError, match=f"no column 'x'; {names}.forward_column=NAME"):

@@ -10,9 +10,11 @@ from scipy import signal, stats
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.signals import AxisSignal
 from contact_sim_pkg.excitation.vibrations.half_sine import HalfSine
+from contact_sim_pkg.excitation.vibrations.haversine import Haversine
 from contact_sim_pkg.excitation.vibrations.noise import NoiseSignal
 from contact_sim_pkg.excitation.vibrations.sine import Sine
 from contact_sim_pkg.excitation.vibrations.sweep import SweepSignal
+from contact_sim_pkg.excitation.vibrations.triangle import Triangle
 
 TIME = numpy.linspace(-0.5, 3.0, 1234)
 
@@ -38,10 +40,13 @@ def test_a_sweep_says_its_rate():
     assert SweepSignal(1.0, 1.0, 10.0, 18.0, logarithmic=False).describe()["rate_Hz_per_s"] == pytest.approx(0.5)
 
 
-def test_a_half_sine_shock_changes_the_velocity_by_its_area():
-    shock = HalfSine(-50.0, 0.2, 0.02)
-    assert shock.values(numpy.array([0.19, 0.2, 0.21, 0.22, 0.3])) == pytest.approx(
-        [0.0, 0.0, -50.0, 0.0, 0.0], abs=1e-9
+@pytest.mark.parametrize(
+    ("kind", "quarter"), [(HalfSine, math.sqrt(0.5)), (Haversine, 0.5), (Triangle, 0.5)], ids=lambda each: str(each)
+)
+def test_a_shock_has_its_shape_and_changes_the_velocity_by_its_area(kind, quarter):
+    shock = kind(-50.0, 0.2, 0.02)
+    assert shock.values(numpy.array([0.19, 0.2, 0.205, 0.21, 0.22, 0.3])) == pytest.approx(
+        [0.0, 0.0, -50.0 * quarter, -50.0, 0.0, 0.0], abs=1e-9
     )
     time = numpy.linspace(0.2, 0.22, 20001)
     area = shock.values(time).sum() * (time[1] - time[0])

@@ -52,7 +52,7 @@ def test_a_scene_without_name_is_called_like_its_file(maker):
 def test_a_file_name_that_cannot_be_a_name_asks_for_one(maker, tmp_path):
     path = tmp_path / "my scene.yaml"
     path.write_text(maker.write("seat").read_text())
-    with pytest.raises(SceneError, match="name: 'my scene' is not a name"):
+    with pytest.raises(SceneError, match=r"name: 'my scene' is not a name.*; write name: my_scene$"):
         load_scene(path)
 
 

@@ -62,6 +62,14 @@ def test_pace_is_a_word_or_a_factor(maker, pace, value):
             "--set seat.seed=3: seat.seed: the key is unknown; it stands at the top of the scene: seed",
         ),
         (
+            lambda: set_value("foam.length=3"),
+            "--set foam.length=3: foam: the key is unknown; it is effects.seat.foam, effects.backrest.foam",
+        ),
+        (
+            lambda: set_value("damping=3"),
+            "--set damping=3: damping: the key is unknown; it is seat.occupant.damping, effects.tire.normal_dissipative.damping",
+        ),
+        (
             lambda: set_value("duration=2 min"),
             "--set duration=2 min: duration: '2 min' was read as text, a number is needed without its unit: 2 min is 120 s",
         ),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from contact_sim_pkg.cli.output.say import say
+from contact_sim_pkg.cli.output.say import tell
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json_rows, show_sections
 
 
@@ -24,10 +24,7 @@ def command(start: bool, latency: float | None, as_json: bool) -> None:
     """
     from contact_sim_lab.goals import goals, starts
 
-    def notify(line: str) -> None:
-        say(line, err=True)
-
-    rows = starts.study(notify) if start else goals.study(notify, latency)
+    rows = starts.study(tell) if start else goals.study(tell, latency)
     if as_json:
         print_json_rows(rows)
     else:
@@ -52,7 +49,7 @@ def growth_command(page: Path | None, plot: Path | None, overwrite: bool, as_jso
         check_output(page, [], overwrite=overwrite)
     if plot is not None:
         check_picture(plot, [], overwrite=overwrite)
-    rows = growth.study(lambda line: say(line, err=True))
+    rows = growth.study(tell)
     if as_json:
         print_json_rows(rows)
     else:

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from contact_sim_pkg.cli.output.say import say
+from contact_sim_pkg.cli.output.say import say, tell
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
+from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Canvas
 
-    from contact_sim_lab.records.paper import Paper
+    from contact_sim_lab.records.paper import Number, Paper
 
 DOT = 110  # of a picture [1/inch]
 
@@ -142,6 +143,7 @@ def _figure(
     owner = f"{paper.key}, figure {number}"
     values = values_of(owner, figure.parameters, given)
     place = _output(output, f"{paper.key}_figure_{number}.png", overwrite)
+    doing(f"{paper.short}, figure {number}: {figure.title}")
     found = drawn(figure, values)
     rows = [each.row() for each in found.numbers]
     save(place, found.draw, found.size, overwrite=overwrite)
@@ -151,7 +153,7 @@ def _figure(
             "values": values, "numbers": rows, "output": str(place),
         })  # fmt: skip
     else:
-        shown = [_line(row) for row in rows]
+        shown = [_line(each) for each in found.numbers]
         title = f"{paper.short}, figure {number}: {figure.title}"
         show_sections([Section(title, shown, f"{figure.kind}: {figure.judged_by}\ndrawn in {place}")])
     _end([row["verdict"] for row in rows])
@@ -165,12 +167,13 @@ def _end(verdicts: Sequence[str]) -> None:
     click.get_current_context().exit(status)
 
 
-def _line(row: Mapping[str, Any]) -> dict[str, Any]:
+def _line(number: Number) -> dict[str, Any]:
     """A number of a figure as a person reads it."""
+    row = number.row()
     values = {key: None if row[key] is None else f"{row[key]:.6g}" for key in ("expected", "obtained")}
     allowed = f"{row['tolerance']:.2g}{' of it' if row['relative'] else ''}" if row["expected"] is not None else ""
     return {
-        "quantity": row["quantity"], "unit": row["unit"], **values, "difference": row["difference"], "allowed": allowed,
+        "quantity": row["quantity"], "unit": row["unit"], **values, "difference": number.shown_difference(3), "allowed": allowed,
         "verdict": row["verdict"], "origin of the expected value": row["origin"], "note": row["note"],
     }  # fmt: skip
 
@@ -211,6 +214,7 @@ def _system(
         raise PaperError(f"{paper.key}, system {name}: {needed}")
     values = values_of(f"{paper.key}, system {name}", system.parameters, given)
     place = _output(output, f"{paper.key}_{name}.png", overwrite, [] if source is None else [Path(source)])
+    doing(f"{paper.short}: {system.title}")
     result: SystemResult = load(system.run)(None if source is None else Path(source), values)
     if result.draw is not None:
         save(place, result.draw, result.size, overwrite=overwrite)
@@ -234,9 +238,7 @@ def _all(paper: Paper | None, output: Path | None, overwrite: bool, as_json: boo
     from contact_sim_pkg.records.table import Section
 
     chosen = papers() if paper is None else [paper]
-    rows = write_pages(
-        chosen, output or Path("docs/papers"), overwrite=overwrite, progress=lambda line: say(line, err=True)
-    )
+    rows = write_pages(chosen, output or Path("docs/papers"), overwrite=overwrite, progress=tell)
     counted = {
         verdict: sum(row["verdict"] == verdict for row in rows)
         for verdict in dict.fromkeys(row["verdict"] for row in rows)

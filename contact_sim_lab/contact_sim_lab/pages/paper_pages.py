@@ -59,11 +59,14 @@ def row_of(paper: Paper, figure: Figure, numbers: Sequence[Number], spent: float
     """A figure's verdict: judged and inside where every number with an expected value is, else its kind."""
     outside = [each.what for each in numbers if each.verdict == "OUTSIDE"]
     verdict = "OUTSIDE" if outside else "judged, inside" if figure.kind == JUDGED else figure.kind
-    counts = {name: sum(each.verdict == name for each in numbers) for name in ("inside", "not reached", "no reference")}
+    counts = {
+        name: sum(each.verdict == name for each in numbers)
+        for name in ("inside", "input", "not reached", "no reference")
+    }
     return {
         "paper": paper.key, "figure": figure.number, "what": figure.title, "verdict": verdict, "inside": counts["inside"],
-        "outside": len(outside), "not reached": counts["not reached"], "no reference": counts["no reference"],
-        "cpu_s": round(spent, 2),
+        "input": counts["input"], "outside": len(outside), "not reached": counts["not reached"],
+        "no reference": counts["no reference"], "cpu_s": round(spent, 2),
     }  # fmt: skip
 
 
@@ -182,7 +185,7 @@ def _figure(paper: Paper, figure: Figure, numbers: Sequence[Number]) -> str:
 def _number(number: Number) -> str:
     expected, obtained = ("" if value is None else f"{value:.6g}" for value in (number.expected, number.obtained))
     judged = number.difference is not None
-    difference = f"{number.difference:.2g}" if number.difference is not None else ""
+    difference = number.shown_difference(2)
     allowed = f"{number.tolerance:.2g}{' of it' if number.relative else ''}" if judged else ""
     origin = "; ".join(filter(None, (number.origin, number.note)))
     cells = (_cell(number.what), number.unit, expected, obtained, difference, allowed, number.verdict, _cell(origin))

@@ -38,6 +38,8 @@ Values = Mapping[str, Any]
 """Values of parameters by name: float, int, text or a tuple of floats."""
 
 JUDGED, SHAPE_ONLY, NO_REFERENCE = "judged", "shape only", "no reference"
+ROUNDING = 1e-12
+"""A difference below it is that of machines, not of models."""
 
 
 class PaperError(RefusedError, ValueError):
@@ -120,11 +122,14 @@ class Number(NamedTuple):
     obtained: float | None
     expected: float | None
     tolerance: float
+    """at most three times the error of discretisation, or what the digits of the print resolve"""
     origin: str
     """of the expected value; never the bench itself"""
     relative: bool = False
     """whether the tolerance is a part of the expected value"""
     note: str = ""
+    is_input: bool = False
+    """whether the scene was given the value: it shows that it arrives, and nothing of the physics"""
 
     @property
     def difference(self) -> float | None:
@@ -138,14 +143,26 @@ class Number(NamedTuple):
             return missed
         return missed / abs(self.expected) if self.expected else math.copysign(math.inf, missed)
 
+    def shown_difference(self, digits: int) -> str:
+        """For a page that has the same bytes on every machine: what is rounding is `<1e-12`."""
+        if self.difference is None:
+            return ""
+        if self.difference != 0.0 and abs(self.difference) < ROUNDING:
+            return f"<{ROUNDING:g}"
+        return f"{self.difference:.{digits}g}"
+
     @property
     def verdict(self) -> str:
-        """`inside`, `OUTSIDE`, `not reached` where nothing was obtained, `no reference` where nothing is expected."""
+        """`inside`, `OUTSIDE`, `input` where one was read back, `not reached` where nothing was obtained, `no reference`
+        where nothing is expected.
+        """
         if self.obtained is None:
             return "not reached"
         if self.difference is None:
             return NO_REFERENCE
-        return "inside" if abs(self.difference) <= self.tolerance else "OUTSIDE"
+        if not abs(self.difference) <= self.tolerance:
+            return "OUTSIDE"
+        return "input" if self.is_input else "inside"
 
     def row(self) -> dict[str, Any]:
         """As a row of a table."""

@@ -9,6 +9,7 @@ import click
 
 from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
+from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
     from contact_sim_pkg.identify.identify import Identification
@@ -125,6 +126,7 @@ def command(
         check_picture(plot, [bag, hull], overwrite=overwrite)
     shape = _shape(box, sphere, hull)
     _check_wrench_options((force, torque) != (None, None), force_topic, force_axes)
+    doing(f"identify: reading {bag}")
     recorded = read_body_states(bag, topic, twist_topic, twist_axes)
     wrench = constant(force, torque)
     if force_topic is not None:
@@ -135,6 +137,7 @@ def command(
     for note in recorded.notes:
         say(f"bench: {note}", err=True)
     try:
+        doing(f"identify: contacts and parameters of {len(recorded.states.time)} samples")
         found = identify(recorded.states, setup)
     except IdentificationError:
         for line in recorded.reading:

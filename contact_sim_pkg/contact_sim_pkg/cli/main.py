@@ -15,6 +15,7 @@ from importlib import import_module
 
 import click
 
+from contact_sim_pkg.cli.output.working import working
 from contact_sim_pkg.python_process import disregard_current_folder
 
 BEGAN = time.monotonic()  # start of the process, near enough: what a run calls its start-up counts from here
@@ -43,6 +44,7 @@ LABORATORY = {  # the same, in contact_sim_lab.cli
     "growth": "goals:growth_command",
     "paper": "paper",
 }
+DISPLAY_THEMSELVES = ("run", "replay")  # from their first second to their last
 ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share the cores; the same bits without nodes
 
 
@@ -74,7 +76,10 @@ class LazyGroup(click.Group):
             near = get_close_matches(args[0].lower(), self.list_commands(ctx), n=1, cutoff=0.5)
             hint = f" Did you mean {near[0]!r}?" if near else ""
             raise click.UsageError(f"No such command {args[0]!r}.{hint}", ctx)
-        return super().resolve_command(ctx, args)
+        found = super().resolve_command(ctx, args)
+        if found[0] not in DISPLAY_THEMSELVES and not ctx.resilient_parsing:
+            ctx.with_resource(working(f"bench {found[0]}: working"))
+        return found
 
 
 def _of_laboratory(name: str) -> click.Command:

@@ -9,6 +9,7 @@ import click
 from contact_sim_pkg.cli.output.progress import RunDisplay
 from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import overwrite_option
+from contact_sim_pkg.cli.output.working import displayed_elsewhere
 
 
 @click.command("report")
@@ -49,7 +50,7 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_ver
     for line in filter(None, others):
         say(line, err=True)
     begin = "report: reading the bag" if len(bags) == 1 else "report: comparing the bags"
-    with RunDisplay(1.0, begin, "section") as display:
+    with displayed_elsewhere(), RunDisplay(1.0, begin, "section") as display:
 
         def on_read(share: float) -> None:
             display.show_set_up(f"report: reading the bag, {share:.0%}")

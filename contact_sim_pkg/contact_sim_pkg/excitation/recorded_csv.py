@@ -66,7 +66,7 @@ class RecordedTable(NamedTuple):
         vibration that names it, or holds NaN or infinity (with the line).
         """
         name = bare_name(name)
-        cure = f"; name the right one with --set vibration.{key}=NAME" if key else ""
+        cure = f"; name the right one by vibration.{key}=NAME" if key else ""
         if name not in self.columns:
             raise ExcitationError(
                 f"{self.file}: there is no column '{name}'; the header names {', '.join(self.columns)}{cure}"

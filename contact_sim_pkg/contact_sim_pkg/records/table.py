@@ -6,9 +6,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from html import escape
 from typing import Any, NamedTuple
 
-__all__ = ["Section", "number_of"]
+__all__ = ["Section", "number_of", "table_html"]
 
 
 class Section(NamedTuple):
@@ -28,3 +29,12 @@ def number_of(value: float) -> str:
     if digits >= 10.0:
         digits, exponent = 1.0, exponent + 1
     return f"{digits:g}e{exponent}" if exponent else f"{digits:g}"
+
+
+def table_html(rows: Sequence[Mapping[str, Any]], caption: str) -> str:
+    """Rows as an HTML table with a line above."""
+    names = list(rows[0]) if rows else []
+    heads = "".join(f"<th>{escape(name)}</th>" for name in names)
+    lines = ["".join(f"<td>{escape(str(row[name]))}</td>" for name in names) for row in rows]
+    body = "".join(f"<tr>{line}</tr>" for line in lines)
+    return f"<p>{escape(caption)}</p><table><thead><tr>{heads}</tr></thead><tbody>{body}</tbody></table>"

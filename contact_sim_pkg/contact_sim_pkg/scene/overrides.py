@@ -38,14 +38,14 @@ class Override:
     file_section: str = ""
 
 
-def set_value(assignment: str) -> Override:
+def set_value(assignment: str, option: str = "--set ") -> Override:
     """`--set a.b.c=value`; the value is read as YAML, items of lists are counted from 0. `null`
-    removes the key.
+    removes the key. `option` stands before the assignment in a sentence on a fault.
 
     Raises:
         SceneError: no `=`, an empty key, or a value that is not YAML.
     """
-    option = f"--set {assignment}"
+    option += assignment
     dotted, equals, text = assignment.partition("=")
     keys = tuple(key.strip() for key in dotted.split("."))
     if not equals or not all(keys):

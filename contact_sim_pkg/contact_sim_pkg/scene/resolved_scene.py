@@ -6,6 +6,7 @@ import copy
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from html import escape
 from io import StringIO
 from pathlib import Path
 from types import SimpleNamespace
@@ -199,6 +200,13 @@ class ResolvedScene:
         stream = StringIO()
         writer.dump(self.data, stream)
         return stream.getvalue()
+
+    def _repr_html_(self) -> str:
+        effects = [f"{at}.{name}" for at, named in self.data["effects"].items() for name in named or {} if named[name]]
+        said = f"{self.name}: rig {self.rig}, {self.duration:g} s, accuracy {self.accuracy}, effects {', '.join(effects) or 'none'}"
+        return (
+            f"<p>{escape(said)}</p><details><summary>every key</summary><pre>{escape(self.to_yaml())}</pre></details>"
+        )
 
     @classmethod
     def from_own_yaml(cls, text: str, files: Mapping[str, str | Path]) -> ResolvedScene:

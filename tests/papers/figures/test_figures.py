@@ -4,11 +4,15 @@ import json
 
 import pytest
 
-from contact_sim_lab.pages.paper_pages import write_pages
+from contact_sim_lab.pages.paper_pages import row_of, write_pages
 from contact_sim_lab.papers.contact_area import figures
 from contact_sim_lab.papers.registry import figure_of, paper_of
+from contact_sim_lab.papers.rolling_contact import figures_track as rolling
+from contact_sim_lab.papers.tire_road import figures as tire_road
+from contact_sim_lab.records.paper import Number
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.files import FileRefusedError
+from contact_sim_pkg.rigs.impact.theory.bodies import Material
 
 QUICK = [
     ("contact-area", "4"),
@@ -26,6 +30,47 @@ def test_a_figure_is_inside(key, number):
     assert {each.what for each in numbers if each.verdict == "OUTSIDE"} == set()
     assert any(each.verdict == "inside" for each in numbers)
     assert all(each.origin for each in numbers if each.expected is not None)
+
+
+def _softer(monkeypatch):
+    """The body of the product, 1 % softer than that of the reference."""
+    monkeypatch.setattr(figures, "Material", lambda modulus, loss: Material(0.99 * modulus, loss))
+
+
+def _stiffer_reference(monkeypatch):
+    influence = tire_road.dense_influence
+    monkeypatch.setattr(tire_road, "dense_influence", lambda *given: 1.01 * influence(*given))
+
+
+def _more_rolling_friction(monkeypatch):
+    roller = rolling.ROLLER
+    monkeypatch.setattr(rolling, "ROLLER", roller._replace(rolling_friction=1.01 * roller.rolling_friction))
+
+
+@pytest.mark.parametrize(
+    ("key", "number", "fault", "said"),
+    [
+        ("contact-area", "4", _softer, "largest force"),
+        ("tire-road", "4", _stiffer_reference, "load of the dense solution at the approach obtained"),
+        ("rolling-contact", "3", _more_rolling_friction, "growth rate"),
+    ],
+)
+def test_a_fault_of_one_per_cent_is_outside(key, number, fault, said, monkeypatch):
+    fault(monkeypatch)
+    figure = figure_of(paper_of(key), number)
+    found = figure.compute({each.name: each.default for each in figure.parameters}).numbers
+    assert said in {each.what for each in found if each.verdict == "OUTSIDE"}
+
+
+def test_what_was_given_is_counted_apart():
+    figure = figure_of(paper_of("rolling-contact"), "9")
+    row = row_of(paper_of("rolling-contact"), figure, figure.compute({}).numbers, 0.0)
+    assert (row["input"], row["inside"], row["outside"]) == (12, 4, 0)
+
+
+def test_rounding_is_shown_as_such():
+    shown = [Number("", "", 1.0 + each, 1.0, 1.0, "").shown_difference(2) for each in (0.0, 1e-14, -1e-13, 1e-11)]
+    assert shown == ["0", "<1e-12", "<1e-12", "1e-11"]
 
 
 def test_a_figure_follows_its_values():

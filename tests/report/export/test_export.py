@@ -28,6 +28,7 @@ from contact_sim_pkg.records.messages import (
     SolverCost,
     String,
 )
+from contact_sim_pkg.report.export import write as write_module
 from contact_sim_pkg.report.export.table import table_of
 from contact_sim_pkg.report.export.write import export
 
@@ -37,6 +38,20 @@ def read(path):
         header, *rows = csv.reader(file)
     assert {len(row) for row in rows} == {len(header)}, "a spreadsheet sees a rectangle"
     return {name: [row[place] for row in rows] for place, name in enumerate(header)}
+
+
+def test_a_large_map_is_written_where_its_topic_is_named(car, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(write_module, "LARGEST_MAP", 1000)
+    names = [path.name for path in export(car, "csv", (), tmp_path / "all")]
+    assert "tire_patch.csv" in names
+    assert "tire_patch_pressure.csv" not in names
+    cells = sum(message.rows * message.cols for _, message in car.decoded("tire/patch"))
+    [note] = car.notes
+    assert note.startswith(f"/tire/patch pressure: {cells:,} cells in {car.count('tire/patch')} frames, ")
+    assert note.endswith("it is left out, --topic /tire/patch writes it")
+    car.notes.clear()
+    named = [path.name for path in export(car, "csv", ("tire/patch",), tmp_path / "named")]
+    assert named == ["tire_patch.csv", "tire_patch_pressure.csv"]
 
 
 @pytest.fixture(scope="module")

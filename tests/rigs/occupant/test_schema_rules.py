@@ -13,7 +13,7 @@ from contact_sim_pkg.scene.resolve import load_resolved, read_resolved
             "seat_ride_full",
             "backrest.mass=20",
             "backrest.mass",
-            "with its own mass; remove it (--set backrest.mass=null)",
+            "with its own mass; remove it (backrest.mass=null)",
         ),
         ("seat_ride_full", "effects.backrest.shell_modes={}", "effects.backrest.shell_modes", "in the rig backrest"),
         ("seat_ride_full", "effects.backrest.friction={}", "effects.backrest.friction", "in the rig backrest"),

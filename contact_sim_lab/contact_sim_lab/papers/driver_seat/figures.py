@@ -226,14 +226,14 @@ def _figure_7(values: Values) -> Drawn:
     numbers = []
     for frequency, each in shares.items():
         numbers += [
-            Number(f"largest S/S_ref at {frequency} Hz", "", float(each.recorded.max()), float(each.twin.max()), 5e-3, origin,
+            Number(f"largest S/S_ref at {frequency} Hz", "", float(each.recorded.max()), float(each.twin.max()), 3.5e-3, origin,
                    relative=True),
-            Number(f"mean of S/S_ref at {frequency} Hz", "", float(each.recorded.mean()), float(each.twin.mean()), 5e-3, origin,
+            Number(f"mean of S/S_ref at {frequency} Hz", "", float(each.recorded.mean()), float(each.twin.mean()), 2.5e-3, origin,
                    relative=True),
         ]  # fmt: skip
     rest = series_of("backrest/patch", *_run(FREQUENCIES[0], SLAPS), *MAPS)["area"][0]
     area = float(_domain(numpy.array([REST]))[0])
-    numbers.append(Number("S_ref", "m²", float(rest), area, 5e-3, "ellipse of eq 8 at rest", relative=True))
+    numbers.append(Number("S_ref", "m²", float(rest), area, 2.3e-3, "ellipse of eq 8 at rest", relative=True))
 
     def draw(canvas: Canvas) -> None:
         axes = canvas.subplots()

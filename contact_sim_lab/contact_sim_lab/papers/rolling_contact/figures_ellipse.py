@@ -49,9 +49,10 @@ def _figure_9(values: Values) -> Drawn:
     for time in INSTANTS:
         curvatures, (r11, r21, load) = programme.curvatures_at(time), _laws(time)
         numbers += [
-            Number(f"R11 at {time:g} s", "m", 1.0 / curvatures.shaft_rolling, r11, 5e-7, _CHOSEN),
-            Number(f"R21 at {time:g} s", "m", 1.0 / curvatures.roller_axial, r21, 5e-7, _CHOSEN),
-            Number(f"F_N at {time:g} s", "N", float(programme.loads(numpy.array([time]))[0]), load, 5e-5, _CHOSEN),
+            Number(f"R11 at {time:g} s", "m", 1.0 / curvatures.shaft_rolling, r11, 5e-7, _CHOSEN, is_input=True),
+            Number(f"R21 at {time:g} s", "m", 1.0 / curvatures.roller_axial, r21, 5e-7, _CHOSEN, is_input=True),
+            Number(f"F_N at {time:g} s", "N", float(programme.loads(numpy.array([time]))[0]), load, 5e-5, _CHOSEN,
+                   is_input=True),
             Number(
                 f"sign of R11 − R21 at {time:g} s", "",
                 math.copysign(1.0, curvatures.roller_axial - curvatures.shaft_rolling), 1.0 if time in (0.0, 4.0) else -1.0, 0.0,
@@ -119,7 +120,7 @@ def _figure_10(values: Values) -> Drawn:
 
 FIGURE_9 = Figure(
     "9", "radii R11, R21 and load F_N over time", (f"scene {SCENE}",),
-    "the chosen laws to their last digit; which radius is larger, by the text", _figure_9,
+    "the chosen laws, which are input, to their last digit; which radius is larger, by the text", _figure_9,
     note="The paper gives only the scales of its axes. The radii and the load are chosen so that every statement of its "
     "section 5 holds.",
 )  # fmt: skip

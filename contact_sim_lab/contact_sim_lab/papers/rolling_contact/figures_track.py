@@ -89,12 +89,12 @@ def _figure_2(values: Values) -> Drawn:
     stable = series_of("roller/stability", "roller_programme")
     names = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX")
     numbers = [
-        Number(f"F_c in step {name}, mean", "N", float(own), float(load), 1e-2, "equilibrium: the mean load is F_N of the step",
+        Number(f"F_c in step {name}, mean", "N", float(own), float(load), 2e-3, "equilibrium: the mean load is F_N of the step",
                relative=True)
         for name, own, load in zip(names, carried, loads, strict=True)
     ]  # fmt: skip
     numbers += [
-        Number(f"p₀ in step {name}, median", "Pa", float(own), _hertz(float(load))[0], 5e-3, "Hertz in 50 digits at F_N",
+        Number(f"p₀ in step {name}, median", "Pa", float(own), _hertz(float(load))[0], 5e-6, "Hertz in 50 digits at F_N",
                relative=True)
         for name, own, load in zip(names[:3], still, loads, strict=False)
     ]  # fmt: skip
@@ -170,9 +170,9 @@ def _figure_3(values: Values) -> Drawn:
     origin = "roots of the characteristic polynomial of eq 18, by numpy"
     theory = growing.imag / (2.0 * math.pi)
     numbers = [
-        Number("growth rate", "1/s", growth, growing.real, 0.05, origin, relative=True),
-        Number("frequency", "Hz", frequency, theory, 0.05, origin, relative=True),
-        Number("wavelength along the track", "m", speed / frequency, speed / theory, 0.05, origin, relative=True),
+        Number("growth rate", "1/s", growth, growing.real, 4e-5, origin, relative=True),
+        Number("frequency", "Hz", frequency, theory, 2e-7, origin, relative=True),
+        Number("wavelength along the track", "m", speed / frequency, speed / theory, 2e-7, origin, relative=True),
         Number(
             "amplitude at the end", "m", float(amplitude[-1]), None, 0.0, "", note="it grows from the tilt at the start"
         ),
@@ -251,18 +251,20 @@ def _figure_4(values: Values) -> Drawn:
     slope = _damage_slope()
     origin = "linear theory of a small wave: own transfer function, Hertz in 50 digits, F dω_T/dF by quadrature"
     numbers = [
-        Number("F dω_T/dF at F_N", "", _slope_of_bench(), slope, 0.02,
+        Number("F dω_T/dF at F_N", "", _slope_of_bench(), slope, 0.019,
                "eqs 22 to 24 by Boussinesq's point forces at 32³ points of a quarter of the box", relative=True)
     ]  # fmt: skip
-    for waves, blocks in ((2, slice(5, 61)), (3, slice(0, 11))):
+    for waves, blocks, allowed in ((2, slice(5, 61), 0.048), (3, slice(0, 11), 0.05)):
         found = float(numpy.polyfit(cycles[blocks], numpy.log(modes[blocks, waves]), 1)[0])
         numbers.append(
-            Number(f"growth in a cycle, {waves} waves", "", found, _growth(waves, slope), 0.05, origin, relative=True)
+            Number(
+                f"growth in a cycle, {waves} waves", "", found, _growth(waves, slope), allowed, origin, relative=True
+            )
         )
     fastest = max(range(1, 20), key=lambda waves: _growth(waves, slope))
     leading = 1 + int(numpy.argmax(modes[60, 1:]))
     numbers += [
-        Number("wavelength of the leading wave", "m", CIRCUMFERENCE / leading, CIRCUMFERENCE / fastest, 0.05, origin,
+        Number("wavelength of the leading wave", "m", CIRCUMFERENCE / leading, CIRCUMFERENCE / fastest, 1e-9, origin,
                relative=True),
         Number("range of heights at the end", "m", float(track["range"][-1]), None, 0.0, "",
                note="the measured profile is a drawing without values"),
@@ -325,7 +327,7 @@ FIGURE_3 = Figure(
     "3",
     "axial wave along the track: place of the contact along the shaft",
     ("scene roller_flutter",),
-    "growth and wavelength by the theory, 5 %; amplitude: no reference",
+    "growth and wavelength by the theory, to three times the error of the fit; amplitude: no reference",
     _figure_3,
 )
 FIGURE_4 = Figure(

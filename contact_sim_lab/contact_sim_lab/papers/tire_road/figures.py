@@ -194,13 +194,13 @@ def _pressure_numbers(kind: str, road: Road, values: Values, found: Solved, flat
     origin = f"dense non-negative least squares, {SMALL[0]} × {SMALL[1]} cells"
     return [
         *_reference_numbers(flat, load),
-        Number("load of the dense solution at the approach obtained", "N", float(dense.sum() * area), load, 1e-3,
+        Number("load of the dense solution at the approach obtained", "N", float(dense.sum() * area), load, 1e-9,
                "eq 2: the load of the figure", relative=True),
-        Number("the same on a flat road", "N", float(dense_level.sum() * area), load, 1e-3, "eq 2: the load of the figure",
+        Number("the same on a flat road", "N", float(dense_level.sum() * area), load, 1e-9, "eq 2: the load of the figure",
                relative=True),
-        Number("largest error of p over p_ref,max", "", error, 0.0, 1e-2, origin),
+        Number("largest error of p over p_ref,max", "", error, 0.0, 1e-7, origin),
         Number(f"largest p/p_ref,max, {SMALL[0]} × {SMALL[1]} cells", "", float(small.pressure.max() / level.pressure.max()),
-               float(dense.max() / dense_level.max()), 1e-2, origin, relative=True),
+               float(dense.max() / dense_level.max()), 1e-8, origin, relative=True),
         *_conditions(found, _own_gap(kind, road, values, found), load),
         Number("largest p/p_ref,max", "", float(found.pressure.max() / flat.pressure.max()), None, 0.0, "",
         note="on the fine grid"),

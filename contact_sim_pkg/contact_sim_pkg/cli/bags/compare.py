@@ -13,11 +13,13 @@ import click
 
 from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import overwrite_option, print_json, show_rows
+from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
     from contact_sim_pkg.bag.reader import Bag
     from contact_sim_pkg.compare.side_by_side import Compared, Miss
     from contact_sim_pkg.report.comparison.aligned import MapPair
+    from contact_sim_pkg.report.series import Recording
 
 
 @click.command("compare")
@@ -126,7 +128,11 @@ def _runs(
             )
         if not mats:
             refuse_other_rigs([rig_of_bag(bag) for bag in opened])
-        recordings = [recording_of(bag) for bag in opened]
+        recordings: list[Recording] = []
+        for bag in opened:
+            doing(f"compare: reading {bag.path}", len(recordings) / len(opened))
+            recordings.append(recording_of(bag))
+        doing("compare: metrics and curves")
     names = distinct_names(recordings)
     if not mats:
         return [

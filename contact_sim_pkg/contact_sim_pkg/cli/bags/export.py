@@ -9,6 +9,7 @@ import click
 
 from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import overwrite_option
+from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
     from contact_sim_pkg.bag.reader import Bag
@@ -54,13 +55,15 @@ def command(
     _refuse_options_that_do_not_fit(form, wall_time, begin, rate, topics, overwrite)
     source, status = open_bag(bag, skip_bad=skip_bad), 0
     if form in (None, STANDARD):
+        doing(f"export: {source.count():,} messages of {source.path}")
         summary = _new_bag(source, form, out, wall_time, begin, rate)
         say(f"{summary.path}: {summary.messages} messages{f'; {summary.sentence}' if summary.sentence else ''}")
         status = 0 if summary.complete else 3
     else:
         from contact_sim_pkg.report.export.write import export
 
-        for file in export(source, form, topics, out or source.path.parent / "export", overwrite=overwrite):
+        folder = out or source.path.parent / "export"
+        for file in export(source, form, topics, folder, overwrite=overwrite, on_file=doing):
             say(str(file))
     for note in [*source.notes, *source.left_out]:
         say(note, err=True)

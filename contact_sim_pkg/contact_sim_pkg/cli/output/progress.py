@@ -59,7 +59,13 @@ class RunDisplay:
         self._completed, self._text, self._item = 0.0, begin, item
         self._over = threading.Event()
         columns = (BarColumn(24), TextColumn("{task.description}"), TimeRemainingColumn())
-        self._bar = Progress(*columns, console=self._console, transient=True, disable=not self._console.is_terminal)
+        self._bar = Progress(
+            *columns,
+            console=self._console,
+            transient=True,
+            disable=not self._console.is_terminal,
+            redirect_stdout=False,
+        )
         self._task = self._bar.add_task(begin, total=None)
 
     def show(self, progress: DisplayedProgress) -> None:

@@ -4,9 +4,22 @@ from __future__ import annotations
 
 import click
 
+from contact_sim_pkg.cli.output.working import doing, hush
 from contact_sim_pkg.files import printable_lines
 
 
 def say(text: object = "", *, err: bool = False, nl: bool = True) -> None:
     """Print one or several lines; `click.echo` for texts from anywhere."""
-    click.echo(printable_lines(str(text)), err=err, nl=nl)
+    echo(printable_lines(str(text)), err=err, nl=nl)
+
+
+def tell(line: str) -> None:
+    """Print on standard error what is done now; it is said again while it lasts."""
+    say(line, err=True)
+    doing(line, told=True)
+
+
+def echo(text: str = "", *, err: bool = False, nl: bool = True) -> None:
+    """Print a text that is ours, or safe already."""
+    hush()
+    click.echo(text, err=err, nl=nl)

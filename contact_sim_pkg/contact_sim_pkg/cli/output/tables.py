@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from contact_sim_pkg.cli.output.say import echo
 from contact_sim_pkg.files import printable_lines
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def print_json(value: Mapping[str, Any]) -> None:
     """One object on standard output; NaN and infinity, which JSON lacks, become null."""
     text = json.dumps(_plain(value), indent=2, ensure_ascii=False, allow_nan=False)
     # Beside ASCII there are only texts, which JSON escapes
-    click.echo(
+    echo(
         re.sub("[^\\x20-\\x7e\\n]", lambda each: each[0] if each[0].isprintable() else json.dumps(each[0])[1:-1], text)
     )
 
@@ -59,7 +60,7 @@ def show_sections(sections: Sequence[Section]) -> None:
 
     for place, section in enumerate(sections):
         if place:
-            click.echo()
+            echo()
         if section.title:
             _print(Text(printable_lines(section.title), style="bold"))
         _print_table(section.rows)
@@ -74,7 +75,7 @@ def _print(what: RenderableType) -> None:
     console = Console(width=PIPED_WIDTH)
     with console.capture() as capture:
         console.print(what)
-    click.echo("\n".join(line.rstrip() for line in capture.get().splitlines()))
+    echo("\n".join(line.rstrip() for line in capture.get().splitlines()))
 
 
 def _print_table(rows: Sequence[Mapping[str, Any]]) -> None:

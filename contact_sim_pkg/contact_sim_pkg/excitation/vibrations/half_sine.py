@@ -1,78 +1,31 @@
-"""One shock of the floor."""
+"""One shock of the floor, half a sine."""
 
-from collections.abc import Iterator
 from math import pi
-from typing import Any, Literal
+from typing import ClassVar, Literal
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.excitation.signals import LARGEST_ACCELERATION, SHARPEST, AxisVibration, require
-from contact_sim_pkg.records.breach import Breach, show
-from contact_sim_pkg.records.fields import number
-
-SAMPLES_OF_A_SHOCK = 10
-"""At least; straight lines between as many samples keep its change of speed to 1 %."""
+from contact_sim_pkg.excitation.shocks import Shock, ShockSection
 
 
-class HalfSine:
-    """One half sine: peak sin(pi (t - start) / duration) from start to start + duration, else 0."""
+class HalfSine(Shock):
+    """Half a sine: peak sin(pi (t - start) / duration) from start to start + duration, else 0."""
 
-    def __init__(self, peak: float, start: float, duration: float) -> None:
-        """Take peak [m/s^2], its sign counts, start [s] and duration [s]; ExcitationError for a
-        value out of range.
-        """
-        require("half-sine shock", "peak", peak, -LARGEST_ACCELERATION, LARGEST_ACCELERATION, "m/s^2")
-        require("half-sine shock", "start", start, -1e6, 1e6, "s")
-        require("half-sine shock", "duration", duration, 1e-6, 1e3, "s")
-        self.peak, self.start, self.duration = peak, start, duration
+    kind: ClassVar[str] = "half_sine"
+    area: ClassVar[float] = 2.0 / pi
 
-    def values(self, t: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """See Waveform.
-
-        t: [n] [s]; the result: [n] [m/s^2].
-        """
-        part = (t - self.start) / self.duration
-        return numpy.where((part > 0.0) & (part < 1.0), self.peak * numpy.sin(pi * part), 0.0)
-
-    def describe(self) -> dict[str, Any]:
-        """See Waveform."""
-        return {
-            "kind": "half_sine", "peak_m_per_s2": self.peak, "start_s": self.start, "duration_s": self.duration,
-            "velocity_change_m_per_s": 2.0 * self.peak * self.duration / pi,
-        }  # fmt: skip
+    @staticmethod
+    def shape(part: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """See Shock."""
+        return numpy.asarray(numpy.sin(pi * part))
 
 
-class HalfSineSection(AxisVibration):
+class HalfSineSection(ShockSection):
     """One shock: half a sine of acceleration."""
 
     kind: Literal["half_sine"]
-    amplitude: float = number(
-        -SHARPEST, SHARPEST, "m/s²", "peak of the acceleration; negative is downwards or backwards", example=10.0
-    )
-    duration: float = number(1e-4, 10.0, "s", "length of the shock", example=0.05)
-    start: float = number(0.0, 3600.0, "s", "start of the shock", default=0.5)
-
-    def wave(self, seed: int) -> HalfSine:
-        """See AxisVibration."""
-        return HalfSine(self.amplitude, self.start, self.duration)
-
-    def strength(self) -> float:
-        """See VibrationKind."""
-        return abs(self.amplitude)
-
-    def breaches(self, duration: float) -> Iterator[Breach]:
-        """See Kind."""
-        if self.start >= duration:
-            sentence = f"the shock at {show(self.start)} s lies behind the end of the run ({show(duration)} s)"
-            yield Breach("vibration.start", sentence, ("duration",))
-        # A shock of few samples would have another impulse than its formula
-        if self.duration * self.sample_rate < SAMPLES_OF_A_SHOCK * (1.0 - 1e-9):
-            sentence = (
-                f"{show(self.duration)} s hold {self.duration * self.sample_rate:.3g} samples; a shock needs "
-                f"{SAMPLES_OF_A_SHOCK}, so make it longer, or the sample rate {show(SAMPLES_OF_A_SHOCK / self.duration)} Hz"
-            )
-            yield Breach("vibration.duration", sentence, ("vibration.sample_rate",))
+    pulse: ClassVar[type[Shock]] = HalfSine
 
 
 KIND = HalfSineSection

@@ -56,6 +56,8 @@ class Map(NamedTuple):
     unit: str
     sides: tuple[str, str]
     """fields of its rows and columns"""
+    cells: int = 0
+    """of all messages together, where they have been read"""
 
 
 class TopicTable(NamedTuple):
@@ -91,7 +93,9 @@ def table_of(bag: Bag, topic: str) -> TopicTable:
     fields = _fields_of(bag, row.name)
     if fields is None:
         return _foreign(bag, row.name)
-    return TopicTable(row.name, _columns(bag, row.name, fields), maps_of(bag, row.name))
+    times, messages, cells = _kept(bag, row.name, fields)
+    maps = [each._replace(cells=cells[each.name]) for each in maps_of(bag, row.name)]
+    return TopicTable(row.name, _columns(times, messages, fields), maps)
 
 
 def maps_of(bag: Bag, topic: str) -> list[Map]:
@@ -121,8 +125,7 @@ def _sorted(fields: list[Field]) -> _Fields:
     return _Fields(scalars, arrays, named, [field for field in two if field not in named])
 
 
-def _columns(bag: Bag, topic: str, fields: _Fields) -> list[TopicColumn]:
-    times, messages = _kept(bag, topic, fields)
+def _columns(times: NDArray[np.float64], messages: Sequence[Any], fields: _Fields) -> list[TopicColumn]:
     if not messages:
         return []
     period = next((name for name in PERIODS if hasattr(messages[0], name)), "")
@@ -190,8 +193,11 @@ def _filled(parts: Sequence[Any], counts: NDArray[np.int64]) -> Any:
     return column
 
 
-def _kept(bag: Bag, topic: str, fields: _Fields) -> tuple[NDArray[np.float64], list[Any]]:
-    """Times [s] and messages of a topic, these without their maps, which would not fit into memory together."""
+def _kept(bag: Bag, topic: str, fields: _Fields) -> tuple[NDArray[np.float64], list[Any], dict[str, int]]:
+    """Times [s] and messages of a topic, these without their maps, which would not fit into memory together; cells of
+    each map.
+    """
+    cells = {field.name: 0 for field in fields.maps}
     times: list[float] = []
     messages: list[Any] = []
     needed = 0
@@ -201,12 +207,14 @@ def _kept(bag: Bag, topic: str, fields: _Fields) -> tuple[NDArray[np.float64], l
             refuse_above_limit(needed, f"{bag.path}, {topic}: the table of its first {len(times) + 1} messages")
         message = bag.decode(raw)
         for field in fields.maps:
-            needed -= BYTES_PER_BYTE * np.asarray(getattr(message, field.name)).nbytes
+            values = np.asarray(getattr(message, field.name))
+            cells[field.name] += values.size
+            needed -= BYTES_PER_BYTE * values.nbytes
             setattr(message, field.name, ())
         refuse_above_limit(needed, f"{bag.path}, {topic}: the table of its first {len(times) + 1} messages")
         times.append(time_of(raw.log_time, message))
         messages.append(message)
-    return np.array(times), messages
+    return np.array(times), messages, cells
 
 
 def _foreign(bag: Bag, topic: str) -> TopicTable:

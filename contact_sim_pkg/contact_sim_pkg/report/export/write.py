@@ -28,6 +28,10 @@ CSV, PARQUET = "csv", "parquet"
 LONGEST_NAME = 200
 """Characters of a file's name."""
 ROWS_AT_ONCE = 1 << 16
+LARGEST_MAP = 10_000_000
+"""Bytes of a map's file; a larger one is written where its topic is named."""
+BYTES_OF_CELL = 12
+"""The most that the text of a cell takes, near enough."""
 GRID = ("cell_x", "cell_y", "origin_x", "origin_y")
 """Fields that place the cells of a map, written above its frames."""
 
@@ -50,7 +54,15 @@ def _writer(form: str) -> Callable[[TopicTable, IO[bytes]], None]:
     return write
 
 
-def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: bool = False) -> Iterator[Path]:
+def export(
+    bag: Bag,
+    form: str,
+    topics: Sequence[str],
+    out: Path,
+    *,
+    overwrite: bool = False,
+    on_file: Callable[[str], None] = lambda _line: None,
+) -> Iterator[Path]:
     """Write a file a topic into the folder `out`, `tire_force.csv`, and one a map, `tire_patch_pressure.csv`.
 
     All files have names of their own, which are free, before the first one is written.
@@ -59,9 +71,11 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
         bag: to read.
         form: one of `formats`, which is also the ending of its files; maps are CSV in each.
         topics: all where it is empty, but those that have nothing for a table: `bag.notes` names them, and those
-            whose file has another name than theirs; `bag.left_out` those of a type that cannot be read.
+            whose file has another name than theirs, and maps above `LARGEST_MAP`, which are left out as well;
+            `bag.left_out` those of a type that cannot be read.
         out: folder, made where it does not exist.
         overwrite: replace files that exist.
+        on_file: called with a line on each file, before it is written.
 
     Yields:
         Each file when it is written.
@@ -93,11 +107,17 @@ def export(bag: Bag, form: str, topics: Sequence[str], out: Path, *, overwrite: 
     for table in tables:
         file = out / files[table.topic, ""]
         if table.columns:
+            on_file(f"{file.name}: {len(table.columns[0].values):,} rows of {len(table.columns)} columns")
             with new_file(file, [bag.path], overwrite=overwrite) as stream:
                 write(table, stream)
             yield file
         for each in table.maps:
             place = out / files[table.topic, each.name]
+            size = f"{each.cells:,} cells in {bag.count(table.topic)} frames, {each.cells * BYTES_OF_CELL / 1e6:.0f} MB at most"
+            if not topics and each.cells * BYTES_OF_CELL > LARGEST_MAP:
+                bag.notes.append(f"{table.topic} {each.name}: {size}; it is left out, --topic {table.topic} writes it")
+                continue
+            on_file(f"{place.name}: {size}")
             with new_file(place, [bag.path], overwrite=overwrite) as stream:
                 _write_map(bag, table.topic, each, stream)
             yield place

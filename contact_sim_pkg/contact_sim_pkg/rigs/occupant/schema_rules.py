@@ -33,7 +33,7 @@ def leaning_breaches(scene: Scene) -> Iterator[Breach]:
     seat, back = scene.section(SeatSection), scene.section(BackrestSection)
     if back.mass is not None:
         sentence = (
-            "the trunk of seat.occupant leans on the seat back, with its own mass; remove it (--set backrest.mass=null)"
+            "the trunk of seat.occupant leans on the seat back, with its own mass; remove it (backrest.mass=null)"
         )
         yield Breach("backrest.mass", sentence, ("rig",))
     for name, kind in ELSEWHERE.items():

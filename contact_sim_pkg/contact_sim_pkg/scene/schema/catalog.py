@@ -24,6 +24,7 @@ __all__ = [
 
 Kind = Literal["number", "integer", "choice", "flag", "text", "list", "section", "kinds"]
 Location = tuple[str, ...]
+SHOWN_PLACES = 3  # of a key that stands elsewhere
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,7 @@ def without_kinds(location: tuple[str | int, ...]) -> tuple[str | int, ...]:
 
 def place_of(key: str, parent: Location) -> str:
     """Sentence on the place of a key that the section at `parent` does not have: another kind of
-    it, or the top of the scene; empty where neither has it.
+    it, the top of the scene, or other sections, three at most; empty where none has it.
     """
     table = catalog()
     section = table.get(parent[:1])
@@ -107,7 +108,12 @@ def place_of(key: str, parent: Location) -> str:
         kinds = [kind for kind in section.words if (parent[0], kind, key) in table]
         if kinds:
             return f"it belongs to a {parent[0]} of kind {' or '.join(kinds)}, this one is {parent[1]}"
-    return f"it stands at the top of the scene: {key}" if parent and (key,) in table else ""
+    if parent and (key,) in table:
+        return f"it stands at the top of the scene: {key}"
+    places = dict.fromkeys(".".join(map(str, without_kinds(each))) for each in table if each[-1] == key)
+    first = ", ".join([*places][:SHOWN_PLACES])
+    more = f" and {len(places) - SHOWN_PLACES} more" if len(places) > SHOWN_PLACES else ""
+    return f"it is {first}{more}" if places else ""
 
 
 def key_of_word(entry: Entry, node: Any) -> str:

@@ -12,6 +12,8 @@ from contact_sim_pkg.scene.schema.catalog import Entry, show
 from contact_sim_pkg.scene.yaml.nodes import ListNode, MappingNode, Node, ScalarNode
 
 LONGEST_SHOWN = 60
+VERY_NEAR = 0.7
+"""Likeness of a key that is named beside another place where the one that was written stands."""
 UNITS = {
     "m/s": {"km/h": 1.0 / 3.6, "kmh": 1.0 / 3.6, "kph": 1.0 / 3.6, "mph": 0.44704, "mm/s": 1e-3},
     "m": {"mm": 1e-3, "cm": 1e-2, "km": 1e3, "um": 1e-6, "µm": 1e-6, "in": 0.0254},
@@ -60,13 +62,13 @@ def missing(entry: Entry) -> str:
 def unknown_key(key: str, known: Iterable[str], elsewhere: str = "") -> str:
     """Where the key has its place, and the nearest valid key; or else all of them."""
     names = list(known)
-    hint = (f"; {elsewhere}" if elsewhere else "") + suggestion(key, names)
+    hint = f"; {elsewhere}" + suggestion(key, names, VERY_NEAR) if elsewhere else suggestion(key, names)
     return "the key is unknown" + (hint or f"; known here: {', '.join(names) or 'none, write {}'}")
 
 
-def suggestion(word: str, known: Iterable[str]) -> str:
+def suggestion(word: str, known: Iterable[str], cutoff: float = 0.5) -> str:
     """`; did you mean 'x'?`, or nothing where no known word is near."""
-    near = difflib.get_close_matches(word, list(known), n=1, cutoff=0.5)
+    near = difflib.get_close_matches(word, list(known), n=1, cutoff=cutoff)
     return f"; did you mean '{near[0]}'?" if near else ""
 
 
@@ -97,7 +99,9 @@ def _bad_text(entry: Entry, node: ScalarNode) -> str:
     if not isinstance(node.value, str):
         return f"{raw_text(node)} was read as {_type_name(node)}; write it in quotes: '{node.raw}'"
     if entry.location[-1] == "name":
-        return f"{raw_text(node)} is not a name; allowed are 1 to 100 of A-Z a-z 0-9 . _ - with no . or - in front"
+        cure = re.sub("[^A-Za-z0-9._-]+", "_", node.value).strip("._-")[:100] or "my_scene"
+        needed = "allowed are 1 to 100 of A-Z a-z 0-9 . _ - with no . or - in front"
+        return f"{raw_text(node)} is not a name; {needed}; write name: {cure}"
     if entry.location[-1] == "sha256":
         return f"{raw_text(node)} is not a checksum; allowed are 64 of 0-9 a-f"
     return f"{raw_text(node)} is too long or holds control characters"

@@ -152,8 +152,18 @@ def test_size_and_inflation_move_what_they_should():
     assert wide.contact_at(4000.0)[1] > usual.contact_at(4000.0)[1]
     assert flat.contact_at(4000.0)[0] > 1.2 * usual.contact_at(4000.0)[0]
     assert read_size("205/55 R16").radius == pytest.approx(0.316, abs=5e-4)
-    with pytest.raises(ValueError, match="205/55 R16 are needed"):
-        read_size("205/55")
+    for text in ("205/55", "205/55 R16 round", "225/45ZR17 94W XL M"):
+        with pytest.raises(ValueError, match="205/55 R16 are needed"):
+            read_size(text)
+    for text in (
+        "225/45ZR17 94W",
+        "P225/45R17",
+        "225/45 R17 94W XL",
+        "225/45 R17 (94Y)",
+        "225/45RF17",
+        "LT225/45R17 116/113S",
+    ):
+        assert read_size(text) == read_size("225/45 R17"), text
 
 
 def test_half_inches_of_a_rim_and_a_radius_that_is_not_of_the_size():

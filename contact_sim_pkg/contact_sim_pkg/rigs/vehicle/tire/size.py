@@ -7,7 +7,11 @@ from typing import NamedTuple
 
 __all__ = ["PATTERN", "TireSize", "read_size"]
 
-PATTERN = r"^([1-9][0-9]{2})/([1-9][0-9]) ?Z?R ?([1-9][0-9](?:\.5)?)$"
+PATTERN = (
+    r"^(?:P|LT)?([1-9][0-9]{2})/([1-9][0-9]) ?Z?RF? ?([1-9][0-9](?:\.5)?)C?"
+    r"(?: (?:XL|\(?[1-9][0-9]{1,2}(?:/[1-9][0-9]{1,2})?[A-Z][0-9]?\)?)){0,2}$"
+)
+"""With what else the sidewall says: P or LT before it; C, load index and speed symbol, XL behind it."""
 INCH = 0.0254  # [m]
 LEAST_HEIGHT = 0.025  # [m] of a section
 CHORD = 0.887
@@ -53,8 +57,8 @@ class TireSize(NamedTuple):
 
 
 def read_size(text: str, radius: float | None = None) -> TireSize:
-    """The size of a text such as `205/55 R16`: width in mm, height in per cent of it, rim in inches
-    or half of them.
+    """The size of a text such as `205/55 R16` or `225/45ZR17 94W XL`: width in mm, height in per cent of it, rim in
+    inches or half of them; the rest is read past.
 
     radius: free radius [m]; where given it sets the height in place of the text's.
 
