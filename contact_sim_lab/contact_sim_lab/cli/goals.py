@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from contact_sim_pkg.cli.output.say import tell
+from contact_sim_pkg.cli.output.say import announce
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json_rows, show_sections
 
 
@@ -24,7 +24,7 @@ def command(start: bool, latency: float | None, as_json: bool) -> None:
     """
     from contact_sim_lab.goals import goals, starts
 
-    rows = starts.study(tell) if start else goals.study(tell, latency)
+    rows = starts.study(announce) if start else goals.study(announce, latency)
     if as_json:
         print_json_rows(rows)
     else:
@@ -49,7 +49,7 @@ def growth_command(page: Path | None, plot: Path | None, overwrite: bool, as_jso
         check_output(page, [], overwrite=overwrite)
     if plot is not None:
         check_picture(plot, [], overwrite=overwrite)
-    rows = growth.study(tell)
+    rows = growth.study(announce)
     if as_json:
         print_json_rows(rows)
     else:

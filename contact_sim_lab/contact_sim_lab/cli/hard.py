@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from contact_sim_pkg.cli.output.say import say, tell
+from contact_sim_pkg.cli.output.say import announce, say
 from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show_sections
 from contact_sim_pkg.records.metric import exit_status
 
@@ -57,7 +57,7 @@ def command(context: click.Context, accuracy: bool, effects: bool, regimes: bool
     if accuracy or effects or regimes:
         rows = _told_at_once(table, as_json)
     else:
-        rows = table.study(None, tell)
+        rows = table.study(None, announce)
         if not as_json:
             show_sections(table.sections(rows))
     if as_json:
@@ -68,7 +68,7 @@ def command(context: click.Context, accuracy: bool, effects: bool, regimes: bool
 def _told_at_once(table: Any, as_json: bool) -> list[dict[str, Any]]:
     """Rows of a table that takes minutes, each case a line as it comes, in columns of `WIDTHS`, and a summary."""
     rows: list[dict[str, Any]] = []
-    for found in table.study(tell):
+    for found in table.study(announce):
         if not as_json:
             cells = table.cells(found)
             if not rows:

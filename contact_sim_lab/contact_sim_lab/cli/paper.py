@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from contact_sim_pkg.cli.output.say import say, tell
+from contact_sim_pkg.cli.output.say import announce, say
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
 from contact_sim_pkg.cli.output.working import doing
 
@@ -238,7 +238,7 @@ def _all(paper: Paper | None, output: Path | None, overwrite: bool, as_json: boo
     from contact_sim_pkg.records.table import Section
 
     chosen = papers() if paper is None else [paper]
-    rows = write_pages(chosen, output or Path("docs/papers"), overwrite=overwrite, progress=tell)
+    rows = write_pages(chosen, output or Path("docs/papers"), overwrite=overwrite, progress=announce)
     counted = {
         verdict: sum(row["verdict"] == verdict for row in rows)
         for verdict in dict.fromkeys(row["verdict"] for row in rows)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from contact_sim_pkg.cli.output.say import tell
+from contact_sim_pkg.cli.output.say import announce
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json_rows, show_sections
 
 
@@ -25,7 +25,7 @@ def command(page: Path | None, overwrite: bool, as_json: bool) -> int:
 
     if page is not None:
         check_output(page, [], overwrite=overwrite)
-    rows = validation.study(tell)
+    rows = validation.study(announce)
     if page is not None:
         with new_file(page, overwrite=overwrite) as file:
             file.write(validation.page(rows).encode())

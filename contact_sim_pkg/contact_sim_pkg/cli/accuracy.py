@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from contact_sim_pkg.cli.laboratory import laboratory
-from contact_sim_pkg.cli.output.say import say, tell
+from contact_sim_pkg.cli.output.say import announce, say
 from contact_sim_pkg.cli.output.tables import (
     json_option,
     overwrite_option,
@@ -94,14 +94,14 @@ def _study(names: tuple[str, ...], plot: Path | None, kind: str, *, deep: bool, 
     """A study of scenes at first look, of the parts of one, or of a rig."""
     if kind == "rig":
         study = laboratory("accuracy.rig_study", f"bench accuracy RIG ({names[0]})")
-        rows, draw, sections = study.study(names[0], tell), study.write_plot, study.sections
+        rows, draw, sections = study.study(names[0], announce), study.write_plot, study.sections
     elif kind == "parts":
         study = laboratory("accuracy.scene_study", "bench accuracy --parts")
-        rows, draw, sections = study.study(names[0], tell), study.write_plot, study.sections
+        rows, draw, sections = study.study(names[0], announce), study.write_plot, study.sections
     else:
         from contact_sim_pkg.studies.accuracy import first_look_table
 
-        rows = first_look_table.study(names, tell, deep=deep)
+        rows = first_look_table.study(names, announce, deep=deep)
         draw, sections = first_look_table.write_plot, first_look_table.sections
     if as_json:
         print_json_rows(rows)

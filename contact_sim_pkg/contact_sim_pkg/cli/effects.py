@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from contact_sim_pkg.cli.output.say import say, tell
+from contact_sim_pkg.cli.output.say import announce, say
 from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def command(
     resolved = load_resolved(scene)
     everything = start == "all"  # what is off then replaces what is on: a choice of the model
     studied = reduced.all_together(resolved) if everything else resolved
-    found = effects_study.study_of(studied, tell, off=not everything)
+    found = effects_study.study_of(studied, announce, off=not everything)
     if not as_json:
         say(effects_table.answer(found))
         say()
@@ -73,7 +73,7 @@ def _write(study: Study, scene: str, path: Path, *, observers: bool, overwrite: 
     from contact_sim_pkg.files import new_file
     from contact_sim_pkg.studies.effects import effects_table, reduced
 
-    found = reduced.reduced(study, tell, observers=observers)
+    found = reduced.reduced(study, announce, observers=observers)
     with new_file(path, overwrite=overwrite) as stream:
         stream.write(reduced.text_of(scene, (), found, study.base.request).encode())
     return {"written": effects_table.facts_of_reduced(found, path)}

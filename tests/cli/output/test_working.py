@@ -10,7 +10,7 @@ from tests.terminal import Terminal
 
 from contact_sim_pkg.cli.main import DISPLAY_THEMSELVES, bench, main
 from contact_sim_pkg.cli.output import progress, working
-from contact_sim_pkg.cli.output.say import say, tell
+from contact_sim_pkg.cli.output.say import announce, say
 
 LONG = 20.0  # [s] that nothing here takes
 
@@ -55,7 +55,7 @@ def test_what_it_prints_ends_the_display_and_nothing_comes_after_its_end(capsys,
 
 def test_a_line_that_was_told_is_not_said_twice_at_once(capsys, impatient):
     with working.working("bench thing"):
-        tell("thing: case 1 of 2")
+        announce("thing: case 1 of 2")
         time.sleep(0.02)
         assert working._STATE.display is None
     assert "thing: case 1 of 2\n" in capsys.readouterr().err

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from contact_sim_pkg.cli.output.say import say, tell
+from contact_sim_pkg.cli.output.say import announce, say
 
 if TYPE_CHECKING:
     from contact_sim_pkg.cli.output.outcome import Outcome
@@ -20,7 +20,7 @@ def check_of_bag(path: Path, *, whole: bool = False, scene: ResolvedScene | None
     """Check a bag; progress goes to standard error. Raises what `check_bag` raises."""
     from contact_sim_pkg.compare.delivered import check_bag
 
-    return check_bag(path, tell, scene=scene, whole=whole)
+    return check_bag(path, announce, scene=scene, whole=whole)
 
 
 def check_of_run(scene: ResolvedScene, outcome: Outcome) -> Check | None:

@@ -13,10 +13,10 @@ def say(text: object = "", *, err: bool = False, nl: bool = True) -> None:
     echo(printable_lines(str(text)), err=err, nl=nl)
 
 
-def tell(line: str) -> None:
+def announce(line: str) -> None:
     """Print on standard error what is done now; it is said again while it lasts."""
     say(line, err=True)
-    doing(line, told=True)
+    doing(line, printed=True)
 
 
 def echo(text: str = "", *, err: bool = False, nl: bool = True) -> None:

@@ -1,4 +1,4 @@
-"""What a command does while it prints nothing: told on standard error from its first second, as long as that lasts."""
+"""What a command does while it prints nothing: shown on standard error after its first second, as long as that lasts."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 __all__ = ["displayed_elsewhere", "doing", "hush", "working"]
 
 SWITCH = "CONTACT_BENCH_PROGRESS"
-PATIENCE = 1.0  # [s] without a word before something is told on a terminal
+PATIENCE = 1.0  # [s] without output before the progress is shown on a terminal
 IN_A_FILE = 2.0  # [s] the same where standard error is a file or a pipe: there it stays
-REPEATED = 3.0  # [s] the same where it has been told already
+REPEATED = 3.0  # [s] the same where a line has said it already
 LOOK = 0.1  # [s] between two looks at the clock
 
 
@@ -28,7 +28,7 @@ class _State:
     def __init__(self) -> None:
         self.lock = threading.RLock()
         self.text = ""
-        self.told = False
+        self.printed = False
         self.since = 0.0  # the last word
         self.elsewhere = 0  # displays of a run, a replay or a report that are open
         self.display: RunDisplay | None = None
@@ -57,10 +57,10 @@ def working(text: str) -> Iterator[None]:
         hush()
 
 
-def doing(text: str, completed: float = 0.0, *, told: bool = False) -> None:
-    """What is being done now, how much of it is done in [0, 1], and whether a line has told it already."""
+def doing(text: str, completed: float = 0.0, *, printed: bool = False) -> None:
+    """What is being done now, how much of it is done in [0, 1], and whether a line has printed it already."""
     with _STATE.lock:
-        _STATE.text, _STATE.told = text, told
+        _STATE.text, _STATE.printed = text, printed
         if _STATE.display is not None:
             _STATE.display.update(completed, text)
 
@@ -97,7 +97,7 @@ def _watch(over: threading.Event) -> None:
 
 
 def _patience() -> float:
-    if _STATE.told:
+    if _STATE.printed:
         return REPEATED
     return PATIENCE if sys.stderr.isatty() else IN_A_FILE
 

@@ -60,11 +60,11 @@ def junit_text_of(
     cases = []
     for tolerance, found in missed:
         case = ElementTree.Element("testcase", classname="tolerances", name=tolerance.pattern)
-        doubts = [each for each in unsure if fnmatchcase(each.key, tolerance.pattern)]
+        undecided = [each for each in unsure if fnmatchcase(each.key, tolerance.pattern)]
         if found:
             text = "; ".join(f"{each.run}: {each.sentence}" for each in found)
             ElementTree.SubElement(case, "failure", message=text)
-        elif doubts:
-            ElementTree.SubElement(case, "error", message="; ".join(each.sentence for each in doubts))
+        elif undecided:
+            ElementTree.SubElement(case, "error", message="; ".join(each.sentence for each in undecided))
         cases.append(case)
     return junit_text(" and ".join(names), cases)
