@@ -34,7 +34,7 @@ def nodes(scene, tmp_path):
 def stand_in():
     from tests.nodes.stand_in import StandIn
 
-    with StandIn("vibration") as node:
+    with StandIn() as node:
         yield node
 
 
@@ -147,7 +147,7 @@ def test_a_second_publisher_of_an_input_is_refused_before_ready(nodes, stand_in)
     nodes.start("contact_simulator")
     assert nodes.wait("contact_simulator") == {"contact_simulator": 2}
     refusal = next(line for line in nodes.printed if "publishers" in line)
-    assert "platform/vibration has 2 publishers (/vibration, /vibration)" in refusal
+    assert "platform/vibration has 2 publishers (/stand_in, /vibration)" in refusal
     assert "ROS_DOMAIN_ID" in refusal
     assert not nodes.bag.exists()
 
