@@ -27,12 +27,14 @@ class SeriesReader:
         reader: class without arguments. ``add(time, type, message)`` reads the messages in the
             order of the bag, `time` in [s]; ``finish()`` returns the series, or None.
         reduces: keeps numbers and a few of the messages, not all of them.
+        open_fields: fields of the messages that may be NaN: where there was nothing to measure.
     """
 
     name: str
     types: tuple[str, ...]
     reader: str
     reduces: bool = False
+    open_fields: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
