@@ -6,25 +6,23 @@ open), `residual` (of the energy), `remark`, `verdict` (`met`, `MISSED`, or `non
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.compare.estimated import above
 from contact_sim_pkg.records.metric import OUTSIDE, Metric
 from contact_sim_pkg.records.registry import shipped_scenes
 from contact_sim_pkg.report.metrics.maker import energy_residual
 from contact_sim_pkg.report.metrics.regimes import expected
 from contact_sim_pkg.report.metrics.views import row_of, value_text
-from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.report.summary import summarise_recording
-from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.load import find_scene
 from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.studies.whole_run import whole_run
 
 __all__ = ["MET", "MISSED", "failed", "row_of_scene", "study"]
 
@@ -50,11 +48,10 @@ def row_of_scene(name: str, values: Iterable[str] = ()) -> dict[str, Any]:
     given = scene.data.get("expect") or {}
     row = {"scene": name, "regime": given.get("regime"), "figure": "", "value": None, "unit": "", "low": None, "high": None,
            "residual": None, "remark": "", "verdict": MISSED if given else NONE}  # fmt: skip
-    with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
-        outcome = run_offline(scene, Path(folder) / "bag")
-        if outcome.failure:
-            return row | {"remark": outcome.failure}
-        recording = read_recording(open_bag(Path(folder) / "bag"))
+    try:
+        recording = whole_run(scene, lambda _line: None).recording
+    except RunError as error:
+        return row | {"remark": str(error)}
     row |= _energy(recording)
     broken = unsaid(summarise_recording(recording), first_comment(find_scene(name))) if whole else []
     if broken and not row["remark"]:

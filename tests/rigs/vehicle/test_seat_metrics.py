@@ -91,7 +91,9 @@ def test_a_scene_of_one_shock_shows_no_figure_of_a_ride(recording):
     """Neither SEAT nor exposure; the same recording under a sine shows them."""
     shaken = {"kind": "half_sine", "amplitude": 10.0, "duration": 0.1}
     keys = by_key(seat_metrics(recording._replace(scene={"vibration": shaken})))
-    assert "off_the_seat" in keys and not {"factor", "a_w", "a_8", "dose", "lift_off", "spine_risk"} & set(keys)
+    assert "off_the_seat" in keys
+    assert not {"factor", "a_w", "a_8", "dose", "lift_off", "spine_risk"} & set(keys)
     assert keys["off_the_seat"].value == pytest.approx(1e3 * 5 * known.PERIOD)
     ride = by_key(seat_metrics(recording._replace(scene={"vibration": {"kind": "sine", "frequency": 4.0}})))
-    assert {"lift_off"} <= set(ride) and "off_the_seat" not in ride
+    assert "lift_off" in ride
+    assert "off_the_seat" not in ride

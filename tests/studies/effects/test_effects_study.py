@@ -14,7 +14,7 @@ from contact_sim_lab.hard import effect_cases, effect_table
 from contact_sim_pkg.cli.effects import command
 from contact_sim_pkg.compare import span
 from contact_sim_pkg.scene.resolve import load_resolved
-from contact_sim_pkg.studies.effects import effects_study, effects_table, reduced, verdicts
+from contact_sim_pkg.studies.effects import effects_study, effects_table, event_runs, reduced, verdicts
 
 QUICK = (
     "slip angle of 1e-9 rad", "sliding of 1e-12 m", "ride without loss", "rubber at 256 K", "0.01 K apart",
@@ -74,7 +74,7 @@ def test_the_written_scene_has_what_the_scene_calls_for(tmp_path):
     assert facts["written"]["saving"] > 0.0
     assert all(each["size"] == 0.0 for each in facts["written"]["changes"])
     assert facts["answer"].startswith(
-        "impact_rubber_drop at 1e-3: every effect that acts is needed; none that is off is needed"
+        "impact_rubber_drop at 1e-3: every effect that acts is needed; its data call for none that is off, though shift would change force 3"
     )
     assert "only observing: " in facts["answer"]
     by_name = {row["effect"]: row for row in facts["rows"]}
@@ -122,7 +122,7 @@ def test_a_sum_that_changes_too_much_puts_the_last_one_back(monkeypatch):
     def measured(base, _scene, _notify):
         return (verdicts.Change("impact", "force", next(sizes) * base.request, 0.0, "normal", 0.0),), 1.0
 
-    monkeypatch.setattr(reduced, "measured", measured)
+    monkeypatch.setattr(event_runs.Base, "measured", measured)
     found = reduced.reduced(study, silent, observers=False)
     cheapest_last = sorted(study.with_verdict(verdicts.OBSERVES), key=lambda row: study.cost_of(row), reverse=True)
     assert [row.effect.name for row in found.left_out] == [row.effect.name for row in cheapest_last[:-1]]

@@ -14,7 +14,7 @@ from contact_sim_pkg.bag.texts import excitation_of_text
 from contact_sim_pkg.excitation.kinds import VibrationKind, kind_known
 from contact_sim_pkg.pressure.cushion import VALID_STRAIN
 from contact_sim_pkg.records.metric import EVENT, LIMIT, STATE, USUAL_RANGE, Metric
-from contact_sim_pkg.report.metrics.exposure import exposure_metrics
+from contact_sim_pkg.report.metrics.exposure import Exposed, exposure_metrics
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of
 from contact_sim_pkg.report.metrics.numerical import Errors, errors_of
 from contact_sim_pkg.report.rows import number
@@ -22,6 +22,7 @@ from contact_sim_pkg.report.series import FieldSeries, Recording
 from contact_sim_pkg.report.signal import confidence
 from contact_sim_pkg.report.signal.metrics import ride_metrics, seat_factor
 from contact_sim_pkg.report.signal.spectrum import transmissibility
+from contact_sim_pkg.report.signal.weighting import WK, Weighting
 from contact_sim_pkg.rigs.vehicle.seat.occupants import H_POINT
 from contact_sim_pkg.rigs.vehicle.seat.report.occupant import apparent_mass_of, occupant_signals, seat_to_head_of
 from contact_sim_pkg.rigs.vehicle.seat.report.response import peak_of, trusted_part
@@ -29,6 +30,7 @@ from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals, ride_sign
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY
 
 SEAT = "seat"
+FOLLOW = (".hours_to_action", ".dose_estimated")
 
 
 def seat_metrics(recording: Recording) -> list[Metric]:
@@ -64,7 +66,8 @@ def seat_metrics(recording: Recording) -> list[Metric]:
         band=at_most(0.0, "contact is kept", LIMIT),
         count=contact.normal.size,
     )
-    return [*found, lifts, *occupant_metrics(recording, make.make)]
+    found += [lifts, *occupant_metrics(recording, make.make)]
+    return sorted(found, key=lambda each: each.key.endswith(FOLLOW))  # what only says A(8) anew stands behind
 
 
 def _is_shock(scene: Mapping[str, Any]) -> bool:
@@ -125,6 +128,26 @@ def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = (), error:
     dose = seat_factor(seat.vibration_dose, floor.vibration_dose)
     return [*found, make("factor_dose", "SEAT by VDV", dose, "%", quantity="seat_factor", broken=doubts, count=length,
                          error=of_rms * dose)]  # fmt: skip
+
+
+def weighted_metrics(recording: Recording, weighting: Weighting) -> list[Metric]:
+    """SEAT and exposure of the seat surface by another weighting; none without a seat."""
+    signals = ride_signals(recording.motion)
+    if signals is None:
+        return []
+    rate, length = signals.sample_rate, signals.time.size
+    floor, seat = (ride_metrics(each, rate, weighting) for each in (signals.floor, signals.seat))
+    window = float(signals.time[0]), float(signals.time[0]) + length / rate
+    make = Maker(SEAT, "bench/motion", window).make
+    doubts = (*confidence.short(length, rate), *confidence.slow(rate), *recorded_faults(recording))
+    factor = seat_factor(seat.weighted_rms, floor.weighted_rms)
+    spread = 100.0 * confidence.spread_of_ratio(seat.weighted, floor.weighted, rate)
+    vertical = weighting.name == WK.name
+    return [
+        make("factor", f"SEAT, {weighting.name}", factor, "%", broken=doubts, spread=spread, count=length,
+             remark=f"floor {floor.weighted_rms:.3g} m/s²"),
+        *exposure_metrics(make, seat, signals.seat, rate, doubts, Exposed(weighting.name, vertical=vertical, decides=vertical)),
+    ]  # fmt: skip
 
 
 def _way_to_seat(make: Callable[..., Metric], signals: RideSignals, doubts: tuple[str, ...]) -> list[Metric]:
