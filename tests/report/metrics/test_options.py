@@ -6,6 +6,7 @@ from tests.report.metrics.test_of_bag import RATE, foreign_bag
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.report.metrics.foreign import ForeignOptions
+from contact_sim_pkg.report.metrics.listing import all_metrics
 from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.series import Recording
@@ -70,3 +71,13 @@ def test_an_axis_that_no_run_has_is_refused(uneven):
     for axis, cure in (("x", "write --axis Wd"), ("y:Wb", "write --axis Wb"), ("rx", "write --axis We")):
         with pytest.raises(BagError, match=cure):
             metrics_of_bags([uneven.path], chosen=ForeignOptions(axis=axis))
+
+
+def test_the_threshold_of_a_map_is_a_key_of_the_scene(uneven):
+    """As `--loaded` has it, which comes before the key."""
+    recording: Recording = read_recording(uneven)
+    half = 0.5 * float(recording.fields["seat"].average.pressure.max())
+    known = recording._replace(scene={**recording.scene, "outputs": {"loaded_pressure": half}})
+    areas = [{each.key: each.value for each in all_metrics(*given)}["seat.map_area"]
+             for given in ((recording,), (recording, half), (known,), (known, 1.0))]  # fmt: skip
+    assert areas[1] == areas[2] < areas[0] == areas[3]

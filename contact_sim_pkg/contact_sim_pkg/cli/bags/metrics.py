@@ -25,7 +25,7 @@ from contact_sim_pkg.cli.output.tables import print_json
     "--loaded",
     type=click.FloatRange(min=0.0),
     metavar="PA",
-    help="Pressure above which a cell of a mat counts; with --all.  [default: 1]",
+    help="Pressure above which a cell of a mat counts; with --all.  [default: outputs.loaded_pressure of the scene, 1]",
 )
 @click.option(
     "--axis", metavar="x|y|z|Wk|Wd|...", help="Of a bag without our topics: axis, or weighting, or both as y:Wd."

@@ -71,10 +71,8 @@ def metrics_of_bags(
                 raise BagError(f"--loaded is for pressure maps, {bag.path} has none: leave it out")
             if chosen is not None:
                 lists.append(weighted_metrics(recording, chosen))
-            elif loaded is not None:
-                lists.append(all_metrics(recording, loaded))
             else:
-                lists.append(all_metrics(recording) if whole else metrics_of(recording))
+                lists.append(all_metrics(recording, loaded) if whole or loaded is not None else metrics_of(recording))
             notes += [f"{bag.path.name}: {bag.metadata['imported_as']}"] if IMPORTED_FROM in bag.metadata else []
             warnings += [f"{suite_name([bag.path])}: {said}" for said in warnings_of(recording)]
             scenes.append(recording.scene)
