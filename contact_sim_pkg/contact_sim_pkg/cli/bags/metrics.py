@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from contact_sim_pkg.cli.output.say import say
+from contact_sim_pkg.cli.output.say import announce, say
 from contact_sim_pkg.cli.output.tables import print_json
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.records.metric import Metric
 
 
 @click.command("metrics")
@@ -46,6 +50,12 @@ from contact_sim_pkg.cli.output.tables import print_json
     metavar="TEXT|FILE",
     help="Limit of your own: 'SEAT < 60 %', or a YAML file; may be repeated.",
 )
+@click.option(
+    "--error",
+    "pair",
+    is_flag=True,
+    help="Of a run of the bench: numerical error of every metric, by two more runs on half the cells.",
+)
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 def command(
     bags: tuple[Path, ...],
@@ -57,6 +67,7 @@ def command(
     unit: str | None,
     up: str | None,
     wanted: tuple[str, ...],
+    pair: bool,
     skip_bad: bool,
 ) -> int:
     """Print the metrics of BAG with their bands and verdicts.
@@ -75,7 +86,8 @@ def command(
     requirements = read_requirements(wanted)
     found = metrics_of_bags(bags, whole=whole, loaded=loaded, chosen=for_foreign, skip_bad=skip_bad)
     _notes([*found.warnings, *found.notes])
-    metrics = required(found.metrics, requirements)
+    made = _with_errors(bags, found.metrics, found.warnings) if pair else found.metrics
+    metrics = required(made, requirements)
     rows = rows_of(metrics)
     if form == "json":
         print_json({"bags": [str(each) for each in bags], "warnings": found.warnings, "metrics": rows})
@@ -87,6 +99,19 @@ def command(
         for line in (*lines_of(rows), verdict_line(rows)):
             say(line)
     return exit_code(metrics)
+
+
+def _with_errors(bags: Sequence[Path], metrics: list[Metric], warnings: list[str]) -> list[Metric]:
+    """The metrics with their errors by a pair of runs of the scene of the one bag."""
+    from contact_sim_pkg.bag.errors import BagError
+    from contact_sim_pkg.compare.recorded import scene_of_bag
+    from contact_sim_pkg.studies.pair import with_errors_of_pair
+
+    if len(bags) > 1:
+        raise click.UsageError("--error is for one bag; repeated runs have their spread")
+    if warnings:
+        raise BagError(f"--error: the scene of {bags[0]} does not make this run again: {warnings[0]}")
+    return with_errors_of_pair(scene_of_bag(bags[0]), metrics, announce)
 
 
 def _notes(notes: Sequence[str]) -> None:
