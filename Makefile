@@ -26,9 +26,9 @@ help:  ## show this list
 setup:  ## make the environment in .ros2/ and build the workspace; does nothing where both are current
 	@$(SET_UP)
 
-run:  ## run the full bench on real nodes, record a bag, write its report
-	@SECONDS=0; bag="bags/car_full_bench_$$(date +%Y-%m-%d_%H-%M-%S)"; echo "make run: the full bench, recorded in $$bag"; $(ENTER) && \
-	bench run car_full_bench --pace max --out "$$bag" && { [ ! -e "$$bag" ] || bench report "$$bag"; }; $(REPORT_TIME)
+run:  ## run a ride of tire and seat on real nodes, record a bag, write its report
+	@SECONDS=0; bag="bags/car_ride_$$(date +%Y-%m-%d_%H-%M-%S)"; echo "make run: 36 s of a ride, recorded in $$bag"; $(ENTER) && \
+	bench run car_ride --pace max --out "$$bag" && { [ ! -e "$$bag" ] || bench report "$$bag"; }; $(REPORT_TIME)
 
 check: lint  ## check style, format and types, run the tests that need neither compiler nor ROS nor programs; for every edit
 	@SECONDS=0; $(ENTER) && $(TEST_ENVIRONMENT) python -m pytest tests --check $(PARALLEL) --dist worksteal $(PYTEST_OPTIONS); $(REPORT_TIME)

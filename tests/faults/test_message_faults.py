@@ -1,5 +1,6 @@
 """Bad, missing and foreign messages over the real middleware (FAULTS part B)."""
 
+import json
 import time
 
 import numpy
@@ -33,7 +34,7 @@ def nodes(scene, tmp_path):
 def stand_in():
     from tests.nodes.stand_in import StandIn
 
-    with StandIn("vibration") as node:
+    with StandIn() as node:
         yield node
 
 
@@ -120,6 +121,10 @@ def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes,
     assert open_bag(nodes.bag).metadata["dropped platform/vibration"] == "4"
     run_offline(scene, tmp_path / "offline")
     assert messages(nodes.bag) == messages(tmp_path / "offline")
+    # The stand-in is no node of the bench, so what the scene says of the vibration is not recorded as its description
+    described = json.loads(open_bag(nodes.bag).metadata["excitation"])["platform/vibration"]
+    assert described["published by"] == "/stand_in"
+    assert "/stand_in, which is no node of the bench" in described["notes"][0]
 
 
 def test_a_run_that_gets_nothing_but_nan_ends_by_name(scene, nodes, stand_in):
@@ -142,7 +147,7 @@ def test_a_second_publisher_of_an_input_is_refused_before_ready(nodes, stand_in)
     nodes.start("contact_simulator")
     assert nodes.wait("contact_simulator") == {"contact_simulator": 2}
     refusal = next(line for line in nodes.printed if "publishers" in line)
-    assert "platform/vibration has 2 publishers (/vibration, /vibration)" in refusal
+    assert "platform/vibration has 2 publishers (/stand_in, /vibration)" in refusal
     assert "ROS_DOMAIN_ID" in refusal
     assert not nodes.bag.exists()
 

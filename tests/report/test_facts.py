@@ -8,6 +8,7 @@ from contact_sim_pkg.report import facts
 from contact_sim_pkg.report.reading import contact_name
 from contact_sim_pkg.report.rows import described_rows, plain, scene_rows
 from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.run.bag_content import described_by_publishers
 
 SCENE = {
     "rig": "seat",
@@ -62,6 +63,17 @@ def test_notes_of_the_excitation_stand_apart_from_its_values():
 def test_a_run_that_ended_early_is_a_warning(ended):
     assert ended in facts.warnings(recording(metadata={"ended": ended, "failure": ""}))[0]
     assert facts.warnings(recording(metadata={"ended": "finished"})) == []
+
+
+def test_an_excitation_of_another_node_is_a_warning_and_one_of_the_bench_is_not():
+    described = {"platform/vibration": {"file": "bus.csv", "notes": ["4 of 9520 clipped"]}}
+    for node, warned in (("/vibration", False), ("/lab/vibration", False), ("/my_sine", True)):
+        found = described_by_publishers(described, {"platform/vibration": node})
+        said = facts.warnings(recording(metadata={"excitation": json.dumps(found)}))
+        assert (len(said) == 1 and said[0].startswith(f"platform/vibration: published by {node}")) == warned
+        assert found["platform/vibration"]["published by"] == node
+        assert ("file" in found["platform/vibration"]) == (not warned)
+    assert described_by_publishers(described, {}) == described
 
 
 def test_what_a_bag_lacks_is_a_warning():

@@ -6,6 +6,8 @@ import pytest
 from tests.report import synthetic_bag as known
 from tests.report.page import Page
 
+from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.report.metrics.requirements import read_requirements
 from contact_sim_pkg.report.report import write_report
 
 HOSTILE = '<script>alert(1)</script><img src=x onerror="alert(2)"> & "quotes"'
@@ -148,3 +150,22 @@ def test_a_minute_at_full_rate_stays_below_three_megabytes(tmp_path):
     bag = known.seat_bag(tmp_path / "minute", blocks=6000)
 
     assert write_report(bag).stat().st_size < 3_000_000
+
+
+def test_a_limit_of_ones_own_is_a_tile_of_its_own(car, tmp_path):
+    wanted = read_requirements(["seat.lift_off < 90 %"])
+    tile = write_report(car, tmp_path / "own.html", requirements=wanted).read_text()
+    assert "yours" in tile
+    assert "at most 90" in tile
+    assert "at most 90" not in write_report(car, tmp_path / "usual.html").read_text()
+
+
+def test_two_runs_are_judged_by_limits_of_ones_own(car, tmp_path, capsys):
+    """One that both hold, and one that both miss."""
+    pair = [str(car.path), str(car.path)]
+    assert main(["compare", *pair, "--require", "tire.load < 1e6 N"]) in (0, 1)
+    assert main(["compare", *pair, "--require", "tire.load < 1 N"]) == 1
+    assert "OUTSIDE" in capsys.readouterr().out
+    page = tmp_path / "pair.html"
+    assert main(["report", *pair, "--require", "tire.load < 1 N", "--out", str(page)]) == 0
+    assert "OUTSIDE" in page.read_text()

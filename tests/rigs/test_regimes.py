@@ -138,3 +138,17 @@ def test_a_word_that_several_rigs_share_means_the_same():
     for rig in rigs().values():
         for regime in rig.regimes:
             assert seen.setdefault(regime.name, regime) == regime
+
+
+def test_a_scene_that_ends_in_doubt_says_so_in_its_first_comment(tmp_path):
+    """Each word of an ending is asked for on its own; comments behind the first key do not count."""
+    path = tmp_path / "scene.yaml"
+    path.write_text("# A ride whose figures\n# are doubtful.\nrig: seat\n# outside, above its request\n")
+    comment = regime_table.first_comment(path)
+    sure = {"verdict": "good", "broken": []}
+    assert regime_table.unsaid({"metrics": [sure]}, comment) == []
+    assert regime_table.unsaid({"metrics": [sure, sure | {"broken": ["too short"]}]}, comment) == []
+    assert regime_table.unsaid({"metrics": [sure | {"verdict": "outside"}]}, comment) == ["outside"]
+    beyond = {"requested": 1e-2, "estimated": {"tire": {"force": 2e-2}}, "not_below": {}}
+    assert regime_table.unsaid({"metrics": [sure], "accuracy": beyond}, comment) == ["above its request"]
+    assert regime_table.unsaid({"metrics": [sure], "accuracy": beyond | {"requested": 3e-2}}, comment) == []

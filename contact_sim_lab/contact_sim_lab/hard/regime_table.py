@@ -6,21 +6,23 @@ open), `residual` (of the energy), `remark`, `verdict` (`met`, `MISSED`, or `non
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.compare.estimated import above
 from contact_sim_pkg.records.metric import OUTSIDE, Metric
 from contact_sim_pkg.records.registry import shipped_scenes
 from contact_sim_pkg.report.metrics.maker import energy_residual
 from contact_sim_pkg.report.metrics.regimes import expected
 from contact_sim_pkg.report.metrics.views import row_of, value_text
-from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.series import Recording
-from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.report.summary import summarise_recording
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.scene.load import find_scene
 from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.studies.whole_run import whole_run
 
 __all__ = ["MET", "MISSED", "failed", "row_of_scene", "study"]
 
@@ -42,16 +44,18 @@ def study(
 
 def row_of_scene(name: str, values: Iterable[str] = ()) -> dict[str, Any]:
     """The row of a scene by its name or path; a run that ends early has missed, with its sentence as the remark."""
-    scene = load_resolved(name, *values)
+    scene, whole = load_resolved(name, *values), not [*values]
     given = scene.data.get("expect") or {}
     row = {"scene": name, "regime": given.get("regime"), "figure": "", "value": None, "unit": "", "low": None, "high": None,
            "residual": None, "remark": "", "verdict": MISSED if given else NONE}  # fmt: skip
-    with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
-        outcome = run_offline(scene, Path(folder) / "bag")
-        if outcome.failure:
-            return row | {"remark": outcome.failure}
-        recording = read_recording(open_bag(Path(folder) / "bag"))
+    try:
+        recording = whole_run(scene, lambda _line: None).recording
+    except RunError as error:
+        return row | {"remark": str(error)}
     row |= _energy(recording)
+    broken = unsaid(summarise_recording(recording), first_comment(find_scene(name))) if whole else []
+    if broken and not row["remark"]:
+        row |= {"remark": f"its first comment does not say that it ends {', '.join(broken)}", "verdict": MISSED}
     metric: Metric | None = expected(recording)
     if metric is None or row["remark"]:
         return row
@@ -61,6 +65,25 @@ def row_of_scene(name: str, values: Iterable[str] = ()) -> dict[str, Any]:
         "figure": metric.name, "verdict": MISSED if metric.verdict == OUTSIDE else MET, "shown": value_text(metric),
         "band": "" if metric.band is None else metric.band.text,
     }  # fmt: skip
+
+
+def first_comment(path: Path) -> str:
+    """The comment that a scene's file begins with, as one line."""
+    lines = takewhile(lambda line: line.startswith("#"), path.read_text(encoding="utf-8").splitlines())
+    return " ".join(line.removeprefix("#").strip() for line in lines)
+
+
+def unsaid(summary: Mapping[str, Any], comment: str) -> list[str]:
+    """How a run ends that its scene's first ``comment`` does not say: with a metric outside its band, with one that is
+    doubtful, or with an error estimated above its request.
+    """
+    metrics, numbers = summary["metrics"], summary.get("accuracy")
+    ends = {
+        "outside": any(each["verdict"] == OUTSIDE for each in metrics),
+        "doubtful": any(each["broken"] for each in metrics),
+        "above its request": bool(numbers and above(numbers)),
+    }
+    return [words for words, holds in ends.items() if holds and words not in comment]
 
 
 def _energy(recording: Recording) -> dict[str, Any]:

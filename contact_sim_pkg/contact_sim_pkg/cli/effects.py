@@ -32,16 +32,33 @@ if TYPE_CHECKING:
     show_default=True,
     help="Start from the effects of the scene, or from all that can act together.",
 )
+@click.option(
+    "--metric",
+    "metrics",
+    multiple=True,
+    metavar="NAME",
+    help="What this metric needs, over the whole run: key or name as printed, or all; may be repeated.",
+)
 @overwrite_option
 @json_option
 def command(
-    scene: str, parts: bool, write: Path | None, without_observers: bool, start: str, overwrite: bool, as_json: bool
+    scene: str,
+    parts: bool,
+    write: Path | None,
+    without_observers: bool,
+    start: str,
+    metrics: tuple[str, ...],
+    overwrite: bool,
+    as_json: bool,
 ) -> int:
-    """Which effects SCENE calls for: each left out or added, what that changes and saves. Exit code 1 where one is off
+    """Which effects SCENE calls for: each left out or added, what that changes and saves; with --metric, what these
+    metrics need, whatever else changes. Exit code 1 where one is off
     but needed, 3 where the error of the numbers decides.
     """
     if without_observers and write is None:
         raise click.UsageError("--without-observers is for the scene that --write FILE writes")
+    if without_observers and metrics:
+        raise click.UsageError("--without-observers: with --metric nothing stays that the metrics do not need")
     from contact_sim_pkg.files import check_output
     from contact_sim_pkg.records.metric import exit_status
     from contact_sim_pkg.scene.load import find_scene
@@ -55,12 +72,16 @@ def command(
     resolved = load_resolved(scene)
     everything = start == "all"  # what is off then replaces what is on: a choice of the model
     studied = reduced.all_together(resolved) if everything else resolved
-    found = effects_study.study_of(studied, announce, off=not everything)
+    found = effects_study.study_of(studied, announce, off=not everything and not metrics, metrics=metrics)
     if not as_json:
         say(effects_table.answer(found))
         say()
         show_sections([*effects_table.table(found), *(effects_table.parts(found) if parts else ())])
-    written = {} if write is None else _write(found, scene, write, observers=not without_observers, overwrite=overwrite)
+    written = (
+        {}
+        if write is None
+        else _write(found, scene, write, observers=not (without_observers or metrics), overwrite=overwrite)
+    )
     if as_json:
         print_json(effects_table.facts_of(found) | written)
     elif written:

@@ -27,6 +27,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "replay": "replay",
     "metrics": "bags.metrics",
     "compare": "bags.compare",
+    "table": "bags.table",
     "export": "bags.export",
     "import": "bags.import_",
     "report": "report",

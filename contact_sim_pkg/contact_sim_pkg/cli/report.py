@@ -20,19 +20,35 @@ from contact_sim_pkg.cli.output.working import displayed_elsewhere
     metavar="FILE",
     help="The page; else report.html in the bag, or comparison.html here for several bags.",
 )
+@click.option(
+    "--require",
+    "wanted",
+    multiple=True,
+    metavar="TEXT|FILE",
+    help="Limit of your own: 'SEAT < 60 %', or a YAML file; may be repeated.",
+)
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 @click.option("--across-versions", is_flag=True, help="Compare bags of different versions.")
 @overwrite_option
-def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_versions: bool, overwrite: bool) -> None:
+def command(
+    bags: tuple[Path, ...],
+    out: Path | None,
+    wanted: tuple[str, ...],
+    skip_bad: bool,
+    across_versions: bool,
+    overwrite: bool,
+) -> None:
     """Write the report page of BAG and print its path.
 
     Several bags of one rig are overlaid on one page, named by what differs between their scenes.
     """
     from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.bag.versions import differences_from, differences_of_bags, installed_versions
+    from contact_sim_pkg.report.metrics.requirements import read_requirements
     from contact_sim_pkg.report.place import free_place
     from contact_sim_pkg.run.bag_content import kernel_fingerprint
 
+    requirements = read_requirements(wanted)
     recorded = [open_bag(bag, skip_bad=skip_bad) for bag in bags]
     free_place(recorded, out, overwrite=overwrite)
     if len(recorded) > 1:
@@ -65,9 +81,16 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_ver
             if len(recorded) == 1:
                 from contact_sim_pkg.report.report import write_report
 
-                page = write_report(recorded[0], out, overwrite=overwrite, on_section=on_section, on_read=on_read)
+                page = write_report(
+                    recorded[0],
+                    out,
+                    overwrite=overwrite,
+                    requirements=requirements,
+                    on_section=on_section,
+                    on_read=on_read,
+                )
             else:
                 from contact_sim_pkg.report.comparison.runs import write_comparison
 
-                page = write_comparison(recorded, out, overwrite=overwrite)
+                page = write_comparison(recorded, out, overwrite=overwrite, requirements=requirements)
     say(f"report: {page}")

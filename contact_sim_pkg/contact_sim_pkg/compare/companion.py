@@ -25,7 +25,7 @@ from contact_sim_pkg.scene.resolve import read_explicit
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.pressure_field import MOST_CELLS_A_SIDE
 
-__all__ = ["Companion", "companion_of", "dials_of", "factor_of", "finer_than"]
+__all__ = ["Companion", "companion_of", "dials_of", "factor_of", "finer_than", "halved"]
 
 INTEGRATION, COUPLING, LENGTH, CELLS, SOLVER = 0.01, 0.25, 0.5, 1.5, 0.1
 SAMPLES = 4.0
@@ -35,6 +35,8 @@ tolerance of the field, and rate of the samples of force.
 INTEGRATOR = "relative_tolerance"
 LEAST = {INTEGRATOR: 1e-13, "coupling_tolerance": 1e-8, "tolerance": 1e-12, "cell": 0.005}
 """Bounds of the schema."""
+FEWEST_CELLS, LARGEST_CELL = 4, 0.02
+"""a side of a field, and of a cushion [m]: bounds of the schema too"""
 
 
 class Companion(NamedTuple):
@@ -53,6 +55,21 @@ def companion_of(scene: ResolvedScene, *, grid: bool = True) -> Companion:
     values = dict(_dials(scene.data, grid=grid))
     cells = any(key.endswith((".rows", ".cell")) for key in values)
     return Companion(_with(scene, values), tuple(values), cells)
+
+
+def halved(scene: ResolvedScene) -> ResolvedScene:
+    """The scene with half as many cells along each side of its fields and cushions, all other dials as they are."""
+    values: dict[str, Any] = {}
+    for contact in rigs()[scene.rig].contacts:
+        for effect, keys in (scene.data["effects"].get(contact.name) or {}).items():
+            where = f"effects.{contact.name}.{effect}"
+            if keys is not None and "rows" in keys and "corrector_passes" in keys:
+                values |= {
+                    f"{where}.{side}": max(FEWEST_CELLS, 2 * round(0.25 * keys[side])) for side in ("rows", "cols")
+                }
+            if keys is not None and keys.get("cell") is not None:
+                values[f"{where}.cell"] = min(LARGEST_CELL, 2.0 * keys["cell"])
+    return _with(scene, values)
 
 
 def finer_than(scene: ResolvedScene, other: ResolvedScene) -> ResolvedScene:

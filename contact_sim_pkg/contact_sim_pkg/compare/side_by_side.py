@@ -94,6 +94,8 @@ class Compared(NamedTuple):
     name: str
     metrics: Sequence[Metric]
     curves: Mapping[str, Curve]
+    warnings: Sequence[str] = ()
+    """how it ended early, and excitation that is not its scene's"""
 
 
 class Tolerance(NamedTuple):

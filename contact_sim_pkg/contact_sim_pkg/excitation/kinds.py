@@ -122,6 +122,9 @@ class VibrationKind(Kind):
     def signal(self, setting: Setting) -> Signal:
         """Its acceleration. Raises ExcitationError."""
 
+    is_shock: ClassVar[bool] = False
+    """Whether it is one event at an instant, so that means over the run say how long the run is."""
+
     @property
     def axes(self) -> str:
         """Axes, of x and z, along which it may shake."""

@@ -64,6 +64,7 @@ class ShockSection(AxisVibration):
     """Keys of one shock."""
 
     pulse: ClassVar[type[Shock]]
+    is_shock: ClassVar[bool] = True
     amplitude: float = number(
         -SHARPEST, SHARPEST, "m/s²", "peak of the acceleration; negative is downwards or backwards", example=10.0
     )

@@ -6,6 +6,7 @@ import sys
 import time
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
@@ -16,11 +17,12 @@ from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.parameters import declare, declare_input_timeout, declare_scene
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_descriptions, read_reason, read_scene
-from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, publisher, subscription
+from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, publisher, publisher_ids, subscription
 from contact_sim_pkg.nodes.protocol.recording import BagRecording
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, STOPPED_BY_USER, Follower, RunState
 from contact_sim_pkg.nodes.protocol.window import Gather
 from contact_sim_pkg.records.messages import BenchProgress
+from contact_sim_pkg.run.bag_content import described_by_publishers, input_names
 
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
 STOP_SECONDS = 0.5  # from a signal of the supervisor to closing, for the simulator's last messages
@@ -74,10 +76,16 @@ class BagLoggerNode(LifecycleBenchNode):
         self._news = time.monotonic()
         never_began = self._run.state is RunState.STOPPED and progress.block < 0
         if self._run.state >= RunState.READY and not never_began and not recording.created:
-            recording.open(self.resolve_topic_name, read_descriptions(self.scene_name, self._scene))
+            recording.open(self.resolve_topic_name, self._descriptions())
             self.announce(f"recording to {recording.path}")
         recording.order.on_progress(progress.block, progress.messages_sent)
         self.gather = self._gather.on_block(progress.block, self._news)
+
+    def _descriptions(self) -> dict[str, dict[str, Any]]:
+        """What each excitation found and did, and which node publishes it."""
+        names = {topic: [*publisher_ids(self, topic).values()] for topic in input_names(self._scene)}
+        publishers = {topic: found[0] for topic, found in names.items() if found and found[0]}
+        return described_by_publishers(read_descriptions(self.scene_name, self._scene), publishers)
 
     def tick(self, now: float) -> float:
         """Write whole blocks; close once the run has ended and all is here, or no wait is left."""

@@ -4,7 +4,8 @@ use.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 __all__ = ["ContactReport", "LedgerScope", "SeriesReader"]
@@ -27,12 +28,14 @@ class SeriesReader:
         reader: class without arguments. ``add(time, type, message)`` reads the messages in the
             order of the bag, `time` in [s]; ``finish()`` returns the series, or None.
         reduces: keeps numbers and a few of the messages, not all of them.
+        open_fields: fields of the messages that may be NaN: where there was nothing to measure.
     """
 
     name: str
     types: tuple[str, ...]
     reader: str
     reduces: bool = False
+    open_fields: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,6 +56,8 @@ class ContactReport:
             its general section.
         curves: (recording) -> `compare.side_by_side.Curve` by name, for tolerances.
         comparison: (key, contact, runs) -> pictures that compare several runs.
+        weighted: (recording, weighting) -> metrics of what shakes a person, by that weighting.
+        tables: (recording) -> `Section`s of `bench table`, by the kind of table.
     """
 
     contact: str
@@ -66,3 +71,5 @@ class ContactReport:
     lead: tuple[str, ...] = ()
     curves: str = ""
     comparison: str = ""
+    weighted: str = ""
+    tables: Mapping[str, str] = field(default_factory=dict)

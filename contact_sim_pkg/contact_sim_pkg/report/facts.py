@@ -11,8 +11,8 @@ from contact_sim_pkg.records.registry import effects
 from contact_sim_pkg.report.rig_reports import rig_warnings
 from contact_sim_pkg.report.rows import Row, described_rows, plain_name, scene_rows
 from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.run.bag_content import EXCITATION_KEY, PUBLISHED_BY
 
-EXCITATION_KEY = "excitation"
 OUTCOME_KEYS = ("ended", "failure", "blocks_done", "wall_s", "stopped")
 
 
@@ -71,14 +71,34 @@ def warnings(recording: Recording) -> list[str]:
     """What a reader must know before the numbers: an unfinished bag, a run that failed or was
     stopped, those of the rig.
     """
-    found = list(recording.notes)
+    return [*recording.notes, *warnings_of(recording), *rig_warnings(recording)]
+
+
+def warnings_of(recording: Recording) -> list[str]:
+    """What every view names first: how a run ended early, and excitation that is not its scene's."""
+    return [*_ended_early(recording), *_strange_sources(recording)]
+
+
+def _ended_early(recording: Recording) -> list[str]:
+    """That the run failed or was stopped, and why; empty where it went to its end."""
+    found = []
     ended = recording.metadata.get("ended", "finished")
     if ended != "finished":
         reason = recording.metadata.get("failure", "")
         found.append(f"The run ended before its last block: {ended}{'; ' + reason if reason else '.'}")
     if recording.metadata.get("stopped"):
         found.append(recording.metadata["stopped"])
-    return found + rig_warnings(recording)
+    return found
+
+
+def _strange_sources(recording: Recording) -> list[str]:
+    """Excitations that no node of the bench published."""
+    described = excitation_of_text(recording.metadata.get(EXCITATION_KEY), f"excitation of {recording.name}")
+    return [
+        f"{topic}: {_sentences(values.get('notes'))[0]}"
+        for topic, values in described.items()
+        if set(values) == {PUBLISHED_BY, "notes"} and values["notes"]
+    ]
 
 
 def _effect_row(contact: str, name: str, values: Any) -> Row:

@@ -52,7 +52,7 @@ WANTED: dict[str, tuple[str, ...] | None] = {
     FORCE: None, MOTION: MOTION_COLUMNS, ENERGY: LedgerSeries._fields, COST: None, EPISODES: EpisodeSeries._fields,
 }  # fmt: skip
 """Columns of each series that are read; None: all"""
-NOT_MEASURED = {(PATCH, "approach")}
+NOT_MEASURED = {PATCH: ("approach",)}
 """Fields that a pressure mat leaves open"""
 SCALARS_BYTES = 512
 """kept of a field or of contact points, beside a few whole ones"""
@@ -255,7 +255,10 @@ def _decode(bag: Bag, on_read: OnRead) -> Decoded:
         if message.type not in (PATCH, POINTS, *readers):
             continue
         content = bag.decode(message)
-        given = [(name, value) for name, value in vars(content).items() if (message.type, name) not in NOT_MEASURED]
+        may_be_open = (
+            readers[message.type].open_fields if message.type in readers else NOT_MEASURED.get(message.type, ())
+        )
+        given = [(name, value) for name, value in vars(content).items() if name not in may_be_open]
         _note_unknown(decoded.unknown, message.topic, seconds, given)
         # Fields and points are reduced as they are read; they would not fit into memory
         if message.type == PATCH:

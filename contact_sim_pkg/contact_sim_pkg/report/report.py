@@ -4,7 +4,7 @@ anything to load.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -16,6 +16,7 @@ from contact_sim_pkg.report.drawing import Picture, style
 from contact_sim_pkg.report.figures.bench import energy_balance, real_time_factor
 from contact_sim_pkg.report.figures.contact import contact_section
 from contact_sim_pkg.report.metrics.listing import metrics_of
+from contact_sim_pkg.report.metrics.requirements import Requirement, required
 from contact_sim_pkg.report.metrics.tiles import doubts_of, sources_of, tiles_of
 from contact_sim_pkg.report.page import Section, environment
 from contact_sim_pkg.report.place import free_place, new_page
@@ -34,6 +35,7 @@ def write_report(
     out: Path | None = None,
     *,
     overwrite: bool = False,
+    requirements: Sequence[Requirement] = (),
     on_section: OnSection = lambda *_: None,
     on_read: OnRead = lambda _: None,
 ) -> Path:
@@ -43,6 +45,7 @@ def write_report(
         bag: opened with `open_bag`; unfinished bags give a report of what they hold.
         out: file to write; a page of this command is made again, another
             file only by `overwrite`; `report.html` in the bag's directory where it is None.
+        requirements: limits of one's own, which the tiles are judged by.
         on_section: called before each section.
         on_read: called while the bag is read, with the share that has been.
 
@@ -55,15 +58,17 @@ def write_report(
     """
     path = free_place([bag], out, overwrite=overwrite)
     # Everything is read before the file is touched
-    page = render(read_recording(bag, on_read), on_section)
+    page = render(read_recording(bag, on_read), on_section, requirements)
     with new_page(path, [bag], overwrite=overwrite) as file:
         file.write(page.encode())
     return path
 
 
-def render(recording: Recording, on_section: OnSection = lambda *_: None) -> str:
+def render(
+    recording: Recording, on_section: OnSection = lambda *_: None, requirements: Sequence[Requirement] = ()
+) -> str:
     """The page as text. Everything that comes from the bag is escaped."""
-    metrics = metrics_of(recording)
+    metrics = required(metrics_of(recording), requirements)
     drawn = sections(recording, on_section)
     page: str = (
         environment()

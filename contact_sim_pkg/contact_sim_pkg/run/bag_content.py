@@ -5,6 +5,7 @@ run and the logger node.
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,10 @@ from contact_sim_pkg.run.rigs import result_topics
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 EXCITATION_KEY = "excitation"
+PUBLISHED_BY = "published by"
+"""Key of the description of an excitation: full name of the node that published it"""
+OWN_SOURCES = ("road_profile", "vibration", "bag_replay")
+"""Nodes of the bench that publish excitation: what the scene says of it holds"""
 
 
 def input_names(scene: ResolvedScene) -> list[str]:
@@ -42,6 +47,22 @@ def attachments(scene: ResolvedScene, excitation: dict[str, dict[str, Any]]) -> 
         **software_versions(kernel_fingerprint()),
         EXCITATION_KEY: json.dumps(excitation, sort_keys=True),
     }
+
+
+def described_by_publishers(
+    descriptions: Mapping[str, dict[str, Any]], publishers: Mapping[str, str]
+) -> dict[str, dict[str, Any]]:
+    """The ``descriptions`` with who published each topic, by the full name of its node. Of a node that is none of the
+    bench nothing else is known: what the scene says of the excitation did not act.
+    """
+    found = {topic: dict(description) for topic, description in descriptions.items()}
+    for topic, node in publishers.items():
+        if node.rpartition("/")[2] in OWN_SOURCES:
+            found[topic] = {**found.get(topic, {}), PUBLISHED_BY: node}
+        else:
+            said = f"published by {node}, which is no node of the bench: the scene's own excitation did not act"
+            found[topic] = {PUBLISHED_BY: node, "notes": [said]}
+    return found
 
 
 def kernel_fingerprint() -> str:

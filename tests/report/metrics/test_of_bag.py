@@ -227,9 +227,7 @@ def test_a_frame_of_megabytes_is_no_name(tmp_path, capsys):
 
 
 def test_a_bag_without_accelerations_is_named_without_gaps(tmp_path, car, capsys):
-    assert main(["metrics", str(car.path), "--axis", "z"]) == 2
-    assert capsys.readouterr().err == (
-        f"bench: {car.path} holds no Imu, AccelStamped or WrenchStamped: there is nothing to weight\n"
-    )
+    assert main(["metrics", str(car.path), "--unit", "g"]) == 2
+    assert capsys.readouterr().err == "bench: --unit: for a bag of anybody; a run of the bench has m/s², z upwards\n"
     assert main(["metrics", str(car.path), "--topic", "tire/force"]) == 2
     assert "the topic tire/force of" in capsys.readouterr().err

@@ -86,6 +86,13 @@ def test_junit_counts_failures_errors_and_what_is_skipped():
     ]  # fmt: skip
 
 
+def test_a_run_that_failed_is_the_first_case_of_junit():
+    suite = ElementTree.fromstring(junit_of("bag", METRICS[:1], ["bag: the run ended before its last block: failed"]))
+    first, second = suite.iter("testcase")
+    assert (suite.get("errors"), first.get("name"), second.get("name")) == ("1", "bag", "seat.good")
+    assert first.find("error").get("message").endswith("failed")
+
+
 def test_tiles_say_the_same():
     tiles = tiles_of(METRICS)
     assert [(tile.value, tile.verdict) for tile in tiles[:2]] == [("57.2", "good"), ("131", "OUTSIDE")]

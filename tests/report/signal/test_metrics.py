@@ -5,9 +5,11 @@ import math
 import numpy as np
 import pytest
 
+from contact_sim_pkg.report.metrics.exposure import Exposed, exposure_metrics
+from contact_sim_pkg.report.metrics.maker import Maker
 from contact_sim_pkg.report.signal.metrics import ride_metrics, root_mean_square, seat_factor, weighted_rms
 from contact_sim_pkg.report.signal.spectrum import power_density
-from contact_sim_pkg.report.signal.weighting import WD
+from contact_sim_pkg.report.signal.weighting import WD, WEIGHTINGS, response
 
 # |Wk| at the true third-octave centres, from the table of ISO 8041-1.
 SINE_CASES = [(1.995, 0.5308), (3.981, 0.9648), (10.0, 0.9884), (31.62, 0.4031)]
@@ -94,3 +96,24 @@ def test_a_signal_of_zeros_has_no_crest_factor():
 
 def test_root_mean_square_of_three_four_is_the_textbook_value():
     assert root_mean_square(np.array([3.0, 4.0])) == pytest.approx(math.sqrt(12.5))
+
+
+def test_hours_and_doses_of_a_sine_in_closed_form():
+    """1 m/s^2 rms at a tabulated frequency, |Wk| = 0.9648: eVDV 1.4 a T^(1/4), VDV (3/8 A^4 T)^(1/4), 8 h (0.5/a)^2."""
+
+    rate = 1000.0
+    time = np.arange(0.0, 64.0, 1.0 / rate)
+    sine = np.sqrt(2.0) * np.sin(2.0 * np.pi * 3.981 * time)
+    make = Maker("seat", "bench/motion", (0.0, 64.0)).make
+    found = {each.key: each for each in exposure_metrics(make, ride_metrics(sine, rate), sine, rate, ())}
+    a_w = 0.9648
+    assert found["seat.hours_to_action"].value == pytest.approx(8.0 * (0.5 / a_w) ** 2, rel=0.01)
+    assert found["seat.dose_estimated"].value == pytest.approx(1.4 * a_w * 28800.0**0.25, rel=5e-3)
+    assert found["seat.dose"].value == pytest.approx((1.5 * 28800.0) ** 0.25 * a_w, rel=5e-3)
+    slow = np.sqrt(2.0) * np.sin(2.0 * np.pi * 0.2 * time)
+    sick = {each.key: each for each in exposure_metrics(
+        make, ride_metrics(slow, rate, WEIGHTINGS["Wf"]), slow, rate, (), Exposed("Wf", vertical=False, decides=False)
+    )}  # fmt: skip
+    factor = abs(response(WEIGHTINGS["Wf"], np.array([0.2]))[0])
+    assert sick["seat.sickness"].value == pytest.approx(8.0 * factor, rel=0.03)
+    assert not {"seat.a_8", "seat.dose"} & set(sick)

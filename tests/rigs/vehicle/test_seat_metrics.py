@@ -7,7 +7,7 @@ from tests.report.signal.test_metrics import SHOCK_CASES
 
 from contact_sim_pkg.pressure.cushion import VALID_STRAIN
 from contact_sim_pkg.report.reading import read_recording
-from contact_sim_pkg.rigs.vehicle.seat.report.metrics import seat_metrics, vibration_metrics
+from contact_sim_pkg.rigs.vehicle.seat.report.metrics import seat_metrics, shock_metrics, vibration_metrics
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals
 
 FORCE, FIELD = known.FORCES["seat"], known.FIELDS["seat"]
@@ -68,3 +68,32 @@ def test_a_shock_on_the_seat_over_a_sine_of_the_floor(width, _peak, weighted, cr
     assert found["mtvv"].value == pytest.approx(running, rel=5e-3)
     assert found["crest"].value == pytest.approx(crest, rel=5e-3)
     assert found["factor"].window == (3.0, 11.0)
+
+
+@pytest.mark.parametrize(("width", "_peak", "_weighted", "_crest", "dose", "running"), SHOCK_CASES)
+def test_a_shock_says_the_same_however_long_the_run_goes_on(width, _peak, _weighted, _crest, dose, running):
+    """Half-sine of 10 m/s^2 on the seat, of 20 m/s^2 on the floor, in 8 and in 16 s."""
+    rate = 8000.0
+    for length in (8.0, 16.0):
+        time = np.arange(0.0, length, 1.0 / rate)
+        inside = (time >= 1.0) & (time <= 1.0 + width)
+        shock = np.where(inside, -10.0 * np.sin(np.pi * (time - 1.0) / width), 0.0)
+        found = by_key(shock_metrics(RideSignals(time, rate, 2.0 * shock, shock), 1e-3))
+        assert found["floor_peak"].value == pytest.approx(20.0, rel=1e-3)
+        assert (found["seat_peak"].value, found["seat_peak"].error) == pytest.approx((10.0, 0.02), rel=1e-3)
+        assert found["shock_ratio"].value == pytest.approx(0.5)
+        assert found["mtvv"].value == pytest.approx(running, rel=5e-3)
+        assert found["dose_of_shock"].value == pytest.approx(dose, rel=5e-3)
+        assert {each.basis for each in found.values()} == {"event"}
+
+
+def test_a_scene_of_one_shock_shows_no_figure_of_a_ride(recording):
+    """Neither SEAT nor exposure; the same recording under a sine shows them."""
+    shaken = {"kind": "half_sine", "amplitude": 10.0, "duration": 0.1}
+    keys = by_key(seat_metrics(recording._replace(scene={"vibration": shaken})))
+    assert "off_the_seat" in keys
+    assert not {"factor", "a_w", "a_8", "dose", "lift_off", "spine_risk"} & set(keys)
+    assert keys["off_the_seat"].value == pytest.approx(1e3 * 5 * known.PERIOD)
+    ride = by_key(seat_metrics(recording._replace(scene={"vibration": {"kind": "sine", "frequency": 4.0}})))
+    assert "lift_off" in ride
+    assert "off_the_seat" not in ride

@@ -5,16 +5,19 @@ Those of a tire take longer: `bench hard --effects` has all of them.
 
 import itertools
 import json
+import math
 import time
 
 import pytest
 from click.testing import CliRunner
 
 from contact_sim_lab.hard import effect_cases, effect_table
+from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.cli.effects import command
 from contact_sim_pkg.compare import span
+from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.scene.resolve import load_resolved
-from contact_sim_pkg.studies.effects import effects_study, effects_table, reduced, verdicts
+from contact_sim_pkg.studies.effects import effects_study, effects_table, event_runs, of_metrics, reduced, verdicts
 
 QUICK = (
     "slip angle of 1e-9 rad", "sliding of 1e-12 m", "ride without loss", "rubber at 256 K", "0.01 K apart",
@@ -74,7 +77,7 @@ def test_the_written_scene_has_what_the_scene_calls_for(tmp_path):
     assert facts["written"]["saving"] > 0.0
     assert all(each["size"] == 0.0 for each in facts["written"]["changes"])
     assert facts["answer"].startswith(
-        "impact_rubber_drop at 1e-3: every effect that acts is needed; none that is off is needed"
+        "impact_rubber_drop at 1e-3: every effect that acts is needed; its data call for none that is off, though shift "
     )
     assert "only observing: " in facts["answer"]
     by_name = {row["effect"]: row for row in facts["rows"]}
@@ -122,8 +125,43 @@ def test_a_sum_that_changes_too_much_puts_the_last_one_back(monkeypatch):
     def measured(base, _scene, _notify):
         return (verdicts.Change("impact", "force", next(sizes) * base.request, 0.0, "normal", 0.0),), 1.0
 
-    monkeypatch.setattr(reduced, "measured", measured)
+    monkeypatch.setattr(event_runs.Base, "measured", measured)
     found = reduced.reduced(study, silent, observers=False)
     cheapest_last = sorted(study.with_verdict(verdicts.OBSERVES), key=lambda row: study.cost_of(row), reverse=True)
     assert [row.effect.name for row in found.left_out] == [row.effect.name for row in cheapest_last[:-1]]
     assert [row.effect.name for row in found.put_back] == [cheapest_last[-1].effect.name]
+
+
+def test_a_metric_says_what_it_needs():
+    """Without its map a ride has the SEAT of before to the bit and no pressure; without loss another SEAT."""
+    scene = load_resolved("seat_ride_full", "duration=4", "accuracy=1e-2")
+    study = effects_study.study_of(scene, silent, "seat.contact_field", off=False, metrics=["seat: SEAT"])
+    assert study.rows[0].verdict == verdicts.NOT_NEEDED
+    assert [each.size for each in study.rows[0].changes] == [0.0]
+    assert effects_table.answer(study).startswith(
+        "seat_ride_full at 1e-2, seat: SEAT: on but not needed: contact_field"
+    )
+    pressed = effects_study.study_of(scene, silent, "seat.contact_field", off=False, metrics=["seat: mean pressure"])
+    assert pressed.rows[0].verdict == verdicts.NEEDED
+    assert verdicts.shown(pressed.rows[0].changes[0]) == "leaves no seat: mean pressure"
+    lossless = effects_study.study_of(scene, silent, "seat.foam_hysteresis", off=False, metrics=["seat.factor"])
+    assert lossless.rows[0].verdict == verdicts.NEEDED
+    assert math.isnan(lossless.rows[0].changes[0].time)
+
+
+@pytest.mark.parametrize(
+    ("values", "size", "error"),
+    [((2.0, 2.02), 0.01, 0.0), ((0.0, 0.0), 0.0, 0.0), ((0.0, 3.0), 1.0, 0.0), ((4.0, math.nan), math.inf, 0.0)],
+)
+def test_a_metric_changes_over_its_own_value(values, size, error):
+    before, after = (Metric("seat.a", "a", each, "", "no band", None) for each in values)
+    found = of_metrics._change(before, after, 0.0)
+    assert (found.size, found.error) == pytest.approx((size, error))
+    unsure = of_metrics._change(before._replace(error=0.03), after._replace(error=0.04), 0.0)
+    assert unsure.error == pytest.approx(0.05 / (abs(values[0]) or abs(values[1]) or math.inf)) or math.isinf(size)
+
+
+def test_an_unknown_metric_is_refused_with_the_nearest():
+    scene = load_resolved("seat_shock", "duration=0.4")
+    with pytest.raises(BagError, match="--metric restitutoin: the list has no such metric"):
+        effects_study.study_of(scene, silent, metrics=["restitutoin"])

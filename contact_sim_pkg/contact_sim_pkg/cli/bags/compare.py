@@ -17,8 +17,9 @@ from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
     from contact_sim_pkg.bag.reader import Bag
-    from contact_sim_pkg.compare.side_by_side import Compared
+    from contact_sim_pkg.compare.side_by_side import Compared, Miss
     from contact_sim_pkg.report.comparison.aligned import MapPair
+    from contact_sim_pkg.report.metrics.requirements import Requirement
     from contact_sim_pkg.report.series import Recording
 
 
@@ -42,6 +43,13 @@ if TYPE_CHECKING:
     metavar="PA",
     help="Of a mat and a run: pressure above which a cell counts.",
 )
+@click.option(
+    "--require",
+    "required",
+    multiple=True,
+    metavar="TEXT|FILE",
+    help="Limit of your own: 'SEAT < 60 %', or a YAML file; may be repeated.",
+)
 @overwrite_option
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 def command(
@@ -50,6 +58,7 @@ def command(
     form: str | None,
     plot: Path | None,
     loaded: float,
+    required: tuple[str, ...],
     overwrite: bool,
     skip_bad: bool,
 ) -> int:
@@ -63,19 +72,25 @@ def command(
     from contact_sim_pkg.records.metric import exit_status
     from contact_sim_pkg.report.comparison.rows import csv_text, junit_text_of, rows_of, table_rows
     from contact_sim_pkg.report.drawing import check_picture
+    from contact_sim_pkg.report.metrics.requirements import exit_code, read_requirements
 
     if form == "junit" and tolerances is None:
         raise click.UsageError("--junit needs --tolerances FILE: a test case is a tolerance.")
     if plot is not None:
         check_picture(plot, bags, overwrite=overwrite)
     wanted = [] if tolerances is None else read_tolerances(tolerances)
-    runs, pair = _runs(bags, loaded, skip_bad=skip_bad, drawn=plot is not None)
+    requirements = read_requirements(required)
+    runs, pair = _runs(bags, loaded, requirements, skip_bad=skip_bad, drawn=plot is not None)
     names, sides, missed = [each.name for each in runs], side_by_side(runs), misses(runs, wanted)
     if not sides:
         raise BagError(f"{', '.join(names)} have no metrics: there is nothing to compare")
     failed, unsure = [miss for _, found in missed for miss in found], undecided(runs, wanted)
+    warnings = [f"{each.name}: {said}" for each in runs for said in each.warnings]
+    for warning in warnings:
+        say(warning, err=True)
     if form == "json":
-        print_json({"bags": [str(each) for each in bags], "metrics": rows_of(names, sides), **_alignment(pair),
+        print_json({"bags": [str(each) for each in bags], "warnings": warnings, "metrics": rows_of(names, sides),
+                    **_alignment(pair),
                     "misses": [miss._asdict() for miss in failed],
                     "undecided": [each._asdict() for each in unsure]})  # fmt: skip
     elif form == "csv":
@@ -86,19 +101,25 @@ def command(
         for sentence in [] if pair is None else pair.sentences:
             say(sentence)
         show_rows(table_rows(names, sides), as_json=False)
-        for miss in failed:
-            say(f"MISSED {miss.run}: {miss.sentence}")
-        for each in unsure:
-            say(f"UNDECIDED {each.sentence}")
-        if wanted and not failed and not unsure:
-            say(f"all {len(wanted)} tolerances hold")
+        _say_judgement(len(wanted), failed, unsure)
     if pair is not None and plot is not None:
         _draw(pair, plot, overwrite=overwrite)
-    return exit_status(missed=bool(failed), unjudged=bool(unsure))
+    codes = {exit_code(each.metrics) for each in runs} if requirements else {0}
+    return exit_status(missed=bool(failed) or 1 in codes, unjudged=bool(unsure) or 3 in codes)
+
+
+def _say_judgement(count: int, failed: Sequence[Miss], unsure: Sequence[Miss]) -> None:
+    """What misses and what cannot be judged, or that all ``count`` tolerances hold."""
+    for miss in failed:
+        say(f"MISSED {miss.run}: {miss.sentence}")
+    for each in unsure:
+        say(f"UNDECIDED {each.sentence}")
+    if count and not failed and not unsure:
+        say(f"all {count} tolerances hold")
 
 
 def _runs(
-    paths: Sequence[Path], loaded: float, *, skip_bad: bool, drawn: bool
+    paths: Sequence[Path], loaded: float, requirements: Sequence[Requirement], *, skip_bad: bool, drawn: bool
 ) -> tuple[list[Compared], MapPair | None]:
     """The bags as they are compared; of a mat and a run their maps on each other."""
     from contact_sim_pkg.bag.reader import open_bag
@@ -106,7 +127,9 @@ def _runs(
     from contact_sim_pkg.report.comparison.aligned import compare_maps
     from contact_sim_pkg.report.comparison.curves import compared
     from contact_sim_pkg.report.comparison.runs import distinct_names
+    from contact_sim_pkg.report.facts import warnings_of
     from contact_sim_pkg.report.metrics.of_bag import recording_of
+    from contact_sim_pkg.report.metrics.requirements import required as judged
     from contact_sim_pkg.report.reading import refuse_other_rigs, rig_of_bag
 
     with ExitStack() as kept:
@@ -125,9 +148,14 @@ def _runs(
         doing("compare: metrics and curves")
     names = distinct_names(recordings)
     if not mats:
-        return [compared(name, each) for name, each in zip(names, recordings, strict=True)], None
+        return [
+            compared(name, each, requirements)._replace(warnings=tuple(warnings_of(each)))
+            for name, each in zip(names, recordings, strict=True)
+        ], None
     pair = compare_maps(names, recordings, loaded)
-    return [Compared(name, each, {}) for name, each in zip(names, pair.metrics, strict=True)], pair
+    return [
+        Compared(name, judged(each, requirements), {}) for name, each in zip(names, pair.metrics, strict=True)
+    ], pair
 
 
 def _bag_of(path: Path, kept: ExitStack) -> Path:

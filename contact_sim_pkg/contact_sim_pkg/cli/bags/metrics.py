@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from contact_sim_pkg.cli.output.say import say
+from contact_sim_pkg.cli.output.say import announce, say
 from contact_sim_pkg.cli.output.tables import print_json
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.records.metric import Metric
 
 
 @click.command("metrics")
@@ -25,7 +29,7 @@ from contact_sim_pkg.cli.output.tables import print_json
     "--loaded",
     type=click.FloatRange(min=0.0),
     metavar="PA",
-    help="Pressure above which a cell of a mat counts; with --all.  [default: 1]",
+    help="Pressure above which a cell of a mat counts; with --all.  [default: outputs.loaded_pressure of the scene, 1]",
 )
 @click.option(
     "--axis", metavar="x|y|z|Wk|Wd|...", help="Of a bag without our topics: axis, or weighting, or both as y:Wd."
@@ -46,6 +50,12 @@ from contact_sim_pkg.cli.output.tables import print_json
     metavar="TEXT|FILE",
     help="Limit of your own: 'SEAT < 60 %', or a YAML file; may be repeated.",
 )
+@click.option(
+    "--error",
+    "pair",
+    is_flag=True,
+    help="Of a run of the bench: numerical error of every metric, by two more runs on half the cells.",
+)
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 def command(
     bags: tuple[Path, ...],
@@ -57,6 +67,7 @@ def command(
     unit: str | None,
     up: str | None,
     wanted: tuple[str, ...],
+    pair: bool,
     skip_bad: bool,
 ) -> int:
     """Print the metrics of BAG with their bands and verdicts.
@@ -74,19 +85,33 @@ def command(
     for_foreign = None if given == ForeignOptions() else given
     requirements = read_requirements(wanted)
     found = metrics_of_bags(bags, whole=whole, loaded=loaded, chosen=for_foreign, skip_bad=skip_bad)
-    _notes(found.notes)
-    metrics = required(found.metrics, requirements)
+    _notes([*found.warnings, *found.notes])
+    made = _with_errors(bags, found.metrics, found.warnings) if pair else found.metrics
+    metrics = required(made, requirements)
     rows = rows_of(metrics)
     if form == "json":
-        print_json({"bags": [str(each) for each in bags], "metrics": rows})
+        print_json({"bags": [str(each) for each in bags], "warnings": found.warnings, "metrics": rows})
     elif form == "csv":
         say(csv_of(metrics), nl=False)
     elif form == "junit":
-        say(junit_of(suite_name(bags), metrics), nl=False)
+        say(junit_of(suite_name(bags), metrics, found.warnings), nl=False)
     else:
         for line in (*lines_of(rows), verdict_line(rows)):
             say(line)
     return exit_code(metrics)
+
+
+def _with_errors(bags: Sequence[Path], metrics: list[Metric], warnings: list[str]) -> list[Metric]:
+    """The metrics with their errors by a pair of runs of the scene of the one bag."""
+    from contact_sim_pkg.bag.errors import BagError
+    from contact_sim_pkg.compare.recorded import scene_of_bag
+    from contact_sim_pkg.studies.pair import with_errors_of_pair
+
+    if len(bags) > 1:
+        raise click.UsageError("--error is for one bag; repeated runs have their spread")
+    if warnings:
+        raise BagError(f"--error: the scene of {bags[0]} does not make this run again: {warnings[0]}")
+    return with_errors_of_pair(scene_of_bag(bags[0]), metrics, announce)
 
 
 def _notes(notes: Sequence[str]) -> None:

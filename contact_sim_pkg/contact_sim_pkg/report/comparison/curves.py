@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from contact_sim_pkg.compare.side_by_side import Compared, Curve
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.metrics.listing import metrics_of
+from contact_sim_pkg.report.metrics.requirements import Requirement, required
 from contact_sim_pkg.report.rig_reports import reports_of
 from contact_sim_pkg.report.series import Recording
 
@@ -20,6 +23,6 @@ def curves_of(recording: Recording) -> dict[str, Curve]:
     return found
 
 
-def compared(name: str, recording: Recording) -> Compared:
-    """A run as it is compared, under the ``name`` of its bag."""
-    return Compared(name, metrics_of(recording), curves_of(recording))
+def compared(name: str, recording: Recording, requirements: Sequence[Requirement] = ()) -> Compared:
+    """A run as it is compared, under the ``name`` of its bag, its metrics judged by ``requirements``."""
+    return Compared(name, required(metrics_of(recording), requirements), curves_of(recording))

@@ -23,6 +23,7 @@ from contact_sim_pkg.report.comparison.maps import map_comparison
 from contact_sim_pkg.report.comparison.scene_differences import differences
 from contact_sim_pkg.report.comparison.tables import difference_table, metric_table
 from contact_sim_pkg.report.drawing import Picture, style
+from contact_sim_pkg.report.metrics.requirements import Requirement
 from contact_sim_pkg.report.page import Section, environment
 from contact_sim_pkg.report.place import free_place, new_page
 from contact_sim_pkg.report.reading import read_recording, refuse_other_rigs, rig_of_bag, rig_of_recording
@@ -31,13 +32,16 @@ from contact_sim_pkg.report.series import Recording
 TEMPLATE = "comparison.html.j2"
 
 
-def write_comparison(bags: Sequence[Bag], out: Path | None = None, *, overwrite: bool = False) -> Path:
+def write_comparison(
+    bags: Sequence[Bag], out: Path | None = None, *, overwrite: bool = False, requirements: Sequence[Requirement] = ()
+) -> Path:
     """Write one page on several bags of one rig.
 
     Args:
         bags: opened with `open_bag`, at least two.
         out: file to write; a page of this command is made again, another
             file only by `overwrite`; `comparison.html` in the working directory where it is None.
+        requirements: limits of one's own, of each run.
 
     Returns:
         Where the page is.
@@ -49,18 +53,18 @@ def write_comparison(bags: Sequence[Bag], out: Path | None = None, *, overwrite:
     path = free_place(bags, out, overwrite=overwrite)
     refuse_other_rigs([rig_of_bag(bag) for bag in bags])
     # Everything is read before the file is touched
-    page = render_comparison([read_recording(bag) for bag in bags])
+    page = render_comparison([read_recording(bag) for bag in bags], requirements)
     with new_page(path, bags, overwrite=overwrite) as file:
         file.write(page.encode())
     return path
 
 
-def render_comparison(recordings: Sequence[Recording]) -> str:
+def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Requirement] = ()) -> str:
     """The page as text. Raises BagError for runs of different rigs, or fewer than two."""
     refuse_other_rigs([rig_of_recording(each) for each in recordings])
     names = distinct_names(recordings)
     runs = make_runs(names, recordings)
-    sides = side_by_side([compared(name, each) for name, each in zip(names, recordings, strict=True)])
+    sides = side_by_side([compared(name, each, requirements) for name, each in zip(names, recordings, strict=True)])
     title = " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings))
     page: str = (
         environment()

@@ -10,9 +10,9 @@ from contact_sim_pkg.records.metric import EVENT, Metric
 from contact_sim_pkg.report.series import FloatArray
 from contact_sim_pkg.report.signal import confidence
 from contact_sim_pkg.report.signal import spine as spine_model
-from contact_sim_pkg.report.signal.metrics import RideMetrics, daily_dose
+from contact_sim_pkg.report.signal.metrics import EXPOSURE_TIME, RideMetrics, daily_dose
 
-__all__ = ["Exposed", "exposure_metrics"]
+__all__ = ["Exposed", "exposure_metrics", "hours_to_action"]
 
 RATIO_OF_MTVV = 1.5
 """MTVV over a_w above which the running rms is to be read beside a_w (ISO 2631-1, 6.3.3)"""
@@ -22,6 +22,14 @@ COMFORT = ("Wk", "Wd", "Wc", "Wj", "Wb")
 """Weightings that the words of ISO 2631-1, annex C, are for."""
 HEALTH = ("Wk", "Wd")
 """Weightings of Directive 2002/44/EC."""
+
+
+SICKNESS = "Wf"
+"""Weighting of motion sickness."""
+ACTION, LIMIT = 0.5, 1.15
+"""[m/s^2] of A(8), Directive 2002/44/EC"""
+ESTIMATED = 1.4
+"""of eVDV over a_w T^(1/4) (BS 6841, ISO 2631-1 annex B)"""
 
 
 class Exposed(NamedTuple):
@@ -70,7 +78,7 @@ def exposure_metrics(
     ]
     if axis.decides:
         found.append(make("a_8", "A(8)", a_w, axis.unit, quantity="daily_exposure", broken=peaky, spread=spread, count=count,
-                          remark="eight hours of this ride, z alone"))  # fmt: skip
+                          remark=f"eight hours of this ride, z alone{_reached(a_w)}"))  # fmt: skip
     if axis.weighting in HEALTH:
         dose = axis.factor * daily_dose(metrics.vibration_dose, duration)
         said = f"{metrics.vibration_dose:.3g} in the run" + (f", times {axis.factor:g}" if axis.factor != 1.0 else "")
@@ -105,7 +113,32 @@ def exposure_metrics(
         said = f"S_d {stress:.3g} MPa; man of 82 kg, 240 days of 8 h a year from 20 to 64"
         found.append(make("spine_risk", "R, ISO 2631-5", spine_model.risk(stress), "", quantity="spine_risk", broken=doubts,
                           count=count, remark=said))  # fmt: skip
+    if axis.decides and a_w > 0.0:
+        found.append(hours_to_action(make, axis.factor * a_w, axis.factor * spread, peaky, count))
+    if axis.weighting in HEALTH:
+        estimated = ESTIMATED * axis.factor * EXPOSURE_TIME**0.25
+        found.append(make("dose_estimated", "eVDV of 8 h", estimated * a_w, "m/s^1.75", broken=doubts, count=count,
+                          spread=estimated * spread, remark="1.4 a_w T^(1/4), for crest factors below 6"))  # fmt: skip
+    if axis.weighting == SICKNESS:
+        sickness = a_w * math.sqrt(duration)
+        found.append(make("sickness", "MSDV of the run", sickness, "m/s^1.5", broken=doubts, count=count, basis=EVENT,
+                          remark=f"{sickness / 3.0:.3g} % of adults may vomit (ISO 2631-1, annex D)"))  # fmt: skip
     return found
+
+
+def _reached(a_w: float) -> str:
+    return f"; action value after {8.0 * (ACTION / a_w) ** 2:.3g} h" if a_w > 0.0 else ""
+
+
+def hours_to_action(
+    make: Callable[..., Metric], a_w: float, spread: float, doubts: tuple[str, ...], count: int
+) -> Metric:
+    """Time [h] of a vibration ``a_w`` [m/s^2], its factor included, after which A(8) is the action value:
+    8 h (0.5 / a_w)^2.
+    """
+    hours = 8.0 * (ACTION / a_w) ** 2
+    return make("hours_to_action", "time to the action value", hours, "h", broken=doubts, count=count,
+                spread=2.0 * hours * spread / a_w, remark=f"limit value after {8.0 * (LIMIT / a_w) ** 2:.3g} h")  # fmt: skip
 
 
 def _beside(mtvv: float, a_w: float) -> str:

@@ -17,14 +17,14 @@ from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.judge import Cures, Judgement, judge_acceleration, judge_stamps, unknown_samples
 from contact_sim_pkg.records.metric import Metric
-from contact_sim_pkg.report.metrics.exposure import Exposed, exposure_metrics
+from contact_sim_pkg.report.metrics.exposure import Exposed, exposure_metrics, hours_to_action
 from contact_sim_pkg.report.metrics.maker import Maker
 from contact_sim_pkg.report.series import FloatArray
 from contact_sim_pkg.report.signal import confidence
 from contact_sim_pkg.report.signal.metrics import HORIZONTAL_FACTOR, RideMetrics, ride_metrics
 from contact_sim_pkg.report.signal.weighting import WD, WEIGHTINGS, WK, Weighting
 
-__all__ = ["ForeignOptions", "foreign_metrics"]
+__all__ = ["ForeignOptions", "axes_of", "foreign_metrics"]
 
 ACCELERATIONS = {
     "sensor_msgs/msg/Imu": ("linear_acceleration", "angular_velocity"),
@@ -73,12 +73,15 @@ def foreign_metrics(bag: Bag, options: ForeignOptions = ForeignOptions()) -> tup
             m/s^2.
     """
     topic = options.topic
-    known, wanted = (*ACCELERATIONS, WRENCH), _chosen(options.axis)
+    known, wanted = (*ACCELERATIONS, WRENCH), axes_of(options.axis)
     rows = [bag.topic(topic)] if topic is not None else [row for row in bag.topics.values() if row.type in known]
     rows = [row for row in rows if row.type in known and bag.count(row.name)]
     if not rows:
         where = f"{bag.path} holds" if topic is None else f"the topic {topic} of {bag.path} holds"
         raise BagError(f"{where} no Imu, AccelStamped or WrenchStamped: there is nothing to weight")
+    given = [f"--{name}" for name in ("axis", "unit", "up") if getattr(options, name) is not None]
+    if given and all(row.type == WRENCH for row in rows):
+        raise BagError(f"{', '.join(given)}: for accelerations, {bag.path} has forces: leave it out")
     found: list[Metric] = []
     notes: list[str] = []
     for row in rows:
@@ -93,7 +96,7 @@ def foreign_metrics(bag: Bag, options: ForeignOptions = ForeignOptions()) -> tup
     return found, notes
 
 
-def _chosen(axis: str | None) -> list[_Chosen]:
+def axes_of(axis: str | None) -> list[_Chosen]:
     """Axes and their weightings, none where all three are to be taken; BagError for what is neither."""
     if axis is None:
         return []
@@ -230,9 +233,11 @@ def _together(
         worst, said = math.nan, f"no value without {', '.join(unknown)}"
     doubts = tuple(dict.fromkeys(text for each in found for text in each.broken))
     total = float(np.sqrt(sum(each.value**2 for each in found if each.key.endswith(".a_w"))))
+    reached = [hours_to_action(maker.make, worst, math.nan, doubts, 0)] if worst > 0.0 else []
     return [
         maker.make("a_8", "A(8), highest axis", worst, "m/s²", quantity="daily_exposure", broken=doubts, remark=said),
         maker.make("a_v", "a_v, vector sum", total, "m/s²", quantity="weighted_rms", broken=doubts),
+        *reached,
     ]
 
 

@@ -38,8 +38,12 @@ def metrics_of(recording: Recording) -> list[Metric]:
     return [*(metric for each in lists for metric in each if metric in chosen), *others]
 
 
-def all_metrics(recording: Recording, loaded: float = LOADED) -> list[Metric]:
-    """The whole lists of all contacts, and the mat metrics of each pressure map, of cells above ``loaded`` [Pa]."""
+def all_metrics(recording: Recording, loaded: float | None = None) -> list[Metric]:
+    """The whole lists of all contacts, and the mat metrics of each pressure map, of cells above ``loaded`` [Pa]; None:
+    above what the scene says, else 1 Pa.
+    """
+    if loaded is None:
+        loaded = float((recording.scene.get("outputs") or {}).get("loaded_pressure", LOADED))
     mats = [of_field(recording, name, loaded) for name in recording.fields]
     return [metric for each in (*_named([*_lists(recording), *mats]), _of_plugins(recording)) for metric in each]
 

@@ -10,10 +10,13 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.metadata import IMPORTED_FROM
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.records.metric import Metric
-from contact_sim_pkg.report.metrics.foreign import ForeignOptions, foreign_metrics
+from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.report.facts import warnings_of
+from contact_sim_pkg.report.metrics.foreign import ForeignOptions, axes_of, foreign_metrics
 from contact_sim_pkg.report.metrics.listing import all_metrics, metrics_of
 from contact_sim_pkg.report.metrics.repeated import repeated
 from contact_sim_pkg.report.reading import PATCH, SERIES_TYPES, read_recording, scenes_fit
+from contact_sim_pkg.report.rig_reports import reports_of
 from contact_sim_pkg.report.series import Recording
 
 __all__ = ["FoundMetrics", "metrics_of_bags", "suite_name"]
@@ -24,6 +27,8 @@ class FoundMetrics(NamedTuple):
 
     metrics: list[Metric]
     notes: list[str]
+    warnings: list[str]
+    """runs that failed or were stopped, and excitation that no node of the bench published"""
 
 
 def metrics_of_bags(
@@ -48,26 +53,33 @@ def metrics_of_bags(
     """
     bags = [open_bag(path, skip_bad=skip_bad) for path in paths]
     notes = [note for bag in bags for note in bag.notes]
+    warnings: list[str] = []
     lists: list[list[Metric]] = []
     scenes: list[dict[str, Any]] = []
     for bag in bags:
-        if chosen is not None or not is_ours(bag):
+        if is_foreign(bag, chosen):
+            if whole or loaded is not None:
+                option = "--all" if loaded is None else "--loaded"
+                raise BagError(f"{option} is for maps and contacts of the bench, {bag.path} has none: leave it out")
             found, said = foreign_metrics(bag, chosen or ForeignOptions())
             lists.append(found)
             notes += said
             scenes.append({})
         else:
             recording = recording_of(bag)
-            if loaded is not None:
-                lists.append(all_metrics(recording, loaded))
+            if loaded is not None and not recording.fields:
+                raise BagError(f"--loaded is for pressure maps, {bag.path} has none: leave it out")
+            if chosen is not None:
+                lists.append(weighted_metrics(recording, chosen))
             else:
-                lists.append(all_metrics(recording) if whole else metrics_of(recording))
+                lists.append(all_metrics(recording, loaded) if whole or loaded is not None else metrics_of(recording))
             notes += [f"{bag.path.name}: {bag.metadata['imported_as']}"] if IMPORTED_FROM in bag.metadata else []
+            warnings += [f"{suite_name([bag.path])}: {said}" for said in warnings_of(recording)]
             scenes.append(recording.scene)
     names = [suite_name([path]) for path in paths]
     if len(bags) == 1:
-        return FoundMetrics(lists[0], notes)
-    return FoundMetrics(repeated(names, scenes, lists), notes)
+        return FoundMetrics(lists[0], notes, warnings)
+    return FoundMetrics(repeated(names, scenes, lists), notes, warnings)
 
 
 def recording_of(bag: Bag) -> Recording:
@@ -77,6 +89,36 @@ def recording_of(bag: Bag) -> Recording:
     if not recording.contacts and not recording.fields and recording.motion is None:
         raise BagError(f"{bag.path} holds no force and no motion of the bench: there is nothing to measure")
     return recording
+
+
+def weighted_metrics(recording: Recording, chosen: ForeignOptions) -> list[Metric]:
+    """The metrics of what of a run of the bench shakes a person, by another weighting. Raises BagError for what it does
+    not take, or has not.
+    """
+    given = [f"--{name}" for name in ("topic", "unit", "up") if getattr(chosen, name) is not None]
+    if given:
+        raise BagError(f"{', '.join(given)}: for a bag of anybody; a run of the bench has m/s², z upwards")
+    (way,) = axes_of(chosen.axis)
+    if way.axis != "z":
+        raise BagError(
+            f"--axis {chosen.axis}: a run of the bench has the vertical axis; write --axis {way.weighting.name}"
+        )
+    found = [
+        metric
+        for each in reports_of(recording)
+        if each.weighted
+        for metric in load(each.weighted)(recording, way.weighting)
+    ]
+    if not found:
+        raise BagError(f"--axis {chosen.axis}: the run {recording.name} shakes no seat that could be weighted")
+    return found
+
+
+def is_foreign(bag: Bag, chosen: ForeignOptions | None) -> bool:
+    """Whether a bag is taken as one of anybody: it holds nothing of the bench, or a topic of it that is no part of
+    the bench is chosen.
+    """
+    return not is_ours(bag) or (chosen is not None and chosen.topic is not None)
 
 
 def is_ours(bag: Bag) -> bool:

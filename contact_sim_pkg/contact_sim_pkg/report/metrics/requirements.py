@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -13,12 +14,14 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
 from contact_sim_pkg.records.metric import NO_BAND, OUTSIDE, REQUIRED, UNDECIDED, Band, Metric, exit_status, judged
 
-__all__ = ["Requirement", "exit_code", "read_requirements", "required"]
+__all__ = ["Requirement", "exit_code", "places_of", "read_requirements", "required"]
 
 SENTENCE = re.compile(
     r"\s*(?P<metric>[^<>=]+?)\s*(?P<sign><=|>=|<|>)\s*(?P<limit>[-+.\deE]+)\s*(?P<unit>[^\s\d]\S*)?\s*"
 )
 """`SEAT < 60 %`"""
+MOST_SHOWN = 20
+"""metrics in a sentence"""
 KEYS = ("min", "max", "unit", "when")
 FORM = 'write `SEAT < 60 %`, or a line `seat.factor: {max: 60, unit: "%"}` of a YAML file'
 
@@ -111,10 +114,10 @@ def required(metrics: Sequence[Metric], requirements: Sequence[Requirement]) -> 
     """
     found = list(metrics)
     for each in requirements:
-        places = _places(metrics, each.metric)
+        places = places_of(metrics, each.metric)
         applies = all(
             low <= metrics[place].value <= high
-            for name, (low, high) in each.when.items() for place in _places(metrics, name)
+            for name, (low, high) in each.when.items() for place in places_of(metrics, name)
         )  # fmt: skip
         for place in places:
             metric = metrics[place]
@@ -127,13 +130,23 @@ def required(metrics: Sequence[Metric], requirements: Sequence[Requirement]) -> 
     return found
 
 
-def _places(metrics: Sequence[Metric], named: str) -> list[int]:
-    """Of the metrics that a key, a pattern or a name as it is printed means."""
+def places_of(metrics: Sequence[Metric], named: str, asked: str = "requirement of") -> list[int]:
+    """Of the metrics that a key, a pattern or a name as it is printed means; BagError, with what ``asked``, for none."""
     places = [place for place, each in enumerate(metrics) if fnmatchcase(each.key, named)]
     places = places or [place for place, each in enumerate(metrics) if each.name.casefold() == named.casefold()]
+    # Where several contacts share a list, their names stand before those of their metrics
+    places = places or [
+        place for place, each in enumerate(metrics) if each.name.rpartition(": ")[2].casefold() == named.casefold()
+    ]
     if not places:
-        known = ", ".join(f"{each.key} ({each.name})" for each in metrics)
-        raise BagError(f"requirement of {named}: the list has no such metric; it has {known}; --all lists more")
+        known = [f"{each.key} ({each.name})" for each in metrics]
+        near = get_close_matches(named.casefold(), [each.casefold() for each in known], 3, 0.3)
+        shown = [each for each in known if each.casefold() in near] or known
+        more = f"; of {len(known)} the nearest are" if len(known) > MOST_SHOWN else "; it has"
+        listed = shown if len(known) > MOST_SHOWN else known
+        raise BagError(
+            f"{asked} {named}: the list has no such metric{more} {', '.join(listed[:MOST_SHOWN])}; --all lists more"
+        )
     return places
 
 

@@ -143,10 +143,14 @@ def metric_of(row: Mapping[str, Any]) -> Metric:
     )  # fmt: skip
 
 
-def junit_of(name: str, metrics: Sequence[Metric]) -> str:
-    """JUnit XML of the list of the bag ``name``: outside its band is a failure, a broken assumption an error, as
-    is a limit within the uncertainty, no band skipped. What a case rests on is its `system-out`."""
-    cases = [_case(each) for each in metrics]
+def junit_of(name: str, metrics: Sequence[Metric], warnings: Sequence[str] = ()) -> str:
+    """JUnit XML of the list of the bag ``name``, whose ``warnings`` are an error of its first case: outside its band is
+    a failure, a broken assumption an error, as is a limit within the uncertainty, no band skipped. What a case rests
+    on is its `system-out`."""
+    cases = [ElementTree.Element("testcase", classname="run", name=name)] if warnings else []
+    for case in cases:
+        ElementTree.SubElement(case, "error", message="; ".join(warnings))
+    cases += [_case(each) for each in metrics]
     return junit_text(name, cases)
 
 

@@ -22,6 +22,13 @@ class Outputs(Section):
     force_rate: float = number(1.0, 1e6, "Hz", "forces and motions, one message a block", default=1000.0)
     display_rate: float = number(1.0, 1e4, "Hz", "wrenches and scalars for plotters", default=100.0)
     field_rate: float = number(1.0, 1e4, "Hz", "pressure fields", default=100.0)
+    loaded_pressure: float = number(
+        0.0,
+        1e9,
+        "Pa",
+        "above it a cell counts as loaded in the metrics of maps, as with a mat's threshold",
+        default=1.0,
+    )
 
 
 class Integrator(Section):

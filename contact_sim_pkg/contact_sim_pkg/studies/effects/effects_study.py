@@ -4,7 +4,7 @@ whether the scene calls for it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from contact_sim_pkg.compare.columns import judged_topics
@@ -17,10 +17,11 @@ from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.studies.effects import verdicts
 from contact_sim_pkg.studies.effects.alternatives import Alternative, effects_of, is_on, with_effect, without_effects
-from contact_sim_pkg.studies.effects.event_runs import Base, base_of, changed, finer_run
+from contact_sim_pkg.studies.effects.event_runs import Base, base_of
+from contact_sim_pkg.studies.effects.of_metrics import MetricBase, metric_base
 from contact_sim_pkg.studies.effects.verdicts import Change
 
-__all__ = ["EffectRow", "Study", "measured", "observes", "study", "study_of"]
+__all__ = ["EffectRow", "Study", "observes", "study", "study_of"]
 
 
 class EffectRow(NamedTuple):
@@ -50,7 +51,7 @@ class EffectRow(NamedTuple):
 class Study(NamedTuple):
     """All effects of a scene."""
 
-    base: Base
+    base: Base | MetricBase
     rows: tuple[EffectRow, ...]
 
     def with_verdict(self, verdict: str, *, on: bool = True) -> list[EffectRow]:
@@ -67,7 +68,7 @@ class Study(NamedTuple):
     @property
     def cost(self) -> float:
         """CPU time [ms] per simulated second of the scene."""
-        return self.base.price.least
+        return self.base.cost
 
 
 def study(scene_name: str, notify: Notify, values: Sequence[str] = ()) -> Study:
@@ -78,18 +79,22 @@ def study(scene_name: str, notify: Notify, values: Sequence[str] = ()) -> Study:
     return study_of(load_resolved(scene_name, *values), notify)
 
 
-def study_of(scene: ResolvedScene, notify: Notify, only: str = "", *, off: bool = True) -> Study:
+def study_of(
+    scene: ResolvedScene, notify: Notify, only: str = "", *, off: bool = True, metrics: Sequence[str] = ()
+) -> Study:
     """Study of a resolved scene, or of ``only`` one effect of it, ``CONTACT.EFFECT``; of those that
-    are ``off`` where these are of interest.
+    are ``off`` where these are of interest. With ``metrics``, by key or name, of these over the whole run, else of all
+    that accuracy judges over the events of the scene.
 
-    Raises RunError where its run ends.
+    Raises RunError where its run ends, BagError where it has no such metric.
     """
     notify(f"{scene.name}: kernels of each combination of effects are compiled once, some seconds for each")
-    notify(f"{scene.name}: the scene as it stands, and one level finer")
-    base = base_of(scene, notify)
-    length = scene.block_length
-    for each in base.spans:
-        notify(f"  {each.span.shown * length:g} to {each.span.end * length:g} s: {each.reason}")
+    if metrics:
+        notify(f"{scene.name}: the whole run as it stands")
+    else:
+        notify(f"{scene.name}: the scene as it stands, and one level finer")
+    base = metric_base(scene, metrics, notify) if metrics else base_of(scene, notify)
+    notify(f"  {base.compared}")
     rows = []
     for contact, effect in effects_of(scene):
         on = is_on(scene, contact, effect)
@@ -106,26 +111,26 @@ def observes(contact: Contact, effect: Effect) -> bool:
     return not effect.carries and not judged_topics(others)
 
 
-def _row_on(base: Base, contact: Contact, effect: Effect, notify: Notify) -> EffectRow:
+def _row_on(base: Base | MetricBase, contact: Contact, effect: Effect, notify: Notify) -> EffectRow:
     if effect.carries:
         return EffectRow(contact, effect, True, verdicts.CARRIES, (), None, "without it the contact carries no load")
     other = without_effects(base.scene, effect)
     beside = f"with it {' and '.join(other.beside)}" if other.beside else ""
     try:
-        changes, cost = measured(base, other.scene, notify, effect.not_below)
+        changes, cost = base.measured(other.scene, notify, effect.not_below)
     except (SceneError, RunError) as error:
         return EffectRow(contact, effect, True, verdicts.NEEDED, (), None, f"without it {_reason(error)}")
-    if observes(contact, effect) and not any(each.size > 0.0 for each in changes):
+    if isinstance(base, Base) and observes(contact, effect) and not any(each.size > 0.0 for each in changes):
         verdict = verdicts.OBSERVES
     else:
         verdict = verdicts.verdict_on(changes, base.request)
     return EffectRow(contact, effect, True, verdict, changes, cost, effect.called_for(base.scene) or beside)
 
 
-def _row_off(base: Base, contact: Contact, effect: Effect, notify: Notify) -> EffectRow:
+def _row_off(base: Base | MetricBase, contact: Contact, effect: Effect, notify: Notify) -> EffectRow:
     try:
         other = with_effect(base.scene, contact, effect)
-        changes, cost = measured(base, other.scene, notify, effect.not_below)
+        changes, cost = base.measured(other.scene, notify, effect.not_below)
     except (SceneError, RunError) as error:
         return EffectRow(contact, effect, False, verdicts.UNAVAILABLE, (), None, f"with it {_reason(error)}")
     called_for = "" if other.replaced or other.removed else effect.called_for(base.scene)
@@ -138,17 +143,6 @@ def _row_off(base: Base, contact: Contact, effect: Effect, notify: Notify) -> Ef
 def _different(other: Alternative) -> str:
     parts = (("in place of", other.replaced), ("with", other.beside), ("without", other.removed))
     return ", ".join(f"{word} {' and '.join(names)}" for word, names in parts if names)
-
-
-def measured(
-    base: Base, scene: ResolvedScene, notify: Notify, not_below: Mapping[str, float] | None = None
-) -> tuple[tuple[Change, ...], float]:
-    """What is different in another scene, and its cost [ms] per simulated second; ``not_below``: by
-    kind the error that what is different has at every accuracy.
-    """
-    cost = base.price.of(scene)
-    finer = finer_run(scene, base.spans, notify)
-    return verdicts.changes_of(changed(base, finer), base.errors, not_below or {}), cost
 
 
 def _reason(error: SceneError | RunError) -> str:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.records.table import Section, number_of
 from contact_sim_pkg.studies.effects import verdicts
 from contact_sim_pkg.studies.effects.effects_study import EffectRow, Study
+from contact_sim_pkg.studies.effects.of_metrics import MetricBase
 from contact_sim_pkg.studies.effects.reduced import Reduced
 
 __all__ = ["answer", "facts_of", "facts_of_reduced", "parts", "table"]
@@ -28,10 +30,25 @@ def answer(study: Study) -> str:
     found = [f"{title}: {', '.join(each(study, row) for row in rows)}" for title, rows, each in groups if rows]
     on = sum(bool(rows) for _title, rows, _each in groups[:2])
     if not groups[2][1] and not all(row.on for row in study.rows):
-        found.insert(on, "none that is off is needed")
+        found.insert(on, f"its data call for none that is off{_yet(study)}")
     if not on and not groups[4][1]:
         found.insert(0, "every effect that acts is needed")
-    return f"{study.base.scene.name} at {number_of(study.base.request)}: {'; '.join(found)}"
+    return f"{study.base.scene.name} at {number_of(study.base.request)}{_asked(study)}: {'; '.join(found)}"
+
+
+def _asked(study: Study) -> str:
+    """Names of the metrics that a study is of."""
+    return f", {', '.join(each.name for each in study.base.metrics)}" if isinstance(study.base, MetricBase) else ""
+
+
+def _yet(study: Study) -> str:
+    """Which effect that is off would change most, where that is more than requested."""
+    changing = [row for row in study.rows if not row.on and row.largest is not None and row.largest.resolved
+                and row.largest.size > study.base.request]  # fmt: skip
+    if not changing:
+        return ""
+    most = max(changing, key=lambda row: row.largest.size if row.largest else 0.0)
+    return f", though {_name(study, most)} would change {verdicts.shown(most.largest)}" if most.largest else ""
 
 
 def table(study: Study) -> list[Section]:
@@ -46,16 +63,10 @@ def table(study: Study) -> list[Section]:
         }
         for row in study.rows
     ]
-    length = study.base.scene.block_length
-    spans = "; ".join(
-        f"{each.span.shown * length:g} to {each.span.end * length:g} s ({each.reason})" for each in study.base.spans
-    )
     note = (
-        f"{spans}; ms/s: CPU time per simulated second that the effect takes or would take, of {study.cost:.3g} in all; "
-        "changes by leaving it out or adding it, one level finer than requested, over the scales of the accuracy"
+        f"{study.base.compared}; ms/s: CPU time per simulated second that the effect takes or would take, of "
+        f"{study.cost:.3g} in all"
     )
-    if study.base.agrees_until is not None:
-        note += f"; compared until {study.base.agrees_until:.4g} s, where a finer run parts from the scene"
     return [Section("", rows, note)]
 
 
@@ -88,20 +99,9 @@ def parts(study: Study) -> list[Section]:
 
 def facts_of(study: Study) -> dict[str, Any]:
     """The study as plain values."""
-    length = study.base.scene.block_length
     return {
-        "scene": study.base.scene.name,
-        "answer": answer(study),
-        "requested": study.base.request,
-        "spans": [
-            {
-                "start_s": each.span.shown * length, "end_s": each.span.end * length, "event": each.reason,
-                "blocks": [each.span.first, each.span.shown, each.span.end],
-            }
-            for each in study.base.spans
-        ],
-        "cost_ms_per_s": study.cost,
-        "agrees_until_s": study.base.agrees_until,
+        "scene": study.base.scene.name, "answer": answer(study), "requested": study.base.request,
+        **study.base.facts(), "cost_ms_per_s": study.cost,
         "rows": [_facts(study, row) for row in study.rows],
     }  # fmt: skip
 
@@ -124,7 +124,7 @@ def _facts(study: Study, row: EffectRow) -> dict[str, Any]:
 
 def _where(change: verdicts.Change) -> str:
     name = f"{change.place} {change.column}".strip()
-    return f"{name} at {change.time:.4g} s"
+    return name if math.isnan(change.time) else f"{name} at {change.time:.4g} s"
 
 
 def _saving(study: Study, row: EffectRow) -> str:

@@ -9,7 +9,7 @@ the axle, is no change of what happens.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy
 
@@ -25,6 +25,7 @@ from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import requested
+from contact_sim_pkg.studies.effects.verdicts import Change, changes_of
 
 __all__ = ["Base", "EventRun", "Price", "base_of", "changed", "finer_run"]
 
@@ -79,6 +80,44 @@ class Base(NamedTuple):
     def request(self) -> float:
         """Requested accuracy."""
         return requested(self.scene.accuracy)
+
+    @property
+    def cost(self) -> float:
+        """CPU time [ms] per simulated second of the scene."""
+        return self.price.least
+
+    def measured(
+        self, scene: ResolvedScene, notify: Notify, not_below: Mapping[str, float] | None = None
+    ) -> tuple[tuple[Change, ...], float]:
+        """What is different in another scene, and its cost [ms] per simulated second; ``not_below``: by kind the
+        error that what is different has at every accuracy. Raises RunError where a run ends.
+        """
+        cost = self.price.of(scene)
+        return changes_of(changed(self, finer_run(scene, self.spans, notify)), self.errors, not_below or {}), cost
+
+    @property
+    def compared(self) -> str:
+        """What of the scene is compared, in words."""
+        length = self.scene.block_length
+        spans = "; ".join(
+            f"{each.span.shown * length:g} to {each.span.end * length:g} s ({each.reason})" for each in self.spans
+        )
+        until = "" if self.agrees_until is None else (
+            f"; compared until {self.agrees_until:.4g} s, where a finer run parts from the scene"
+        )  # fmt: skip
+        return f"{spans}; changes one level finer than requested, over the scales of the accuracy{until}"
+
+    def facts(self) -> dict[str, Any]:
+        """The same as plain values."""
+        length = self.scene.block_length
+        return {
+            "spans": [
+                {"start_s": each.span.shown * length, "end_s": each.span.end * length, "event": each.reason,
+                 "blocks": [each.span.first, each.span.shown, each.span.end]}
+                for each in self.spans
+            ],
+            "agrees_until_s": self.agrees_until,
+        }  # fmt: skip
 
 
 def base_of(scene: ResolvedScene, notify: Notify) -> Base:

@@ -21,7 +21,7 @@ from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, drop_inputs
 from contact_sim_pkg.studies.effects import verdicts
 from contact_sim_pkg.studies.effects.alternatives import effects_of, is_on, with_effect, without_effects
-from contact_sim_pkg.studies.effects.effects_study import EffectRow, Study, measured, observes
+from contact_sim_pkg.studies.effects.effects_study import EffectRow, Study, observes
 from contact_sim_pkg.studies.effects.verdicts import Change
 
 __all__ = ["Reduced", "all_together", "reduced", "text_of"]
@@ -57,7 +57,7 @@ def reduced(study: Study, notify: Notify, *, observers: bool = True) -> Reduced:
     while left_out:
         notify(f"{base.scene.name}: without {', '.join(row.effect.name for row in left_out)}")
         scene = without_effects(base.scene, *(row.effect for row in left_out)).scene
-        changes, cost = measured(base, scene, notify)
+        changes, cost = base.measured(scene, notify)
         if verdicts.verdict_on(changes, base.request) in SMALL:
             return Reduced(scene, tuple(left_out), tuple(put_back), changes, cost, study.cost)
         put_back.append(left_out.pop())

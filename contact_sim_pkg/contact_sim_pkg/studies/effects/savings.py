@@ -27,7 +27,18 @@ SCENES = (
     "car_full_bench", "tire_braking",
 )  # fmt: skip
 FROM_ALL = ("impact_rubber_drop",)
+RIDE, LOADS = ("dynamic load coefficient", "load, mean"), ("load, largest", "load, smallest")
+ASKED = (
+    ("tire_rough_road", (), RIDE), ("tire_belgian_block", (), RIDE), ("tire_braking", (), ("load, mean", "vertical stiffness")),
+    ("tire_cleat", (), LOADS), ("car_ride", (), ("SEAT", "a_w, Wk", "dynamic load coefficient")),
+    ("car_full_bench", (), ("SEAT", "T(f) at its peak")), ("seat_ride_full", ("accuracy=1e-2",), ("SEAT",)),
+    ("impact_rubber_drop", (), ("all",)),
+    ("impact_temperature_sweep", ("duration=18",), ("restitution e of the first", "peak force of the first")),
+    ("roller_flutter", (), ("growth rate of tilt and yaw",)), ("tire_irregular_road", (), ("load, mean",)),
+)  # fmt: skip
+"""Scenes, values of `--set` and metrics that somebody wants of them."""
 BEGIN, END = (f"<!-- tables made from contact_sim_pkg.studies.effects.savings: {word} -->" for word in ("begin", "end"))
+ASKED_BEGIN, ASKED_END = (each.replace("tables made", "tables of metrics made") for each in (BEGIN, END))
 
 
 def table_of(scenes: Sequence[str], notify: Callable[[str], None]) -> list[str]:
@@ -58,24 +69,47 @@ def _of_scene(
         before = len(found.left_out)
 
 
-def with_table(page: str, lines: Sequence[str]) -> str:
+def table_of_metrics(notify: Callable[[str], None]) -> list[str]:
+    """Lines of the table of what metrics need: the scene as it stands, and the lean one that has the same metrics."""
+    lines = ["| scene | for | left out | ms/s | lean | times cheaper | changes |", "|---|---|---|---|---|---|---|"]
+    for name, values, metrics in ASKED:
+        study = study_of(load_resolved(name, *values), notify, off=False, metrics=metrics)
+        found = reduced(study, notify, observers=False)
+        shown = " ".join((f"`{name}`", *(f"`{each}`" for each in values)))
+        left_out = ", ".join(row.effect.name for row in found.left_out) or "nothing"
+        lines.append(
+            f"| {shown} | {', '.join(metrics)} | {left_out} | {study.cost:.3g} | {found.cost:.3g} | "
+            f"{study.cost / found.cost:.2g} | {_changed(found)} |"
+        )
+        notify(lines[-1])
+    return lines
+
+
+def with_table(page: str, lines: Sequence[str], begin: str = BEGIN, end: str = END) -> str:
     """A page with the table in the place of the one before."""
-    before, _, rest = page.partition(BEGIN)
-    return "\n".join([before + BEGIN, "", *lines, "", END + rest.partition(END)[2]])
+    before, _, rest = page.partition(begin)
+    return "\n".join([before + begin, "", *lines, "", end + rest.partition(end)[2]])
 
 
 def main(arguments: list[str]) -> int:
-    """Write the table into the given page."""
-    path = Path(arguments[0])
-    lines = table_of(arguments[1:] or SCENES, partial(click.echo, err=True))
-    path.write_text(with_table(path.read_text(encoding="utf-8"), lines), encoding="utf-8")
+    """Write the table into the given page; `--metrics`: that of metrics."""
+    path, notify = Path(arguments[0]), partial(click.echo, err=True)
+    if arguments[1:] == ["--metrics"]:
+        lines, begin, end = table_of_metrics(notify), ASKED_BEGIN, ASKED_END
+    else:
+        lines, begin, end = table_of(arguments[1:] or SCENES, notify), BEGIN, END
+    path.write_text(with_table(path.read_text(encoding="utf-8"), lines, begin, end), encoding="utf-8")
     return 0
 
 
-def _line(name: str, study: Study, found: Reduced, seconds: float) -> str:
+def _changed(found: Reduced) -> str:
     most = verdicts.largest(found.changes)
+    return "nothing" if most is None or most.size == 0.0 else verdicts.shown(most)
+
+
+def _line(name: str, study: Study, found: Reduced, seconds: float) -> str:
     left_out = ", ".join(row.effect.name for row in found.left_out) or "nothing"
-    changed = "nothing" if most is None or most.size == 0.0 else verdicts.shown(most)
+    changed = _changed(found)
     saving = f"{100.0 * found.saving:.0f} %" if found.left_out else "–"
     return f"| {name} | {number_of(study.base.request)} | {left_out} | {saving} | {changed} | {seconds:.0f} |"
 

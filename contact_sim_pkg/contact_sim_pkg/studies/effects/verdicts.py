@@ -12,6 +12,7 @@ decides*. What lies below `ROUNDING` is no change.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
@@ -112,6 +113,8 @@ def shown(change: Change) -> str:
     """Kind and size, as ``force 13 %``; ``nothing`` where there is none."""
     if not change.size > 0.0:
         return "nothing"
+    if math.isinf(change.size):
+        return f"leaves no {change.kind}"
     words = {"peak": "peak pressure", "area": "contact area"}
     percent = 100.0 * change.size
     return f"{words.get(change.kind, change.kind)} {percent:{'.0f' if percent >= 10.0 else '.2g'}} %"

@@ -13,6 +13,7 @@ ROLLER_REPORT = ContactReport(
             name="roller",
             types=tuple(f"contact_msgs_defs/msg/Roller{kind}" for kind in _KINDS),
             reader=f"{__name__}.series:RollerReader",
+            open_fields=("check_error", "critical_load", "critical_damping"),
         ),
     ),
     sections=f"{__name__}.section:roller_sections",

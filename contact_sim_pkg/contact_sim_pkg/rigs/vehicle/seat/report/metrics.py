@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from contact_sim_pkg.bag.texts import excitation_of_text
+from contact_sim_pkg.excitation.kinds import VibrationKind, kind_known
 from contact_sim_pkg.pressure.cushion import VALID_STRAIN
-from contact_sim_pkg.records.metric import EVENT, LIMIT, STATE, Metric
-from contact_sim_pkg.report.facts import EXCITATION_KEY
-from contact_sim_pkg.report.metrics.exposure import exposure_metrics
+from contact_sim_pkg.records.metric import EVENT, LIMIT, STATE, USUAL_RANGE, Metric
+from contact_sim_pkg.report.metrics.exposure import Exposed, exposure_metrics
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of
 from contact_sim_pkg.report.metrics.numerical import Errors, errors_of
 from contact_sim_pkg.report.rows import number
@@ -22,12 +22,15 @@ from contact_sim_pkg.report.series import FieldSeries, Recording
 from contact_sim_pkg.report.signal import confidence
 from contact_sim_pkg.report.signal.metrics import ride_metrics, seat_factor
 from contact_sim_pkg.report.signal.spectrum import transmissibility
+from contact_sim_pkg.report.signal.weighting import WK, Weighting
 from contact_sim_pkg.rigs.vehicle.seat.occupants import H_POINT
 from contact_sim_pkg.rigs.vehicle.seat.report.occupant import apparent_mass_of, occupant_signals, seat_to_head_of
 from contact_sim_pkg.rigs.vehicle.seat.report.response import peak_of, trusted_part
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals, ride_signals
+from contact_sim_pkg.run.bag_content import EXCITATION_KEY
 
 SEAT = "seat"
+FOLLOW = (".hours_to_action", ".dose_estimated")
 
 
 def seat_metrics(recording: Recording) -> list[Metric]:
@@ -35,15 +38,26 @@ def seat_metrics(recording: Recording) -> list[Metric]:
     signals = ride_signals(recording.motion)
     contact = recording.contacts.get(SEAT)
     errors = errors_of(recording)
-    found = []
-    if signals is not None:
+    shock, found = _is_shock(recording.scene), []
+    if signals is not None and shock:
+        found = shock_metrics(signals, errors.largest("motion", "motion"))
+    elif signals is not None:
         found = vibration_metrics(signals, recorded_faults(recording), errors.of_mean("motion", "motion"))
     if contact is None:
         return found
     window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
     make = Maker(SEAT, f"{SEAT}/force", window, conditions_of(recording.scene))
-    found += cushion_metrics(recording, make, errors)
-    share = 100.0 * float((contact.normal <= 0.0).mean())
+    field = recording.fields.get(SEAT)
+    found += (
+        largest_of_map(field, make, errors) if shock and field is not None else cushion_metrics(recording, make, errors)
+    )
+    lifted = contact.normal <= 0.0
+    if shock:
+        sample = 1e3 * contact.sample_period
+        lasted = make.make("off_the_seat", "time without load", sample * float(lifted.sum()), "ms", count=lifted.size,
+                           basis=EVENT, error=sample * max(1, int(np.count_nonzero(lifted[1:] & ~lifted[:-1]))))  # fmt: skip
+        return [*found, lasted]
+    share = 100.0 * float(lifted.mean())
     lifts = make.make(
         "lift_off",
         "time without load",
@@ -52,7 +66,44 @@ def seat_metrics(recording: Recording) -> list[Metric]:
         band=at_most(0.0, "contact is kept", LIMIT),
         count=contact.normal.size,
     )
-    return [*found, lifts, *occupant_metrics(recording, make.make)]
+    found += [lifts, *occupant_metrics(recording, make.make)]
+    return sorted(found, key=lambda each: each.key.endswith(FOLLOW))  # what only says A(8) anew stands behind
+
+
+def _is_shock(scene: Mapping[str, Any]) -> bool:
+    """Whether all that shakes the seat of a scene is one shock."""
+    known: VibrationKind | None = kind_known("vibration", scene.get("vibration"))
+    return known is not None and known.is_shock and scene.get("road") is None
+
+
+def shock_metrics(signals: RideSignals, error: float = math.nan) -> list[Metric]:
+    """What one shock of the floor does, however long the run goes on behind it; ``error``: numerical one of the
+    motion over its largest value.
+
+    Largest accelerations less gravity [m/s²], their ratio, and the largest running rms and the dose VDV
+    (int a_w^4 dt)^(1/4) of the seat with Wk (ISO 2631-1, 6.3).
+    """
+    floor, seat = (np.abs(each - each[0]) for each in (signals.floor, signals.seat))
+    weighted = ride_metrics(signals.seat, signals.sample_rate)
+    window = float(signals.time[0]), float(signals.time[0]) + signals.time.size / signals.sample_rate
+    make = Maker(SEAT, "bench/motion", window, basis=EVENT).make
+    count, largest = signals.time.size, (float(floor.max()), float(seat.max()))
+    over, place = error * max(largest), int(seat.argmax())
+    found = [
+        make("floor_peak", "acceleration of the floor, largest", largest[0], "m/s²", count=count, error=over,
+             remark=f"at {signals.time[int(floor.argmax())]:.3f} s"),
+        make("seat_peak", "acceleration of the seat, largest", largest[1], "m/s²", count=count, error=over,
+             remark=f"at {signals.time[place]:.3f} s"),
+    ]  # fmt: skip
+    if largest[0] > 0.0:
+        ratio = largest[1] / largest[0]
+        found.append(make("shock_ratio", "seat over floor, largest", ratio, "", count=count, error=error * ratio))
+    for key, name, value, unit in (
+        ("mtvv", "MTVV, linear 1 s", weighted.largest_running_rms, "m/s²"),
+        ("dose_of_shock", "VDV of the shock", weighted.vibration_dose, "m/s^1.75"),
+    ):
+        found.append(make(key, name, value, unit, count=count, error=error * value))
+    return found
 
 
 def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = (), error: float = math.nan) -> list[Metric]:
@@ -77,6 +128,26 @@ def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = (), error:
     dose = seat_factor(seat.vibration_dose, floor.vibration_dose)
     return [*found, make("factor_dose", "SEAT by VDV", dose, "%", quantity="seat_factor", broken=doubts, count=length,
                          error=of_rms * dose)]  # fmt: skip
+
+
+def weighted_metrics(recording: Recording, weighting: Weighting) -> list[Metric]:
+    """SEAT and exposure of the seat surface by another weighting; none without a seat."""
+    signals = ride_signals(recording.motion)
+    if signals is None:
+        return []
+    rate, length = signals.sample_rate, signals.time.size
+    floor, seat = (ride_metrics(each, rate, weighting) for each in (signals.floor, signals.seat))
+    window = float(signals.time[0]), float(signals.time[0]) + length / rate
+    make = Maker(SEAT, "bench/motion", window).make
+    doubts = (*confidence.short(length, rate), *confidence.slow(rate), *recorded_faults(recording))
+    factor = seat_factor(seat.weighted_rms, floor.weighted_rms)
+    spread = 100.0 * confidence.spread_of_ratio(seat.weighted, floor.weighted, rate)
+    vertical = weighting.name == WK.name
+    return [
+        make("factor", f"SEAT, {weighting.name}", factor, "%", broken=doubts, spread=spread, count=length,
+             remark=f"floor {floor.weighted_rms:.3g} m/s²"),
+        *exposure_metrics(make, seat, signals.seat, rate, doubts, Exposed(weighting.name, vertical=vertical, decides=vertical)),
+    ]  # fmt: skip
 
 
 def _way_to_seat(make: Callable[..., Metric], signals: RideSignals, doubts: tuple[str, ...]) -> list[Metric]:
@@ -105,7 +176,8 @@ def cushion_metrics(recording: Recording, maker: Maker, errors: Errors) -> list[
         return map_metrics(SEAT, field, maker, "cushion", errors)
     keys = ((recording.scene.get("effects") or {}).get(SEAT) or {}).get("cushion")
     deepest = 1e3 * float(contact.approach.max())
-    band = None if not keys else at_most(1e3 * VALID_STRAIN * float(keys["thickness"]), "range of the foam's law")
+    law = "range of the foam's law"
+    band = None if not keys else at_most(1e3 * VALID_STRAIN * float(keys["thickness"]), law, USUAL_RANGE)
     return [maker.make("sink", "deepest sink", deepest, "mm", band=band, count=contact.approach.size, basis=EVENT)]
 
 
@@ -166,6 +238,19 @@ def map_metrics(contact: str, field: FieldSeries, maker: Maker, kind: str, error
         maker.make(key, name, values.mean(), unit, quantity=f"{kind}_{key}", count=count, topic=topic,
                    error=errors.largest(contact, of) * float(values.max()),
                    remark=f"{number(values.min())} to {number(values.max())}")
+        for key, name, values, unit, of in rows
+    ]  # fmt: skip
+
+
+def largest_of_map(field: FieldSeries, maker: Maker, errors: Errors) -> list[Metric]:
+    """Largest pressure and area of the maps of a shock."""
+    rows = (
+        ("peak_pressure_largest", "peak pressure, largest", 1e-3 * field.peak, "kPa", "peak"),
+        ("area_largest", "loaded area, largest", 1e4 * field.area, "cm²", "area"),
+    )
+    return [
+        maker.make(key, name, values.max(), unit, count=values.size, topic=f"{SEAT}/patch", basis=EVENT,
+                   error=errors.largest(SEAT, of) * float(values.max()))
         for key, name, values, unit, of in rows
     ]  # fmt: skip
 

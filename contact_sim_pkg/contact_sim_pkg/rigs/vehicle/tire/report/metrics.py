@@ -14,6 +14,7 @@ from contact_sim_pkg.report.metrics.maker import Maker, conditions_of, near
 from contact_sim_pkg.report.metrics.numerical import Errors, errors_of, not_resolved
 from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray, Recording
 from contact_sim_pkg.report.signal.confidence import spread_of_mean, spread_of_rms
+from contact_sim_pkg.report.signal.roughness import roughness_index
 from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import AxleSeries, axle_of
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
@@ -201,6 +202,11 @@ def _along(ride: _Ride) -> Iterator[Metric]:
         yield ride.make("resistance", "force along over load", resistance, "", quantity="tire_rolling_resistance", topic=topic,
                         count=axle.time.size, error=error, broken=not_resolved(resistance, error),
                         remark=f"{axle.longitudinal.min():.4g} to {axle.longitudinal.max():.4g} N")  # fmt: skip
+    road = road_of(ride.recording)
+    index = math.nan if road is None or ride.event else roughness_index(road.distance, road.middle)
+    if road is not None and index > 0.0:
+        yield ride.make("roughness", "IRI of the road", index, "m/km", topic="road/patch", count=road.distance.size, basis=STATE,
+                        remark=f"{road.distance[-1] - road.distance[0]:.4g} m in the middle of the track")  # fmt: skip
     if shear is not None:
         pressed = np.interp(shear.time, ride.contact.time, ride.contact.normal)
         ratio = np.hypot(shear.force_x, shear.force_y) / np.maximum(pressed, 1.0)
