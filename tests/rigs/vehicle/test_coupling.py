@@ -16,6 +16,7 @@ from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.studies.whole_run import whole_run
 
 STANDING = 3335.0  # [N]
 ROADS = {
@@ -243,3 +244,10 @@ def test_a_parabola_on_a_half_space_touches_a_wall_beyond_its_radius():
 
 def test_a_wall_behind_the_end_of_the_run_is_no_wall():
     assert Simulation(resolved("tire_bump", "road={kind: step, position: 31.0, height: 0.4}", "duration=1.0"))
+
+
+def test_an_interval_of_an_odd_number_of_segments_is_no_trap():
+    """Twice its last part of 7 is not yet all of 15, though twice its first one of 8 is: on texture the steps grow to it."""
+    steps = whole_run(resolved("tire_texture", "duration=0.1"), lambda _line: None).recording.cost["coupling_steps"]
+    assert steps[0] > 2
+    assert (steps[5:] == 2).all()  # fields a block

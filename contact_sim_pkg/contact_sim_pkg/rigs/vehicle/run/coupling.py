@@ -103,6 +103,7 @@ class Coupling:
         self.bodies.reset()
         self._slope = 0.0  # of the road under the tire, at the last solution of its field
         self._proposed = float(self.model.timing.segments)  # length of the next coupling step in segments
+        self._before = 0  # segments of the one before
         self._largest = numpy.zeros(FORCES)  # so far
         self._largest[[TIRE_NORMAL, SEAT_NORMAL]] = [allowed.load for allowed in self._allowances]
         self.missed = MissedSoFar()
@@ -236,7 +237,9 @@ class Coupling:
             outcome = StepOutcome(math.inf, now, LINEAR, now, self._turns(now, step))
         # The error grows with the square of the length; a rejected step is restored and repeated.
         ratio = min(max(SAFETY / max(outcome.error, 1e-9) ** 0.5, SHRINK), GROW)
-        self._proposed = max(float(least), count * ratio)
+        # The last part of an interval may be one segment shorter than those before it, which is no reason to stay short
+        even = self._before if step.last and self._before == count + 1 else count
+        self._proposed = max(float(least), even * ratio)
         error = outcome.error
         if error <= 1.0 and self._check is not None and self._check.is_due(step, error):
             found = self._look(self._check, step, saved, outcome)
@@ -251,6 +254,7 @@ class Coupling:
             record.coupling_steps_repeated += 1
             return False
         record.coupling_steps += 1
+        self._before = count
         if self.model.coupling is not None:
             record.coupling_error = max(record.coupling_error, outcome.error * self.model.coupling.tolerance)
         self._close(step, outcome, record, SLOPE if error <= 1.0 else 1.0)

@@ -121,15 +121,21 @@ def allowed(key: str) -> tuple[float, float]:
 
 
 def standing_on_belt(inflation: Inflation, load: float) -> StandingTire:
-    """The inflated tire under a `load` [N] on a level road, on the cells of its force table.
+    """The inflated tire of a scene's section under a `load` [N], as `standing_of_body`."""
+    size = read_size(inflation.size, inflation.radius)
+    chord, width = inflation.sidewall_chord or size.sidewall_chord, inflation.belt_width or size.belt_width
+    body = tire_body({"inflation": {**inflation.model_dump(), "sidewall_chord": chord, "belt_width": width}})
+    return standing_of_body(body, load)
+
+
+def standing_of_body(body: TireBody, load: float) -> StandingTire:
+    """A tire whose contact has an extent, as the inflated one, under a `load` [N] on a level road, on the cells of its
+    force table.
 
     Stiffness: of the loads 2 % below and above. The contact's edge lies between two cells, where the
     square of the pressure, straight near an edge, comes to zero. Raises FieldError where the load
     is more than the tire carries.
     """
-    size = read_size(inflation.size, inflation.radius)
-    chord, width = inflation.sidewall_chord or size.sidewall_chord, inflation.belt_width or size.belt_width
-    body = tire_body({"inflation": {**inflation.model_dump(), "sidewall_chord": chord, "belt_width": width}})
     assert body.extent is not None
     cell_x, cell_y = body.extent[0] / ROWS, body.extent[1] / COLS
     rows, cols = ROWS + ROWS // 2, COLS + COLS // 2
