@@ -17,7 +17,7 @@ from scipy.optimize import least_squares
 
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, PressureField
-from contact_sim_pkg.rigs.vehicle.tire.body import tire_body
+from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, tire_body
 from contact_sim_pkg.rigs.vehicle.tire.force_table import COLS, ITERATIONS, ROWS, TOLERANCE, gap_over_level_road
 from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import (
     USUAL_COEFFICIENTS,
