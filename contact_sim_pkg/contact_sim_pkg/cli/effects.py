@@ -93,8 +93,13 @@ def command(
 def _write(study: Study, scene: str, path: Path, *, observers: bool, overwrite: bool) -> dict[str, dict[str, object]]:
     from contact_sim_pkg.files import new_file
     from contact_sim_pkg.studies.effects import effects_table, reduced
+    from contact_sim_pkg.studies.effects.of_metrics import MetricBase
 
     found = reduced.reduced(study, announce, observers=observers)
     with new_file(path, overwrite=overwrite) as stream:
-        stream.write(reduced.text_of(scene, (), found, study.base.request).encode())
+        stream.write(
+            reduced.text_of(
+                scene, (), found, study.base.request, of_metrics=isinstance(study.base, MetricBase)
+            ).encode()
+        )
     return {"written": effects_table.facts_of_reduced(found, path)}
