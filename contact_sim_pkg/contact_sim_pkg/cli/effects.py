@@ -77,11 +77,9 @@ def command(
         say(effects_table.answer(found))
         say()
         show_sections([*effects_table.table(found), *(effects_table.parts(found) if parts else ())])
-    written = (
-        {}
-        if write is None
-        else _write(found, scene, write, observers=not (without_observers or metrics), overwrite=overwrite)
-    )
+    written = {}
+    if write is not None:
+        written = _write(found, scene, write, observers=not (without_observers or metrics), overwrite=overwrite)
     if as_json:
         print_json(effects_table.facts_of(found) | written)
     elif written:
