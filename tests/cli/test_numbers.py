@@ -74,7 +74,7 @@ def test_a_miss_ends_with_1_and_says_by_how_much(capsys, bag, tmp_path):
         (("metrics", "no_bag"), "no_bag"),
         (("metrics", "{bag}", "--require", "none.yaml"), "none.yaml: No such file"),
         (("metrics", "{bag}", "--require", "crest 9"), "is no requirement"),
-        (("metrics", "{bag}", "--axis", "Wk"), "there is nothing to weight"),
+        (("metrics", "{bag}", "--unit", "g"), "--unit: for a bag of anybody"),
         (("export", "{bag}"), "Missing --csv, --parquet, --ros-std, --format or --wall-time"),
     ],
 )  # fmt: skip

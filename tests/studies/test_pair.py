@@ -63,3 +63,4 @@ def test_the_command_tells_the_error_of_every_metric_of_a_run(tmp_path, capsys):
     assert 0.0 < rows["tire.patch_pressure"]["error"] < 0.1 * rows["tire.patch_pressure"]["value"]
     assert rows["tire.off_the_road"]["error"] >= 1.0  # a sample of 1 ms
     assert main(["metrics", str(bag), str(bag), "--error"]) == 2
+    assert main(["metrics", str(bag), "--error", "--axis", "Wb"]) == 2  # the pair has the usual weighting

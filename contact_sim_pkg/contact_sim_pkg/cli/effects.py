@@ -77,11 +77,9 @@ def command(
         say(effects_table.answer(found))
         say()
         show_sections([*effects_table.table(found), *(effects_table.parts(found) if parts else ())])
-    written = (
-        {}
-        if write is None
-        else _write(found, scene, write, observers=not (without_observers or metrics), overwrite=overwrite)
-    )
+    written = {}
+    if write is not None:
+        written = _write(found, scene, write, observers=not (without_observers or metrics), overwrite=overwrite)
     if as_json:
         print_json(effects_table.facts_of(found) | written)
     elif written:
@@ -93,8 +91,13 @@ def command(
 def _write(study: Study, scene: str, path: Path, *, observers: bool, overwrite: bool) -> dict[str, dict[str, object]]:
     from contact_sim_pkg.files import new_file
     from contact_sim_pkg.studies.effects import effects_table, reduced
+    from contact_sim_pkg.studies.effects.of_metrics import MetricBase
 
     found = reduced.reduced(study, announce, observers=observers)
     with new_file(path, overwrite=overwrite) as stream:
-        stream.write(reduced.text_of(scene, (), found, study.base.request).encode())
+        stream.write(
+            reduced.text_of(
+                scene, (), found, study.base.request, of_metrics=isinstance(study.base, MetricBase)
+            ).encode()
+        )
     return {"written": effects_table.facts_of_reduced(found, path)}

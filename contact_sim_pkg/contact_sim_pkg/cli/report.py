@@ -8,7 +8,7 @@ import click
 
 from contact_sim_pkg.cli.output.progress import RunDisplay
 from contact_sim_pkg.cli.output.say import say
-from contact_sim_pkg.cli.output.tables import overwrite_option
+from contact_sim_pkg.cli.output.tables import overwrite_option, require_option
 from contact_sim_pkg.cli.output.working import displayed_elsewhere
 
 
@@ -20,13 +20,7 @@ from contact_sim_pkg.cli.output.working import displayed_elsewhere
     metavar="FILE",
     help="The page; else report.html in the bag, or comparison.html here for several bags.",
 )
-@click.option(
-    "--require",
-    "wanted",
-    multiple=True,
-    metavar="TEXT|FILE",
-    help="Limit of your own: 'SEAT < 60 %', or a YAML file; may be repeated.",
-)
+@require_option
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 @click.option("--across-versions", is_flag=True, help="Compare bags of different versions.")
 @overwrite_option

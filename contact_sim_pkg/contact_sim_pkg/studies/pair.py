@@ -43,5 +43,5 @@ def _with_error(metric: Metric, coarse: float, finer: float) -> Metric:
         return metric
     if metric.unit in TIMES:  # a crossing lies between two samples
         error = max(error, metric.error if math.isfinite(metric.error) else 0.0)
-    doubts = tuple(each for each in metric.broken if not each.startswith("not resolved"))
-    return metric._replace(error=error, broken=(*doubts, *not_resolved(metric.value, error)))
+    others = tuple(each for each in metric.broken if not each.startswith("not resolved"))
+    return metric._replace(error=error, broken=(*others, *not_resolved(metric.value, error)))

@@ -81,3 +81,8 @@ def test_the_threshold_of_a_map_is_a_key_of_the_scene(uneven):
     areas = [{each.key: each.value for each in all_metrics(*given)}["seat.map_area"]
              for given in ((recording,), (recording, half), (known,), (known, 1.0))]  # fmt: skip
     assert areas[1] == areas[2] < areas[0] == areas[3]
+
+
+def test_a_list_by_another_weighting_is_whole(uneven):
+    with pytest.raises(BagError, match="--all beside --axis"):
+        metrics_of_bags([uneven.path], whole=True, chosen=ForeignOptions(axis="Wb"))

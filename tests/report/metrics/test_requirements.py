@@ -59,7 +59,8 @@ def test_a_file_holds_ends_units_patterns_and_when(tmp_path):
     assert found["seat.factor"].verdict == "good"
     assert found["seat.factor"].band == Band(-math.inf, 61.5, "yours", "wanted.yaml")
     assert found["seat.sink"].verdict == "outside"
-    assert found["seat.a_w"] == METRICS[2]
+    assert found["seat.a_w"] == METRICS[2]._replace(remark=found["seat.a_w"].remark)
+    assert found["seat.a_w"].remark.endswith("wanted.yaml not required here: seat.factor is 58, not 70 to 90")
 
 
 def test_two_texts_bound_a_metric_from_both_sides():
@@ -113,3 +114,15 @@ def test_what_is_undecided_is_said_and_is_an_error_of_junit():
     assert verdict_line(rows_of(found)).startswith("UNDECIDED: SEAT 58 ± 3 % (at most 60)")
     suite = ElementTree.fromstring(junit_of("run", found))
     assert (suite.get("errors"), suite.get("failures")) == ("1", "0")
+
+
+def test_a_file_serves_several_rigs(tmp_path):
+    """A metric of another rig is not required where its `when` names that rig, and could not be judged without."""
+    file = tmp_path / "wanted.yaml"
+    file.write_text("tire.dlc: {max: 0.2, when: {tire.load: [3000, 5000]}}\n")
+    assert required(METRICS, read_requirements([str(file)])) == METRICS
+    file.write_text("tire.dlc: {max: 0.2}\n")
+    *others, absent = required(METRICS, read_requirements([str(file)]))
+    assert others == METRICS
+    assert (absent.key, absent.verdict, math.isnan(absent.value)) == ("tire.dlc", "no band", True)
+    assert exit_code([*others, absent]) == 3

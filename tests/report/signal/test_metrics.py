@@ -115,5 +115,5 @@ def test_hours_and_doses_of_a_sine_in_closed_form():
         make, ride_metrics(slow, rate, WEIGHTINGS["Wf"]), slow, rate, (), Exposed("Wf", vertical=False, decides=False)
     )}  # fmt: skip
     factor = abs(response(WEIGHTINGS["Wf"], np.array([0.2]))[0])
-    assert sick["seat.sickness"].value == pytest.approx(8.0 * factor, rel=0.03)
+    assert sick["seat.sickness"].value == pytest.approx(60.0 * factor, rel=0.03)
     assert not {"seat.a_8", "seat.dose"} & set(sick)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from contact_sim_pkg.cli.output.say import say
-from contact_sim_pkg.cli.output.tables import overwrite_option, print_json, show_rows
+from contact_sim_pkg.cli.output.tables import overwrite_option, print_json, require_option, show_rows
 from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
@@ -43,13 +43,7 @@ if TYPE_CHECKING:
     metavar="PA",
     help="Of a mat and a run: pressure above which a cell counts.",
 )
-@click.option(
-    "--require",
-    "required",
-    multiple=True,
-    metavar="TEXT|FILE",
-    help="Limit of your own: 'SEAT < 60 %', or a YAML file; may be repeated.",
-)
+@require_option
 @overwrite_option
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 def command(
@@ -58,7 +52,7 @@ def command(
     form: str | None,
     plot: Path | None,
     loaded: float,
-    required: tuple[str, ...],
+    wanted: tuple[str, ...],
     overwrite: bool,
     skip_bad: bool,
 ) -> int:
@@ -78,13 +72,13 @@ def command(
         raise click.UsageError("--junit needs --tolerances FILE: a test case is a tolerance.")
     if plot is not None:
         check_picture(plot, bags, overwrite=overwrite)
-    wanted = [] if tolerances is None else read_tolerances(tolerances)
-    requirements = read_requirements(required)
+    allowed = [] if tolerances is None else read_tolerances(tolerances)
+    requirements = read_requirements(wanted)
     runs, pair = _runs(bags, loaded, requirements, skip_bad=skip_bad, drawn=plot is not None)
-    names, sides, missed = [each.name for each in runs], side_by_side(runs), misses(runs, wanted)
+    names, sides, missed = [each.name for each in runs], side_by_side(runs), misses(runs, allowed)
     if not sides:
         raise BagError(f"{', '.join(names)} have no metrics: there is nothing to compare")
-    failed, unsure = [miss for _, found in missed for miss in found], undecided(runs, wanted)
+    failed, unsure = [miss for _, found in missed for miss in found], undecided(runs, allowed)
     warnings = [f"{each.name}: {said}" for each in runs for said in each.warnings]
     for warning in warnings:
         say(warning, err=True)
@@ -101,7 +95,7 @@ def command(
         for sentence in [] if pair is None else pair.sentences:
             say(sentence)
         show_rows(table_rows(names, sides), as_json=False)
-        _say_judgement(len(wanted), failed, unsure)
+        _say_judgement(len(allowed), failed, unsure)
     if pair is not None and plot is not None:
         _draw(pair, plot, overwrite=overwrite)
     codes = {exit_code(each.metrics) for each in runs} if requirements else {0}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from contact_sim_pkg.cli.output.say import announce, say
-from contact_sim_pkg.cli.output.tables import print_json
+from contact_sim_pkg.cli.output.tables import print_json, require_option
 
 if TYPE_CHECKING:
     from contact_sim_pkg.records.metric import Metric
@@ -43,13 +43,7 @@ if TYPE_CHECKING:
     type=click.Choice(["x", "y", "z", "-x", "-y", "-z"]),
     help="Of a bag without our topics: axis that points up; else by gravity.",
 )
-@click.option(
-    "--require",
-    "wanted",
-    multiple=True,
-    metavar="TEXT|FILE",
-    help="Limit of your own: 'SEAT < 60 %', or a YAML file; may be repeated.",
-)
+@require_option
 @click.option(
     "--error",
     "pair",
@@ -86,6 +80,10 @@ def command(
     requirements = read_requirements(wanted)
     found = metrics_of_bags(bags, whole=whole, loaded=loaded, chosen=for_foreign, skip_bad=skip_bad)
     _notes([*found.warnings, *found.notes])
+    if pair and (for_foreign is not None or loaded is not None):
+        raise click.UsageError(
+            "--error is for the usual list, --all too: leave --axis, --topic, --unit, --up and --loaded out"
+        )
     made = _with_errors(bags, found.metrics, found.warnings) if pair else found.metrics
     metrics = required(made, requirements)
     rows = rows_of(metrics)

@@ -27,6 +27,11 @@ json_option = click.option(
     "--json", "as_json", is_flag=True, help="One JSON object on standard output, and nothing else."
 )
 
+require_option = click.option(
+    "--require", "wanted", multiple=True, metavar="TEXT|FILE",
+    help="Limit of your own: 'SEAT < 60 %', or a YAML file; may be repeated.",
+)  # fmt: skip
+
 overwrite_option = click.option("--overwrite", is_flag=True, help="Replace files that exist; never an input.")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from contact_sim_pkg.records.metric import EVENT, Metric
@@ -28,6 +28,8 @@ SICKNESS = "Wf"
 """Weighting of motion sickness."""
 ACTION, LIMIT = 0.5, 1.15
 """[m/s^2] of A(8), Directive 2002/44/EC"""
+HOUR = 3600.0
+"""[s] of exposure that the dose of motion sickness is of, whatever the length of the run"""
 ESTIMATED = 1.4
 """of eVDV over a_w T^(1/4) (BS 6841, ISO 2631-1 annex B)"""
 
@@ -113,32 +115,45 @@ def exposure_metrics(
         said = f"S_d {stress:.3g} MPa; man of 82 kg, 240 days of 8 h a year from 20 to 64"
         found.append(make("spine_risk", "R, ISO 2631-5", spine_model.risk(stress), "", quantity="spine_risk", broken=doubts,
                           count=count, remark=said))  # fmt: skip
+    return [*found, *_as_doses(make, a_w, spread, axis, (doubts, peaky), count)]
+
+
+def _as_doses(
+    make: Callable[..., Metric], a_w: float, spread: float, axis: Exposed, broken: tuple[tuple[str, ...], tuple[str, ...]],
+    count: int,
+) -> Iterator[Metric]:  # fmt: skip
+    """What follows from ``a_w`` [m/s^2] and its ``spread`` alone: hours to the action value, eVDV, MSDV; ``broken``: of
+    doses, and of what a crest factor above 9 breaks too.
+    """
     if axis.decides and a_w > 0.0:
-        found.append(hours_to_action(make, axis.factor * a_w, axis.factor * spread, peaky, count))
+        yield hours_to_action(make, axis.factor * a_w, axis.factor * spread, broken[1], count)
     if axis.weighting in HEALTH:
-        estimated = ESTIMATED * axis.factor * EXPOSURE_TIME**0.25
-        found.append(make("dose_estimated", "eVDV of 8 h", estimated * a_w, "m/s^1.75", broken=doubts, count=count,
-                          spread=estimated * spread, remark="1.4 a_w T^(1/4), for crest factors below 6"))  # fmt: skip
+        factor = ESTIMATED * axis.factor * EXPOSURE_TIME**0.25
+        yield make("dose_estimated", "eVDV of 8 h", factor * a_w, "m/s^1.75", broken=broken[0], count=count,
+                   spread=factor * spread, remark="1.4 a_w T^(1/4), for crest factors below 6")  # fmt: skip
     if axis.weighting == SICKNESS:
-        sickness = a_w * math.sqrt(duration)
-        found.append(make("sickness", "MSDV of the run", sickness, "m/s^1.5", broken=doubts, count=count, basis=EVENT,
-                          remark=f"{sickness / 3.0:.3g} % of adults may vomit (ISO 2631-1, annex D)"))  # fmt: skip
-    return found
+        factor = math.sqrt(HOUR)
+        yield make("sickness", "MSDV of an hour", factor * a_w, "m/s^1.5", broken=broken[0], count=count,
+                   spread=factor * spread,
+                   remark=f"{factor * a_w / 3.0:.3g} % of adults may vomit (ISO 2631-1, annex D)")  # fmt: skip
+
+
+def _hours(limit: float, a_w: float) -> float:
+    """Time [h] after which ``a_w`` is an A(8) of ``limit``, both in [m/s^2]: 8 h (limit / a_w)^2."""
+    return 8.0 * (limit / a_w) ** 2
 
 
 def _reached(a_w: float) -> str:
-    return f"; action value after {8.0 * (ACTION / a_w) ** 2:.3g} h" if a_w > 0.0 else ""
+    return f"; action value after {_hours(ACTION, a_w):.3g} h" if a_w > 0.0 else ""
 
 
 def hours_to_action(
-    make: Callable[..., Metric], a_w: float, spread: float, doubts: tuple[str, ...], count: int
+    make: Callable[..., Metric], a_w: float, spread: float, broken: tuple[str, ...], count: int
 ) -> Metric:
-    """Time [h] of a vibration ``a_w`` [m/s^2], its factor included, after which A(8) is the action value:
-    8 h (0.5 / a_w)^2.
-    """
-    hours = 8.0 * (ACTION / a_w) ** 2
-    return make("hours_to_action", "time to the action value", hours, "h", broken=doubts, count=count,
-                spread=2.0 * hours * spread / a_w, remark=f"limit value after {8.0 * (LIMIT / a_w) ** 2:.3g} h")  # fmt: skip
+    """Time [h] of a vibration ``a_w`` [m/s^2], its factor included, after which A(8) is the action value."""
+    hours = _hours(ACTION, a_w)
+    return make("hours_to_action", "time to the action value", hours, "h", broken=broken, count=count,
+                spread=2.0 * hours * spread / a_w, remark=f"limit value after {_hours(LIMIT, a_w):.3g} h")  # fmt: skip
 
 
 def _beside(mtvv: float, a_w: float) -> str:

@@ -70,6 +70,10 @@ def metrics_of_bags(
             if loaded is not None and not recording.fields:
                 raise BagError(f"--loaded is for pressure maps, {bag.path} has none: leave it out")
             if chosen is not None:
+                if whole or loaded is not None:
+                    raise BagError(
+                        f"{'--all' if loaded is None else '--loaded'} beside --axis: its list is whole already"
+                    )
                 lists.append(weighted_metrics(recording, chosen))
             else:
                 lists.append(all_metrics(recording, loaded) if whole or loaded is not None else metrics_of(recording))

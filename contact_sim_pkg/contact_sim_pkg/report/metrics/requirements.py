@@ -40,6 +40,8 @@ class Requirement(NamedTuple):
     """metric -> lowest and highest value of the runs that this is required of; empty: of all"""
     source: str
     """file or text that it stands in"""
+    of_file: bool = False
+    """a file may serve runs of several rigs, so not each has its metric"""
 
     @property
     def band(self) -> Band:
@@ -83,7 +85,7 @@ def _of_line(path: Path, key: str, values: object) -> Requirement:
         raise BagError(f"{where}.when is {when!r:.60}; write `when: {{seat.a_w: [0.2, 1.0]}}`")
     ranges = {str(name): (_finite(ends[0], where), _finite(ends[1], where)) for name, ends in when.items()}
     unit = values.get("unit")
-    return Requirement(key, low, high, None if unit is None else str(unit), ranges, path.name)
+    return Requirement(key, low, high, None if unit is None else str(unit), ranges, path.name, of_file=True)
 
 
 def _ends(values: dict[str, Any], where: str, lowest: str, highest: str) -> tuple[float, float]:
@@ -107,27 +109,48 @@ def _finite(value: object, where: str) -> float:
 def required(metrics: Sequence[Metric], requirements: Sequence[Requirement]) -> list[Metric]:
     """The metrics, those that something is required of judged by that alone.
 
-    A metric whose spread and numerical error reach over the limit is undecided.
+    A metric whose spread and numerical error reach over the limit is undecided. One that a file requires and the run
+    does not have stands behind the others without a value, unless it is required of other runs only.
 
     Raises:
-        BagError: a requirement is of a metric that the run does not have, or in another unit.
+        BagError: a text requires a metric that the run does not have, or a requirement is in another unit.
     """
     found = list(metrics)
     for each in requirements:
-        places = places_of(metrics, each.metric)
-        applies = all(
-            low <= metrics[place].value <= high
-            for name, (low, high) in each.when.items() for place in places_of(metrics, name)
-        )  # fmt: skip
+        outside = _not_of_this_run(metrics, each)
+        try:
+            places = places_of(metrics, each.metric)
+        except BagError:
+            if not each.of_file:
+                raise
+            if not outside:
+                found.append(Metric(each.metric, each.metric, math.nan, each.unit or "", NO_BAND, each.band,
+                                    remark="yours; the run has no such metric"))  # fmt: skip
+            continue
         for place in places:
             metric = metrics[place]
             if each.unit is not None and each.unit not in (metric.unit, metric.unit.replace("²", "^2")):
                 raise BagError(
                     f"{each.source}: {each.metric} is required in {each.unit}, the metric is in {metric.unit or '1'}"
                 )
-            if applies:
+            if outside:
+                said = "; ".join(filter(None, (found[place].remark, f"{each.source} not required here: {outside}")))
+                found[place] = found[place]._replace(remark=said)
+            else:
                 found[place] = _judged(found[place], each)
     return found
+
+
+def _not_of_this_run(metrics: Sequence[Metric], requirement: Requirement) -> str:
+    """Why a requirement is not of the run that has the ``metrics``; empty where it is."""
+    for name, (low, high) in requirement.when.items():
+        try:
+            values = [metrics[place].value for place in places_of(metrics, name)]
+        except BagError:
+            return f"the run has no {name}"
+        if not all(low <= value <= high for value in values):
+            return f"{name} is {', '.join(f'{value:.4g}' for value in values)}, not {low:g} to {high:g}"
+    return ""
 
 
 def places_of(metrics: Sequence[Metric], named: str, asked: str = "requirement of") -> list[int]:

@@ -95,11 +95,14 @@ def all_together(scene: ResolvedScene) -> ResolvedScene:
     return scene
 
 
-def text_of(name: str, values: Sequence[str], found: Reduced, request: float) -> str:
-    """The scene as YAML: the keys that ``name`` gives, with the effects that are left."""
+def text_of(name: str, values: Sequence[str], found: Reduced, request: float, *, of_metrics: bool = False) -> str:
+    """The scene as YAML: the keys that ``name`` gives, with the effects that are left. One that has only metrics in
+    common with the full scene, ``of_metrics``, expects no regime: it may lack what shows that."""
     scene = load_scene(name, [set_value(value) for value in values])
     data: dict[str, Any] = scene.model_dump(exclude_unset=True, exclude_none=True)
     data.pop("name", None)  # that of the file
+    if of_metrics:
+        data.pop("expect", None)
     gone: list[Effect] = []
     for contact in rigs()[scene.rig].contacts:
         given = data["effects"].get(contact.name) or {}

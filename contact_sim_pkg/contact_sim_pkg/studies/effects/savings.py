@@ -76,7 +76,7 @@ def table_of_metrics(notify: Callable[[str], None]) -> list[str]:
         study = study_of(load_resolved(name, *values), notify, off=False, metrics=metrics)
         found = reduced(study, notify, observers=False)
         shown = " ".join((f"`{name}`", *(f"`{each}`" for each in values)))
-        left_out = ", ".join(row.effect.name for row in found.left_out) or "nothing"
+        left_out = ", ".join(f"{row.contact.name} {row.effect.name}" for row in found.left_out) or "nothing"
         lines.append(
             f"| {shown} | {', '.join(metrics)} | {left_out} | {study.cost:.3g} | {found.cost:.3g} | "
             f"{study.cost / found.cost:.2g} | {_changed(found)} |"

@@ -123,8 +123,15 @@ def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = (), error:
              error=of_rms * factor, remark=f"floor {floor.weighted_rms:.3g} m/s²"),
     ]  # fmt: skip
     found += _way_to_seat(make, signals, doubts)
-    found += [each if each.key.endswith((".crest", ".spine_risk")) else each._replace(error=of_rms * each.value)
-              for each in exposure_metrics(make, seat, signals.seat, rate, doubts)]  # fmt: skip
+    for each in exposure_metrics(make, seat, signals.seat, rate, doubts):
+        power = (
+            0.0
+            if each.key.endswith((".crest", ".spine_risk"))
+            else 2.0
+            if each.key.endswith(".hours_to_action")
+            else 1.0
+        )
+        found.append(each._replace(error=power * of_rms * each.value) if power else each)  # fmt: skip
     dose = seat_factor(seat.vibration_dose, floor.vibration_dose)
     return [*found, make("factor_dose", "SEAT by VDV", dose, "%", quantity="seat_factor", broken=doubts, count=length,
                          error=of_rms * dose)]  # fmt: skip
@@ -139,14 +146,14 @@ def weighted_metrics(recording: Recording, weighting: Weighting) -> list[Metric]
     floor, seat = (ride_metrics(each, rate, weighting) for each in (signals.floor, signals.seat))
     window = float(signals.time[0]), float(signals.time[0]) + length / rate
     make = Maker(SEAT, "bench/motion", window).make
-    doubts = (*confidence.short(length, rate), *confidence.slow(rate), *recorded_faults(recording))
+    broken = (*confidence.short(length, rate), *confidence.slow(rate), *recorded_faults(recording))
     factor = seat_factor(seat.weighted_rms, floor.weighted_rms)
     spread = 100.0 * confidence.spread_of_ratio(seat.weighted, floor.weighted, rate)
     vertical = weighting.name == WK.name
     return [
-        make("factor", f"SEAT, {weighting.name}", factor, "%", broken=doubts, spread=spread, count=length,
+        make("factor", f"SEAT, {weighting.name}", factor, "%", broken=broken, spread=spread, count=length,
              remark=f"floor {floor.weighted_rms:.3g} m/s²"),
-        *exposure_metrics(make, seat, signals.seat, rate, doubts, Exposed(weighting.name, vertical=vertical, decides=vertical)),
+        *exposure_metrics(make, seat, signals.seat, rate, broken, Exposed(weighting.name, vertical=vertical, decides=vertical)),
     ]  # fmt: skip
 
 
