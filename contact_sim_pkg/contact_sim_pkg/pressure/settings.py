@@ -35,6 +35,7 @@ class InflatedBelt(NamedTuple):
     bending: float  # [N m^2]
     ring_compliance: float  # [m/N] of the rigid ring against the rim; 0 where that is a body of its own
     arc: SidewallArc | None = None  # softens the foundation as the belt comes down; None: linear
+    rubber: float = 0.0  # [N/m^2] part of the foundation that has the memory of rubber
 
 
 class FieldSettings(NamedTuple):

@@ -41,6 +41,7 @@ from contact_sim_pkg.rigs.vehicle.tire.model import (
     Tread,
     build_tire,
 )
+from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss
 from contact_sim_pkg.run.contact_laws import Cushion, elastic_law, friction, hysteresis, normal_loss
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
@@ -69,6 +70,7 @@ class Model:
     tire_field: FieldGrids | None
     tread: Tread | None
     rolling_friction: RollingFriction | None
+    rolling_loss: RollingLoss | None
     asperities: Asperities | None
     seat_field: FieldGrids | None
     seat_shape: SeatShape | None
@@ -132,6 +134,7 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
         tire_field=tire_field,
         tread=None if tire is None else tire.tread,
         rolling_friction=None if tire is None else tire.rolling_friction,
+        rolling_loss=None if tire is None else tire.rolling_loss,
         asperities=None if tire is None else tire.asperities,
         seat_field=seat_field,
         seat_shape=shape,

@@ -50,7 +50,8 @@ from contact_sim_pkg.compiled.guards import require, require_positive
 from contact_sim_pkg.pressure.settings import InflatedBelt, SidewallArc
 
 __all__ = [
-    "Softening", "arc_force", "belt_share", "inflated_influence", "make_belt", "membrane_stiffness", "ring_stiffness",
+    "Softening", "arc_force", "belt_share", "inflated_influence", "make_belt", "membrane_stiffness", "ring_modes",
+    "ring_stiffness", "rubber_share", "stiffened",
 ]  # fmt: skip
 
 Field = NDArray[numpy.float64]
@@ -69,6 +70,11 @@ after a pass that changed no less than the one before, and the least of it.
 STRAIGHTER, CLOSED = 0.7, 2.4  # ends of that table: of phi, and [rad]; the belt is near the rim
 
 NOMINAL_PRESSURE = 220e3  # [Pa]
+OF_RUBBER = 0.5
+"""Share of the structural stiffness k_0 that has the memory of rubber, the rest is cord; fitted to the
+rolling resistance over load and inflation.
+"""
+
 OF_STRUCTURE = 0.25
 """Share of the rigid ring's stiffness at the nominal pressure that is there without inflation; a
 choice.
@@ -115,17 +121,42 @@ def make_belt(
     return InflatedBelt(
         radius, share * pressure * width * radius, structure + membrane_stiffness(half_angle) * pressure, tangential,
         bending, 0.0 if ring_is_body else 1.0 / ring, SidewallArc(pressure, half_angle, chord, 1.0 / ring),
+        OF_RUBBER * structure,
     )  # fmt: skip
 
 
 def stiffened(belt: InflatedBelt, factor: float) -> InflatedBelt:
-    """The belt with all but the rigid ring stiffer by a ``factor``: its displacement is divided by
-    it.
+    """The belt with its rubber, bending and a part of the sidewalls, stiffer by a ``factor``; tension and the rest of
+    the foundation are the inflation's.
     """
+    rubber = factor * belt.rubber
     return belt._replace(
-        tension=factor * belt.tension, foundation=factor * belt.foundation, tangential=factor * belt.tangential,
-        bending=factor * belt.bending,
-    )  # fmt: skip
+        bending=factor * belt.bending, rubber=rubber, foundation=belt.foundation + rubber - belt.rubber
+    )
+
+
+def rubber_share(belt: InflatedBelt, stiffer: float, rows: int, cell_x: float) -> Field:
+    """What a unit curve imposed on the rubber alone is of the belt, i cells of ``cell_x`` [m] away from it, [rows] [1]:
+    ``V_n / (D_n + S V_n)`` of every mode n, V_n the part of D_n of the rubber, S how much ``stiffer`` it is, > 0.
+
+    Taken as ``[1 - D_n / (D_n + S V_n)] / S``: 1 is the curve where it stands, the rest a sum that converges.
+    """
+    n = numpy.arange(MODES + 1, dtype=numpy.float64)
+    rigidity, rubber = ring_modes(belt, numpy.maximum(n, 2.0))
+    rigidity[:2], rubber[:2] = 1.0, 0.0  # translations
+    weight = rigidity / (rigidity + stiffer * rubber) * numpy.sinc(0.5 * n * cell_x / belt.radius / math.pi)
+    weight *= cell_x / (math.pi * belt.radius)
+    weight[0] *= 0.5
+    share = -numpy.cos(numpy.outer(numpy.arange(rows) * cell_x / belt.radius, n)) @ weight
+    share[0] += 1.0
+    return numpy.asarray(share / stiffer)
+
+
+def ring_modes(belt: InflatedBelt, n: Field) -> tuple[Field, Field]:
+    """Rigidity D_n and what of it is rubber, V_n [N/m^2], of the modes ``n`` >= 2 of the ring."""
+    bends = belt.bending * (n**2 - 1.0) ** 2 / belt.radius**4
+    rigidity = belt.foundation + belt.tangential / n**2 + belt.tension * (n**2 - 1.0) / belt.radius**2 + bends
+    return rigidity, belt.rubber + bends
 
 
 def inflated_influence(
@@ -138,12 +169,8 @@ def inflated_influence(
     the translation of the rigid ring. cell_x, cell_y: size of a cell [m].
     """
     n = numpy.arange(2, MODES + 1, dtype=numpy.float64)
-    rigidity = (
-        belt.foundation + belt.tangential / n**2 + belt.tension * (n**2 - 1.0) / belt.radius**2
-        + belt.bending * (n**2 - 1.0) ** 2 / belt.radius**4
-    )  # fmt: skip
     half = 0.5 * n * cell_x / belt.radius
-    weight = numpy.sin(half) / half / rigidity / (math.pi * belt.radius)
+    weight = numpy.sin(half) / half / ring_modes(belt, n)[0] / (math.pi * belt.radius)
     along = numpy.cos(numpy.outer(numpy.arange(rows) * cell_x / belt.radius, n)) @ weight
     return numpy.repeat(((along + belt.ring_compliance) * cell_x * cell_y)[:, None], cols, axis=1)
 

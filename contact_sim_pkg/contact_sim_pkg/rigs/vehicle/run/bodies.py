@@ -41,6 +41,11 @@ class CouplingStep(NamedTuple):
         """In [s]."""
         return self.segments * self.segment_length
 
+    @property
+    def speed(self) -> float:
+        """Mean one of the wheel, forward [m/s]."""
+        return float(self.drive.travel[-1] - self.drive.travel[0]) / self.duration
+
 
 class Saved(NamedTuple):
     """Everything that a coupling step changes."""

@@ -178,10 +178,19 @@ class Coupling:
             way = numpy.gradient(drive.travel)[at]
             slopes[:] = 0.0
             numpy.divide(numpy.gradient(drive.smooth)[at], way, out=slopes, where=way != 0.0)
+        else:
+            end = self.tire.effective_slope()
+            lay_slopes(self.bodies.sampled[2], step.row, step.behind_sample, every, step.segments, self._slope, end)
+            self._slope = end
+        loss = self.model.rolling_loss
+        if loss is None or self.shear is not None:  # there it turns the wheel
             return
-        end = self.tire.effective_slope()
-        lay_slopes(self.bodies.sampled[2], step.row, step.behind_sample, every, step.segments, self._slope, end)
-        self._slope = end
+        count = len(range(-step.behind_sample % every, step.segments, every))
+        rows = self.bodies.sampled[2][step.row : step.row + count]
+        load = rows[:, TIRE_NORMAL]
+        rows[:, TIRE_SLOPE] += numpy.divide(
+            loss.along(load, step.speed), load, out=numpy.zeros(count), where=load > 0.0
+        )
 
     def _roll(self, step: CouplingStep, outcome: StepOutcome, approach: float) -> None:
         """Roll bristles and belt on to the field at the end of a coupling step, at an ``approach`` [m];
@@ -198,11 +207,18 @@ class Coupling:
         every = self.model.timing.sample_every
         tire_step = TireStep(
             step.start, step.segment_length, step.segments, float(step.drive.travel[-1]), self.tire.slope_force(load),
-            self.tire.rolling_force(), self.bodies.axle_deflection(approach), every, step.behind_sample,
+            self._resistance(load, step.speed), self.bodies.axle_deflection(approach), every, step.behind_sample,
         )  # fmt: skip
         samples = self.shear.roll(tire_step, pressure, (found.origin_x, found.origin_y))
         count = len(range(-step.behind_sample % every, step.segments, every))
         self.bodies.sampled[2][step.row : step.row + count, TIRE_SHEAR:] = samples[:count]
+
+    def _resistance(self, load: float, speed: float) -> float:
+        """Moment of rolling resistance over the radius [N] under a ``load`` [N] at a ``speed`` [m/s]: of the field's
+        memory, or of the sum that stands for it.
+        """
+        loss = self.model.rolling_loss
+        return self.tire.rolling_force() if loss is None else float(loss.along(numpy.array(load), speed))
 
     def _count(self, whole: BlockDrive, first: int, left: int) -> int:
         """Segments of the next coupling step from segment ``first`` on, at most ``left``."""

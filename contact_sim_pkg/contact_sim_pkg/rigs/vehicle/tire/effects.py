@@ -107,6 +107,10 @@ TIRE_EFFECTS = (
         source="Tire/Road Contact", needs=("contact_field",), feeds=("patch", "force", "wrench"),
     ),
     Effect(
+        name="rolling_loss", section=f"{_SCHEMA}:RollingLossSection", help="rolling resistance under an elastic field",
+        source="Johnson, Contact Mechanics, 9.5", needs=("inflation",), excludes=("tread_viscoelasticity",), feeds=("wrench",),
+    ),
+    Effect(
         name="brush", section=f"{_SCHEMA}:BrushSection", help="brush friction of a rolling tire, stick and slip of each cell",
         source="Pacejka, Tire and Vehicle Dynamics, 3", needs=("contact_field",), publishes="shear",
         feeds=("shear", "force", "wrench"), inputs=("slip",), called_for=_brush, not_below={"force": 1.5e-2},

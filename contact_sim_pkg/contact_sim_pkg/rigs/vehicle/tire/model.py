@@ -29,6 +29,7 @@ from contact_sim_pkg.rigs.vehicle.tire.footprint import hertz_weights
 from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, gap_over_level_road, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load, tire_lattice
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, LoadFriction, Sidewalls, TreadViscoelasticity, WheelSpin
+from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss, rolling_loss
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import stiffening
 from contact_sim_pkg.run.contact_laws import normal_loss
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -55,7 +56,7 @@ class Tread:
 
     viscoelasticity: TreadViscoelasticity
     relaxed: TireBody  # at long times
-    belt: TreadViscoelasticity | None  # memory of an inflated belt; None: elastic
+    belt: TreadViscoelasticity | None  # memory of an inflated belt's rubber; None: elastic
     step: float  # [s] from one solution of the field to the next
 
 
@@ -126,6 +127,7 @@ class TireParts:
     field: FieldGrids | None
     tread: Tread | None
     rolling_friction: RollingFriction | None
+    rolling_loss: RollingLoss | None
     asperities: Asperities | None
 
 
@@ -157,6 +159,7 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None, solver: t
         field=field,
         tread=tread,
         rolling_friction=_rolling_friction(scene, deflection, body.form.radius_rolling, geometry),
+        rolling_loss=_rolling_loss(scene, body),
         asperities=asperities,
     )
 
@@ -199,13 +202,25 @@ def _tread(scene: ResolvedScene, body: TireBody, geometry: TireGeometry) -> Trea
     memory = scene.effect("tire", schema.TreadViscoelasticitySection)
     if memory is None:
         return None
-    ratios, times = numpy.array(given(memory.branches), dtype=numpy.float64).reshape(-1, 2).T.copy()
+    rubber = _rubber(memory)
     timing = coupled_timing(scene, True, geometry.footprint_length)
     step = uniform_segments(scene, geometry.footprint_length, timing) * timing.segment_length
     belt = None
-    if isinstance(body.belt, InflatedBelt) and memory.belt > 0.0:
-        belt = TreadViscoelasticity(memory.belt * memory.retardation_time, memory.belt * ratios, times)
-    return Tread(TreadViscoelasticity(memory.retardation_time, ratios, times), body, belt, step)
+    if isinstance(body.belt, InflatedBelt) and memory.belt > 0.0 and body.belt.bending + body.belt.rubber > 0.0:
+        belt = rubber._replace(
+            retardation_time=memory.belt * rubber.retardation_time, ratios=memory.belt * rubber.ratios
+        )
+    return Tread(rubber, body, belt, step)
+
+
+def _rubber(memory: schema.TreadViscoelasticitySection | schema.RollingLossSection) -> TreadViscoelasticity:
+    ratios, times = numpy.array(given(memory.branches), dtype=numpy.float64).reshape(-1, 2).T.copy()
+    return TreadViscoelasticity(memory.retardation_time, ratios, times)
+
+
+def _rolling_loss(scene: ResolvedScene, body: TireBody) -> RollingLoss | None:
+    memory = scene.effect("tire", schema.RollingLossSection)
+    return None if memory is None else rolling_loss(body, _rubber(memory), memory.belt)
 
 
 def _at_once(body: TireBody, tread: Tread) -> TireBody:

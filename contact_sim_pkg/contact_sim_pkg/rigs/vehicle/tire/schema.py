@@ -19,8 +19,12 @@ if TYPE_CHECKING:
 RING_DAMPING = 0.045
 """Damping ratio of the belt on its sidewalls."""
 
-BELT_MEMORY = 0.2
-"""Of the tread's: inflation stores without loss, rubber and cord do not."""
+TREAD_MEMORY, FALL, BELT_MEMORY = 0.121, 0.28, 3.8
+"""Branches of a tread: modulus of that of 1 ms over the long-time modulus, the power with which it falls
+with the relaxation time; memory of the rubber in belt and sidewalls over that of the tread (fitted to rolling resistance).
+"""
+
+RELAXATION_TIMES = (0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001)  # [s]
 
 Branch: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
 TorquePoint: TypeAlias = Annotated[list[float], Field(min_length=3, max_length=3)]
@@ -176,31 +180,42 @@ class Envelopment(Section):
     )
 
 
-class TreadViscoelasticitySection(Section):
-    """Memory of the tread rubber, and of an inflated belt with its sidewalls: a Kelvin-Voigt element
-    and Maxwell branches beside the modulus at long times. The tire's rolling resistance.
-    """
+class _Rubber(Section):
+    """Memory of the tread rubber, and of that in belt and sidewalls of an inflated tire."""
 
     retardation_time: float = number(
         0.0, 10.0, "s", "viscosity over the long-time modulus (Kelvin-Voigt); 0: none", default=0.0
     )
     branches: list[Branch] | None = numbers(
         "",
-        "Maxwell branches: [modulus over the long-time modulus, relaxation time in s] each; by default 0.29 at 0.1, "
-        "0.01 and 0.001 s with inflation (a loss factor of about 0.15), 0.15 with normal_elastic",
+        "Maxwell branches: [modulus over the long-time modulus, relaxation time in s] each; by default six from 30 to "
+        "0.1 ms with inflation, 0.121 at 1 ms (a loss factor of about 0.1), three of 0.15 with normal_elastic",
         "0 to 8 pairs [ratio from 0 to 100, time from 1e-6 to 1e4 s]",
         default=None,
         shortest=0,
         longest=8,
     )
     belt: float = number(
-        0.0, 10.0, "", "the same of an inflated belt, over that of the tread; fitted to the rolling resistance",
+        0.0, 10.0, "", "the same of belt and sidewalls of an inflated tire, over that of the tread; fitted to the rolling resistance",
         default=BELT_MEMORY,
     )  # fmt: skip
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
-        ratio = 0.15 if scene.effect("tire", Inflation) is None else 0.29
-        return {"branches": [[ratio, 0.1], [ratio, 0.01], [ratio, 0.001]]}
+        if scene.effect("tire", Inflation) is None:
+            return {"branches": [[0.15, time] for time in (0.1, 0.01, 0.001)]}
+        return {"branches": [[round(TREAD_MEMORY * (1e-3 / time) ** FALL, 4), time] for time in RELAXATION_TIMES]}
+
+
+class TreadViscoelasticitySection(_Rubber):
+    """Memory of the tread rubber, and of that in belt and sidewalls of an inflated tire: a Kelvin-Voigt
+    element and Maxwell branches beside the modulus at long times. The tire's rolling resistance.
+    """
+
+
+class RollingLossSection(_Rubber):
+    """Rolling resistance of an inflated tire by the same memory, as a sum over the waves of its standing
+    footprint: the pressure field stays elastic, or there is none.
+    """
 
 
 class BrushSection(Section):

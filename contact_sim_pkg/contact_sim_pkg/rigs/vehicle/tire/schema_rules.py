@@ -10,6 +10,7 @@ from contact_sim_pkg.rigs.vehicle.tire.schema import (
     BrushSection,
     Inflation,
     RigidRingSection,
+    RollingLossSection,
     SidewallComplianceSection,
     TireSection,
     TreadViscoelasticitySection,
@@ -105,13 +106,14 @@ def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
         )  # fmt: skip
     yield from _belt_breaches(scene, f"{where}.sidewall_compliance")
     # The schema bounds the number of branches, not their values.
-    tread = scene.effect("tire", TreadViscoelasticitySection)
-    for index, (ratio, time) in enumerate(() if tread is None else tread.branches or ()):
-        place = f"{where}.tread_viscoelasticity.branches.{index}"
-        if not 0.0 <= ratio <= 100.0:
-            yield Breach(f"{place}.0", f"{show(ratio)} is outside 0 to 100")
-        if not 1e-6 <= time <= 1e4:
-            yield Breach(f"{place}.1", f"{show(time)} s is outside 1e-06 to 10000 s")
+    for name, section in (("tread_viscoelasticity", TreadViscoelasticitySection), ("rolling_loss", RollingLossSection)):
+        rubber = scene.effect("tire", section)
+        for index, (ratio, time) in enumerate(() if rubber is None else rubber.branches or ()):
+            place = f"{where}.{name}.branches.{index}"
+            if not 0.0 <= ratio <= 100.0:
+                yield Breach(f"{place}.0", f"{show(ratio)} is outside 0 to 100")
+            if not 1e-6 <= time <= 1e4:
+                yield Breach(f"{place}.1", f"{show(time)} s is outside 1e-06 to 10000 s")
 
 
 def _belt_breaches(scene: Scene, where: str) -> Iterator[Breach]:

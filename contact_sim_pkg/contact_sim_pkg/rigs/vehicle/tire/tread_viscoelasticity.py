@@ -17,8 +17,17 @@ an elastic contact with the modulus raised by s, and the gap raised by g. The co
 shrink and move. Material points of a rolling tread lie still against the road, so u and q are
 carried on the road's lattice; rows that enter are taken to be as the row beside them.
 
-The belt of an inflated tire yields with a memory of the same times: its displacement w(x) has its
-own s and g, and u is the sum of both. Both together are the rolling resistance.
+An inflated tire loses in the rubber of belt and sidewalls, not in what the inflation holds. Of the mode n
+of the ring (`inflated_belt.py`) only V_n has the memory:
+
+    D_n w + V_n [T w' + sum q_k] = q,    V_n = k_0 / 2 + B (n^2 - 1)^2 / R^4,
+
+so that over a step, with S = s - 1 of its own branches, the ring is stiffer by S V_n, and
+
+    w = q / (D_n + S V_n) + g,    g = V_n / (D_n + S V_n) [S w_before - sum a_k q_k].
+
+u is the sum of both. Both together are the rolling resistance: it rises with the speed and falls with
+the inflation.
 
 Sources: Lee and Radok (1960), J. Appl. Mech. 27, 438; Johnson, Contact Mechanics, 6.5; Taylor,
 Pister and Goudreau (1970), Int. J. Num. Meth. Eng. 2, 45 (exponential update).
@@ -33,7 +42,7 @@ from scipy.linalg import toeplitz
 from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.pressure.field.halfspace import displacement, make_buffers, make_half_space
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
-from contact_sim_pkg.rigs.vehicle.field.inflated_belt import inflated_influence
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import inflated_influence, rubber_share, stiffened
 from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
 
 __all__ = ["TreadState", "stiffening"]
@@ -81,9 +90,8 @@ class _Memory:
             shift_rows(field, cells)
         self._update_gap()
 
-    def store(self, relaxed: Field) -> None:
-        """Store the pressure that would displace the surface by ``relaxed`` [m] at long times."""
-        pressed = relaxed / self._stiffening
+    def store(self, pressed: Field) -> None:
+        """Store the pressure that displaces the surface by ``pressed`` [m] beside the gap."""
         update_branches(pressed, self.gap, self._weights, self._decay, self._displacement, self._branches)
         self._update_gap()
 
@@ -91,6 +99,19 @@ class _Memory:
         viscoelastic_gap(
             self._displacement, self._branches, self._viscous, self._weights, self._decay, self.gap
         )  # fmt: skip
+
+
+class _BeltMemory(_Memory):
+    """The same of a belt [rows, 1], of whose rigidity only the rubber has it."""
+
+    def __init__(self, tread: TreadViscoelasticity, step: float, share: Field) -> None:
+        """``share`` [rows, rows]: `rubber_share` of the belt."""
+        super().__init__(tread, step, (len(share), 1))
+        self._share = self._stiffening * share
+
+    def _update_gap(self) -> None:
+        super()._update_gap()
+        self.gap = self._share @ self.gap
 
 
 class TreadState:
@@ -111,14 +132,16 @@ class TreadState:
         shape = (settings.rows, settings.cols)
         self._relaxed = make_half_space(*shape, settings.cell_x, settings.cell_y, relaxed)
         self._buffers = make_buffers(self._relaxed)
-        self._tread = _Memory(tread, step, shape)
-        self._belt = None if belt is None else _Memory(belt[1], step, (settings.rows, 1))
-        self._along: Field = numpy.zeros((0, 0))
-        if belt is not None:  # the ring's translation has no memory
-            column = inflated_influence(belt[0]._replace(ring_compliance=0.0), settings.rows, 1, settings.cell_x, 1.0)[
-                :, 0
-            ]
-            self._along = toeplitz(column)
+        self._tread, self._stiffening = _Memory(tread, step, shape), stiffening(tread, step)
+        self._belt: _BeltMemory | None = None
+        self._along: Field = numpy.zeros((2, 0, 0))  # of the belt at long times, and within a step
+        if belt is not None:
+            ring, memory = belt[0]._replace(ring_compliance=0.0), belt[1]  # its translation has no memory
+            at_once, cells = stiffened(ring, stiffening(memory, step)), (settings.rows, settings.cell_x)
+            self._along = numpy.array([
+                toeplitz(inflated_influence(each, settings.rows, 1, settings.cell_x, 1.0)[:, 0]) for each in (ring, at_once)
+            ])  # fmt: skip
+            self._belt = _BeltMemory(memory, step, toeplitz(rubber_share(ring, stiffening(memory, step) - 1.0, *cells)))
         self._row, self._cell_y = 0, settings.cell_y
         self._displaced: Field = numpy.zeros(shape)
         self.gap: Field = numpy.zeros(shape)  # [m] to be added to the gap at the present instant
@@ -143,7 +166,7 @@ class TreadState:
         displacement(self._relaxed, self._buffers, pressure, self._displaced)
         self._tread.settle(self._displaced)
         if self._belt is not None:
-            self._belt.settle(self._bent(pressure, beside))
+            self._belt.settle(self._bent(self._along[0], pressure, beside))
         self._add_up()
 
     def move_to(self, row: int) -> None:
@@ -166,15 +189,15 @@ class TreadState:
         [N/m] on the belt.
         """
         displacement(self._relaxed, self._buffers, pressure, self._displaced)
-        self._tread.store(self._displaced)
+        self._tread.store(self._displaced / self._stiffening)
         if self._belt is not None:
-            self._belt.store(self._bent(pressure, beside))
+            self._belt.store(self._bent(self._along[1], pressure, beside))
         self._add_up()
 
-    def _bent(self, pressure: Field, beside: Field | None) -> Field:
-        """Displacement of the belt at long times [rows, 1] [m]."""
+    def _bent(self, along: Field, pressure: Field, beside: Field | None) -> Field:
+        """Displacement ``along`` of the belt [rows, 1] [m] under its loads."""
         line = self._cell_y * pressure.sum(axis=1)
-        return numpy.asarray(self._along @ (line if beside is None else line + beside))[:, None]
+        return numpy.asarray(along @ (line if beside is None else line + beside))[:, None]
 
     def _add_up(self) -> None:
         self.gap[:] = self._tread.gap
