@@ -47,7 +47,7 @@ def test_the_part_of_a_scene_is_one_that_loads(tmp_path):
     (tmp_path / "own.yaml").write_text(SCENE + part + "    contact_field: {}\n")
     inflation = load_scene(tmp_path / "own.yaml").effect("tire", Inflation)
     assert (inflation.size, inflation.radius) == ("205/55 R16", 0.32)
-    assert 0.8 < inflation.sidewall_angle < 1.57
+    assert 0.6 < inflation.sidewall_angle < 1.57
     assert "read, nothing uses it yet" in shown.stdout
     assert "2 keys not read: PCX1, PCY1" in shown.stderr
 

@@ -404,6 +404,22 @@ class SolverCost(_Record):
     estimated_of: NDArray[numpy.float64] = ...
 
 @dataclass(frozen=True, kw_only=True)
+class TireWork(_Record):
+    block: int
+    axle: float
+    drift: float
+    rim: float
+    slopes: float
+    moving: float
+    springs: float
+    strained: float
+    brake: float
+    dampers: float
+    rolling: float
+    bristles: float
+    sampling: float
+
+@dataclass(frozen=True, kw_only=True)
 class VibrationBlock(_Record):
     block: int
     sample_period: float

@@ -3,7 +3,7 @@
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.regime import LIFTS_OFF, STAYS, Regime
 from contact_sim_pkg.records.rig import Rig
-from contact_sim_pkg.records.topic import FIELD, FORCE, PATCH, WRENCH, ContactTopic
+from contact_sim_pkg.records.topic import BLOCK, FIELD, FORCE, PATCH, WRENCH, ContactTopic
 from contact_sim_pkg.rigs.vehicle.seat.effects import SEAT_EFFECTS
 from contact_sim_pkg.rigs.vehicle.tire.effects import TIRE_EFFECTS
 
@@ -24,6 +24,7 @@ TIRE = Contact(
         PATCH,
         ContactTopic("shear", "contact_msgs_defs/msg/ContactShear", FIELD),
         ContactTopic("axle", "contact_msgs_defs/msg/AxleForce"),
+        ContactTopic("work", "contact_msgs_defs/msg/TireWork", BLOCK),
     ),
 )
 SEAT = Contact(

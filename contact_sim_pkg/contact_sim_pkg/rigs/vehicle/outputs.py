@@ -18,12 +18,13 @@ from contact_sim_pkg.records.messages import (
     ContactPatch,
     ContactShear,
     EnergyLedger,
+    TireWork,
 )
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids
 from contact_sim_pkg.rigs.vehicle.field.driver import FieldRecord
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.motion import entries as columns
-from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import Sheared
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import Sheared, Works
 from contact_sim_pkg.run.contact_patch import contact_patch
 from contact_sim_pkg.run.outputs import BlockStamps, Estimate, contact_outputs, energy_ledger, largest_of, solver_cost
 
@@ -52,6 +53,7 @@ class BlockRecord:
     shears: list[tuple[int, FieldRecord, Sheared]] = field(
         default_factory=list
     )  # sample, field of the tire, shear under it
+    works: Works | None = None  # of a belt on its sidewalls, at the block's start
     seat_maps: list[tuple[int, Array]] = field(default_factory=list)  # sample, pressure [Pa] of the seat's map
     counters: Array = field(default_factory=lambda: numpy.zeros(3))
     field_iterations: int = 0
@@ -116,6 +118,8 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
         outputs += contact_outputs("tire", stamps, force, patches, lateral=shear[:, 1:])
         outputs.append(Output("tire/axle", stamps.start, _axle_force(model, stamps, record)))
         outputs += _shears(stamps, model.tire_field, record)
+        if record.works is not None:
+            outputs.append(Output("tire/work", stamps.start, TireWork(block=record.block, **record.works._asdict())))
     if model.rig.seat_contact is not None:
         force = ContactForce(
             block=record.block, sample_period=stamps.period, normal=forces[:, columns.SEAT_NORMAL],

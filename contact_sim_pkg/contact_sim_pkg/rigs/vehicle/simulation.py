@@ -162,6 +162,8 @@ class Simulation:
             self._start_energy = energy
         fields, shear = self._coupling.copy_published(), self._coupling.shear
         rolled = None if shear is None or fields[0] is None else shear.publish(fields[0].pressure)
+        if interval == 0 and shear is not None and shear.has_belt:
+            record.works = shear.works()
         self._coupling.advance(block, interval, whole, record)
         accelerations = drive.acceleration_x, drive.acceleration_z
         first = record.store_samples(

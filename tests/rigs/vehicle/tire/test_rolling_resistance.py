@@ -13,16 +13,22 @@ from contact_sim_pkg.rigs.vehicle.tire.body import body_of
 
 SPEED = 16.7  # [m/s]
 LEVEL = ("duration=0.6", f"travel={{speed: {SPEED}}}", "road={kind: flat}", "effects.tire.rigid_ring=null")
-BRANCHES = [(0.121 * (1e-3 / time) ** 0.28, time) for time in (0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001)]
+BRANCHES = [(0.125 * (1e-3 / time) ** 0.25, time) for time in (0.01, 0.003, 0.001, 0.0003, 0.0001)]
 MODES = 200
 
 
 def rolled(*values):
+    """Body, force against the travel [N] and the last field."""
     scene = resolved("tire_cleat", *LEVEL, *values)
     found = messages_of(scene)
-    axle = [decode(AxleForce, data) for data in found["tire/axle"]]
-    longitudinal = numpy.concatenate([block.longitudinal for block in axle])
-    return body_of(scene), longitudinal[len(longitudinal) // 2 :].mean(), decode(ContactPatch, found["tire/patch"][-1])
+    patch = decode(ContactPatch, found["tire/patch"][-1]) if "tire/patch" in found else None
+    return body_of(scene), mean_along(found), patch
+
+
+def mean_along(found):
+    """Force on the axle [N] over the second half of a run."""
+    longitudinal = numpy.concatenate([decode(AxleForce, data).longitudinal for data in found["tire/axle"]])
+    return longitudinal[len(longitudinal) // 2 :].mean()
 
 
 def modulus(omega, share):
@@ -92,15 +98,48 @@ def softening(belt, n, rigidity, place, x, line):
 
 @pytest.mark.parametrize("share", [0.0, 3.8])
 def test_force_against_the_travel_is_the_energy_lost_per_metre(share):
-    """To 3.5 %: the tread alone misses 3 % on these cells, whatever the steps and the accuracy."""
+    """To 4 %: the tread alone misses 3.7 % on these cells, whatever the steps and the accuracy."""
     body, force, patch = rolled(f"effects.tire.tread_viscoelasticity.belt={share}")
-    assert -force == pytest.approx(lost_per_metre(body, patch, share), rel=0.035)
+    assert -force == pytest.approx(lost_per_metre(body, patch, share), rel=0.04)
 
 
 def test_the_usual_tire_has_a_resistance_of_one_per_cent():
     _body, force, patch = rolled("effects.tire.tread_viscoelasticity={}")
     load = patch.pressure.sum() * patch.cell_x * patch.cell_y
     assert 0.007 < -force / load < 0.013
+
+
+PUBLISHED = {30: 0.0078, 60: 0.0086, 100: 0.0102}
+"""Speed [km/h]: rolling resistance over load of the public 205/60 R15 at 4 kN and 220 kPa."""
+USUAL = "effects.tire.tread_viscoelasticity={}"
+BY_SUM = ("effects.tire.rolling_loss={}", "effects.tire.contact_field=null", "effects.tire.brush=null",
+          "effects.tire.sidewall_compliance=null", "effects.tire.wheel_spin=null")  # fmt: skip
+
+
+def over_load(speed, load, *values):
+    """Rolling resistance over load at a speed [km/h] and a load [N]."""
+    body, way = load / 9.80665 - 40.0, f"travel={{speed: {speed / 3.6}}}"
+    return -rolled(f"tire.body_mass={body}", way, f"duration={max(0.3, 6.0 / speed)}", *values)[1] / load
+
+
+@pytest.mark.parametrize("values", [(USUAL,), BY_SUM], ids=["field", "sum"])
+def test_resistance_over_speed_load_and_inflation_is_that_of_published_tires(values):
+    """Within 15 % and rising with the speed; F^0.8 to 1.05, p^-0.3 to -0.5 (a review of tires: Clark; Schuring)."""
+    found = [over_load(speed, 4000.0, *values) for speed in PUBLISHED]
+    assert found == pytest.approx(list(PUBLISHED.values()), rel=0.15)
+    assert found == sorted(found)
+    light, heavy = (over_load(60, load, *values) for load in (2000.0, 6000.0))
+    assert 0.8 < 1.0 + math.log(heavy / light) / math.log(3.0) < 1.05
+    soft, hard = (over_load(60, 4000.0, *values, f"effects.tire.inflation.pressure={p}") for p in (160e3, 280e3))
+    assert -0.5 < math.log(hard / soft) / math.log(280.0 / 160.0) < -0.3
+
+
+def test_the_sum_is_the_power_of_its_footprint_and_near_the_field():
+    """First order: the field of a viscoelastic tread loses 3 to 9 % less on these cells, of which 4 are its cells."""
+    for speed in (30, 60, 100):
+        field, by_sum = over_load(speed, 4000.0, USUAL), over_load(speed, 4000.0, *BY_SUM)
+        assert 1.0 < by_sum / field < 1.1
+    assert over_load(-60, 4000.0, *BY_SUM) == pytest.approx(-over_load(60, 4000.0, *BY_SUM), rel=1e-6)
 
 
 def test_an_elastic_tire_has_none():

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.rigs.vehicle.field.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of
-from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, TireStep
+from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, TireStep, Works
 from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road
 from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
@@ -42,8 +42,7 @@ class Track(NamedTuple):
     length: float  # [m] of the contact
     dissipated: float  # [J] by the bristles
     radius: float  # [m] effective rolling radius
-    works: Samples  # [intervals + 1, works] [J] of belt and rim, `belt_motion.WORKS`
-    kept: Samples  # [intervals + 1, 2] [J] kinetic energy of belt and rim, energy of the bristles
+    works: list[Works]  # [intervals + 1] since the start
 
 
 def flat_track(load: float, speed: float, duration: float, *values: str) -> Track:
@@ -73,17 +72,16 @@ def track_of(scene: ResolvedScene, speed: float, duration: float, step: float = 
     rows, count, segments = [], round(duration / INTERVAL), round(INTERVAL / step)
     shear = RollingShear(friction, settings)
     shear.start(pressure, origin, 0.0, 0.0)
-    works, kept = [shear.works()], [shear.kept()]
+    works = [shear.works()]
     for n in range(1, count + 1):
         tire_step = TireStep(
             (n - 1) * INTERVAL, step, segments, speed * n * INTERVAL, 0.0, 0.0, friction.deflection, 1, 0
         )  # fmt: skip
         rows.append(shear.roll(tire_step, pressure, origin)[:segments].copy())
         works.append(shear.works())
-        kept.append(shear.kept())
     samples, result = numpy.concatenate(rows), shear.publish(pressure).result
     length = float(pressure.any(axis=1).sum()) * settings.cell_x
     return Track(
         step * numpy.arange(len(samples), dtype=numpy.float64), samples[:, :3], samples[:, 3:7], samples[:, 7], length,
-        result.dissipated + result.released, friction.radius, numpy.array(works), numpy.array(kept),
+        result.dissipated + result.released, friction.radius, works,
     )  # fmt: skip

@@ -62,9 +62,9 @@ MODES = 1000
 ARC_POINTS = 2000
 """Of the table of S: straight lines between them miss 1e-6 of it."""
 
-OVER, DAMPED, LEAST_OVER = 1.12, 0.7, 0.3
-"""Of a pass over the plain one, which leaves 0.09 to 0.16 of a change; what is left of that factor
-after a pass that changed no less than the one before, and the least of it.
+OVER, LEAST_OVER = 1.12, 0.3
+"""Of a pass over the plain one, which leaves 0.09 to 0.16 of a change; where the one before went too far that
+follows from what it did (Aitken), and the least of it.
 """
 
 STRAIGHTER, CLOSED = 0.7, 2.4  # ends of that table: of phi, and [rad]; the belt is near the rim
@@ -211,7 +211,7 @@ class Softening:
         self.load: Field = numpy.zeros(count)  # [N/m] D
         self.gap: Field = numpy.zeros(count)  # [m] that it opens
         self.bent: Field = numpy.zeros(count)  # [m] of the belt beside that of its loads: of its memory
-        self._over, self._changed = OVER, math.inf
+        self.start()
         self.place(0.0)
 
     def reset(self) -> None:
@@ -234,8 +234,9 @@ class Softening:
         return slice(first, first + count)
 
     def start(self) -> None:
-        """Begin an instant: its passes are damped by what they do themselves."""
-        self._over, self._changed = OVER, math.inf
+        """Begin an instant: its passes are as long as they themselves show."""
+        self._over: float = OVER
+        self._missed: Field | None = None
 
     def follow(self, line: Field) -> float:
         """Take the line load ``line`` [N/m] [rows of a grid] of the road; returns how far the belt under it
@@ -246,11 +247,14 @@ class Softening:
         load[place] += line
         closer = self._bend(load) + (total + float(self._lowered @ self.load)) * self._cell_x * ring * self._lowered
         softer = (self._linear * (closer + self.bent) - self._borne(closer + self.bent)) * self._lower
-        changed = float(abs(softer - self.load).max())
-        if changed >= self._changed:  # the pass before was too long
-            self._over = max(DAMPED * self._over, LEAST_OVER)
-        self._changed = changed
-        self.load += self._over * (softer - self.load)
+        missed = softer - self.load
+        if self._missed is not None:
+            turned = missed - self._missed
+            square = float(turned @ turned)
+            if square > 0.0:
+                self._over = min(max(-self._over * float(self._missed @ turned) / square, LEAST_OVER), OVER)
+        self._missed = missed
+        self.load += self._over * missed
         before, down = self.gap, float(self._lowered @ self.load) * self._cell_x * ring
         self.gap = self._bend(self.load) + down * self._lowered
         change = self.gap - before

@@ -141,7 +141,8 @@ class Coupling:
         """Energies [J] at the present instant over a ``smooth`` height [m], as `entries.energies`
         orders them.
         """
-        return self.bodies.energies(smooth + self.tire.correction, self.seat.correction)
+        found = self.bodies.energies(smooth + self.tire.correction, self.seat.correction)
+        return found if self.shear is None or not self.shear.has_belt else found + self.shear.works().entries
 
     def copy_published(self) -> tuple[FieldRecord | None, FieldRecord | None]:
         """The fields of the present instant."""

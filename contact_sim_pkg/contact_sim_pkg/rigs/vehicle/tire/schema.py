@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 RING_DAMPING = 0.045
 """Damping ratio of the belt on its sidewalls."""
 
-TREAD_MEMORY, FALL, BELT_MEMORY = 0.121, 0.28, 3.8
+TREAD_MEMORY, FALL, BELT_MEMORY = 0.125, 0.25, 3.8
 """Branches of a tread: modulus of that of 1 ms over the long-time modulus, the power with which it falls
 with the relaxation time; memory of the rubber in belt and sidewalls over that of the tread (fitted to rolling resistance).
 """
 
-RELAXATION_TIMES = (0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001)  # [s]
+RELAXATION_TIMES = (0.01, 0.003, 0.001, 0.0003, 0.0001)  # [s]
 
 Branch: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
 TorquePoint: TypeAlias = Annotated[list[float], Field(min_length=3, max_length=3)]
@@ -188,15 +188,15 @@ class _Rubber(Section):
     )
     branches: list[Branch] | None = numbers(
         "",
-        "Maxwell branches: [modulus over the long-time modulus, relaxation time in s] each; by default six from 30 to "
-        "0.1 ms with inflation, 0.121 at 1 ms (a loss factor of about 0.1), three of 0.15 with normal_elastic",
+        "Maxwell branches: [modulus over the long-time modulus, relaxation time in s] each; by default five from 10 to "
+        "0.1 ms with inflation, 0.125 at 1 ms (a loss factor of about 0.12), three of 0.15 with normal_elastic",
         "0 to 8 pairs [ratio from 0 to 100, time from 1e-6 to 1e4 s]",
         default=None,
         shortest=0,
         longest=8,
     )
     belt: float = number(
-        0.0, 10.0, "", "the same of belt and sidewalls of an inflated tire, over that of the tread; fitted to the rolling resistance",
+        0.0, 10.0, "", "the same of belt and sidewalls of an inflated tire, over that of the tread (fitted to rolling resistance)",
         default=BELT_MEMORY,
     )  # fmt: skip
 

@@ -89,11 +89,8 @@ def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
         )
         yield Breach(f"{where}.rigid_ring.belt_mass", sentence, ("tire.wheel_mass",))
     inflation = scene.effect("tire", Inflation)
-    if inflation is not None and inflation.radius is not None:
-        try:
-            read_size(inflation.size, inflation.radius)
-        except ValueError as error:
-            yield Breach(f"{where}.inflation.radius", str(error), (f"{where}.inflation.size",))
+    if inflation is not None:
+        yield from _share_breaches(inflation)
     brush = scene.effect("tire", BrushSection)
     if brush is not None and brush.coefficient_kinetic > brush.coefficient_static:
         sentence = f"{show(brush.coefficient_kinetic)} is above coefficient_static ({show(brush.coefficient_static)})"
@@ -114,6 +111,25 @@ def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
                 yield Breach(f"{place}.0", f"{show(ratio)} is outside 0 to 100")
             if not 1e-6 <= time <= 1e4:
                 yield Breach(f"{place}.1", f"{show(time)} s is outside 1e-06 to 10000 s")
+
+
+def _share_breaches(inflation: Inflation) -> Iterator[Breach]:
+    """A radius that is not of the size; sidewalls that carry all of the inflation, so that none is left to the belt."""
+    where = "effects.tire.inflation"
+    try:
+        size = read_size(inflation.size, inflation.radius)
+    except ValueError as error:
+        yield Breach(f"{where}.radius", str(error), (f"{where}.size",))
+        return
+    chord, width = inflation.sidewall_chord or size.sidewall_chord, inflation.belt_width or size.belt_width
+    least = math.atan(chord / width)
+    if inflation.sidewall_angle <= least:
+        sentence = (
+            f"the sidewalls carry all of the inflation at {show(inflation.sidewall_angle)} rad: a chord of "
+            f"{show(round(chord, 4))} m beside a belt of {show(round(width, 4))} m needs more than {show(round(least, 4))} rad"
+        )
+        others = tuple(f"{where}.{key}" for key in ("sidewall_chord", "belt_width", "radius", "size"))
+        yield Breach(f"{where}.sidewall_angle", sentence, others)
 
 
 def _belt_breaches(scene: Scene, where: str) -> Iterator[Breach]:

@@ -57,7 +57,7 @@ from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import (
 from contact_sim_pkg.rigs.vehicle.tire.brush.steps import Field
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, Sidewalls
 
-__all__ = ["BELT_SAMPLES", "BELT_STATES", "RIM", "WORKS", "BeltDrive", "advance_belt"]
+__all__ = ["BELT_SAMPLES", "BELT_STATES", "BY_DRIFT", "RIM", "WORKS", "BeltDrive", "advance_belt"]
 
 X, Y, TWIST, YAW, X_RATE, Y_RATE, SPIN, YAW_RATE, RIM, FORCE_X, FORCE_Y, MOMENT_Z = range(12)
 BY_AXLE, BY_DRIFT, BY_RIM, BY_SLOPES, IN_SPRINGS, TO_BRAKE, TO_DAMPERS, TO_ROLLING, TO_BRISTLES, OF_SHEAR = range(

@@ -14,6 +14,7 @@ from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.tire.brush.belt_motion import (
     BELT_SAMPLES,
     BELT_STATES,
+    BY_DRIFT,
     RIM,
     SPIN,
     WORKS,
@@ -34,7 +35,7 @@ from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_brush import (
 from contact_sim_pkg.rigs.vehicle.tire.model import RollingFriction
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
 
-__all__ = ["RollingShear", "Sheared", "TireStep"]
+__all__ = ["RollingShear", "Sheared", "TireStep", "Works"]
 
 LEAST_LOAD = 0.1
 """Of the nominal load: below it friction rises no more."""
@@ -59,6 +60,31 @@ class TireStep(NamedTuple):
     def duration(self) -> float:
         """In [s]."""
         return self.segments * self.segment_length
+
+
+class Works(NamedTuple):
+    """Works [J] since the start, as `TireWork.msg` says them."""
+
+    axle: float
+    drift: float
+    rim: float
+    slopes: float
+    moving: float
+    springs: float
+    strained: float
+    brake: float
+    dampers: float
+    rolling: float
+    bristles: float
+    sampling: float
+
+    @property
+    def entries(self) -> tuple[float, float, float, float, float]:
+        """Kinetic, potential, stored energy, work supplied and dissipated [J], as of the ledger; the sampling of the shear
+        counts as dissipated by the bristles.
+        """
+        lost = self.brake + self.dampers + self.rolling + self.bristles + self.sampling
+        return self.moving, 0.0, self.springs + self.strained, self.axle + self.drift + self.rim + self.slopes, lost
 
 
 class Sheared(NamedTuple):
@@ -89,12 +115,18 @@ class RollingShear:
         """Reset to a standing, unstrained tire."""
         self._bristles = make_brush_state(self._wide.rows, self._wide.cols)
         self._belt = numpy.zeros(BELT_STATES)
-        self._time, self._travel, self._speed = 0.0, 0.0, math.nan
+        self._time, self._travel, self._speed, self._angle = 0.0, 0.0, math.nan, 0.0
         self._slopes, self._rolling, self._radius = 0.0, 0.0, self._friction.radius
         self._samples: Field = numpy.zeros((0, BELT_SAMPLES))
         self._last: Field = numpy.zeros(BELT_SAMPLES)
         self._result = BrushResult(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         self._load = math.nan  # [N] smoothed
+        self._moving = 0.0  # [J] kinetic energy at the start
+
+    @property
+    def has_belt(self) -> bool:
+        """Whether a belt on sidewalls moves under it, whose works are known."""
+        return self._friction.sidewalls is not None
 
     def start(self, pressure: Field, origin: tuple[float, float], travel: float, slopes: float) -> None:
         """Lay the bristles under the first field, which stands at ``travel`` [m]."""
@@ -120,7 +152,8 @@ class RollingShear:
         radii = radius if first else self._radius, radius
         rim = (1.0 + slip) * speed / (0.5 * (radii[0] + radii[1]))
         if first:  # the wheel rolls already
-            self._speed, self._belt[SPIN], self._belt[RIM] = speed, rim, rim
+            self._speed, self._angle, self._belt[SPIN], self._belt[RIM] = speed, angle, rim, rim
+            self._moving = self.kept()[0]
             self._last[:] = (0.0, 0.0, 0.0, self._slopes, 0.0, 0.0, 0.0, rim)
         if sidewalls is None:
             found = self._advance_bristles(grid, rolling_step(way, slip, angle, step.duration))
@@ -136,6 +169,7 @@ class RollingShear:
             rows = step.segments // step.sample_every + 2
             if len(self._samples) < rows:
                 self._samples = numpy.zeros((rows, BELT_SAMPLES))
+            self._steer(speed, angle)
             found = advance_belt(
                 self._brush, sidewalls, self._bristles, self._belt, grid, self._pressure, drive, self._shear_x,
                 self._shear_y, self._state, self._samples,
@@ -160,9 +194,14 @@ class RollingShear:
             slip, angle, result, self._shear_x[part].copy(), self._shear_y[part].copy(), self._state[part].copy()
         )  # fmt: skip
 
-    def works(self) -> Field:
-        """Works of belt and rim since the start [J], `WORKS` of `belt_motion.py`; zeros for a rigid belt."""
-        return self._belt[WORKS].copy()
+    def works(self) -> Works:
+        """Works of belt, rim and bristles since the start; zeros for a rigid belt."""
+        axle, drift, rim, slopes, springs, brake, dampers, rolling, bristles, of_shear = self._belt[WORKS].tolist()
+        moving, strained = self.kept()
+        return Works(
+            axle, drift, rim, slopes, moving - self._moving, springs, strained, brake, dampers, rolling, bristles,
+            -of_shear - bristles - strained,
+        )  # fmt: skip
 
     def kept(self) -> tuple[float, float]:
         """Kinetic energy of belt and rim in the plane of the road, and energy in the bristles [J]."""
@@ -173,12 +212,22 @@ class RollingShear:
         )  # fmt: skip
         if sidewalls is None or math.isnan(self._speed):
             return 0.0, strained
-        aside = self._speed * math.tan(self._friction.slips.at(self._time)[1]) + belt[Y_RATE]
+        aside = self._speed * math.tan(self._angle) + belt[Y_RATE]
         kinetic = sidewalls.mass * ((self._speed + belt[X_RATE]) ** 2 + aside**2)
         kinetic += sidewalls.inertia * belt[SPIN] ** 2 + sidewalls.yaw_inertia * belt[YAW_RATE] ** 2
         if sidewalls.wheel is not None:
             kinetic += sidewalls.wheel.inertia * belt[RIM] ** 2
         return 0.5 * float(kinetic), strained
+
+    def _steer(self, speed: float, angle: float) -> None:
+        """Let the axle drift by a ``speed`` [m/s] and slip ``angle`` [rad] from now on; what that changes of the belt's
+        kinetic energy the axle supplies.
+        """
+        sidewalls, aside = self._friction.sidewalls, float(self._belt[Y_RATE])
+        assert sidewalls is not None
+        before, now = (v * math.tan(a) + aside for v, a in ((self._speed, self._angle), (speed, angle)))
+        self._belt[BY_DRIFT] += 0.5 * sidewalls.mass * (now**2 - before**2)
+        self._angle = angle
 
     def _smoothed(self, pressure: Field, way: float) -> tuple[float, Brush]:
         """Load [N], smoothed over a length of the contact, after a ``way`` [m] to a field ``pressure`` [Pa],

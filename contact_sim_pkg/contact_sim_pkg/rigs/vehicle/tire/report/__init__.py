@@ -17,6 +17,9 @@ TIRE_REPORT = ContactReport(
             name="axle", types=("contact_msgs_defs/msg/AxleForce",), reader=f"{__name__}.axle_series:AxleReader"
         ),
         SeriesReader(
+            name="work", types=("contact_msgs_defs/msg/TireWork",), reader=f"{__name__}.work_series:WorkReader"
+        ),
+        SeriesReader(
             name="shear",
             types=("contact_msgs_defs/msg/ContactShear",),
             reader=f"{__name__}.shear_series:ShearReader",

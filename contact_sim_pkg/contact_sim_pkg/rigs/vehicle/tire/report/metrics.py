@@ -10,7 +10,7 @@ import numpy as np
 
 from contact_sim_pkg.excitation.kinds import RoadKind, kind_known
 from contact_sim_pkg.records.metric import EVENT, STATE, Metric
-from contact_sim_pkg.report.metrics.maker import Maker, conditions_of, near
+from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of, near
 from contact_sim_pkg.report.metrics.numerical import Errors, errors_of, not_resolved
 from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray, Recording
 from contact_sim_pkg.report.signal.confidence import spread_of_mean, spread_of_rms
@@ -19,6 +19,7 @@ from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import AxleSeries, axl
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
+from contact_sim_pkg.rigs.vehicle.tire.report.work_series import LOST, work_of
 
 SHORTEST = 8.0
 """[s] of a ride over an uneven road that says something of its load: ten periods of the body at 1.2 Hz"""
@@ -30,6 +31,10 @@ LOWEST_RINGING = 15.0
 """[Hz] below which the axle's force follows body and wheel"""
 RINGING_TIME = 0.3
 """[s] behind the largest force along the road in which the belt rings"""
+LARGE_SLIP = 0.05
+"""from which on the bristles slide enough for their cells to leave 1 % of what they lose open"""
+NAMED = 1e-3
+"""Share of what is lost from which on a part of it is named"""
 HOP_BAND = (5.0, 20.0)
 """[Hz] in which the wheel hops on the tire"""
 
@@ -48,6 +53,8 @@ class _Ride(NamedTuple):
     """whether the road is even but for one obstacle, so that what varies is over when it is passed"""
     errors: Errors
     """numerical ones of the run"""
+    conditions: dict[str, float | str]
+    """what the run is"""
 
 
 def tire_metrics(recording: Recording) -> list[Metric]:
@@ -59,14 +66,16 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     standing, conditions = standing_load_of(recording.scene), _conditions(recording)
     ride = _Ride(
         recording, contact, standing, Maker(TIRE, f"{TIRE}/force", window, conditions).make,
-        str(conditions.get("road", "")).startswith("class"), _has_one_obstacle(recording.scene), errors_of(recording),
+        str(conditions.get("road", "")).startswith("class"), _has_one_obstacle(recording.scene), errors_of(recording), conditions,
     )  # fmt: skip
     field = recording.fields.get(TIRE)
     stiffness = None if standing is None else _stiffness(contact, standing)
-    found = [*_load(ride), *_standing(ride, stiffness)]
+    upright = [*_load(ride), *_standing(ride, stiffness)]
     if field is not None and standing is not None:
-        found += _footprint(ride, field, standing)
-    return [*found, *_along(ride)]
+        upright += _footprint(ride, field, standing)
+    along = [*_along(ride), *_work(ride), *_lean(ride, field)]
+    # Of a tire that slips, first what it slips for
+    return [*along, *upright] if float(conditions["largest_slip"]) >= LARGE_SLIP else [*upright, *along]
 
 
 def _has_one_obstacle(scene: Mapping[str, Any]) -> bool:
@@ -218,6 +227,35 @@ def _along(ride: _Ride) -> Iterator[Metric]:
     if ringing is not None:
         yield ride.make("ringing", "force along rings at", ringing, "Hz", quantity="tire_ringing", topic=topic, basis=EVENT,
                         error=0.5 / RINGING_TIME)  # fmt: skip
+
+
+def _lean(ride: _Ride, field: FieldSeries | None) -> Iterator[Metric]:
+    """How far before the axle the pressure's centre lies, and its moment, the rolling resistance: means of the run."""
+    if field is None or ride.event or ride.rough or not field.load.any():
+        return
+    moment, load = float((field.load * field.centre_x).mean()), float(field.load.mean())
+    topic, count = f"{TIRE}/patch", field.time.size
+    yield ride.make("shift", "pressure's centre before the axle", 1e3 * moment / load, "mm", topic=topic, count=count)
+    yield ride.make("rolling_moment", "moment of rolling resistance", moment, "N m", topic=topic, count=count)
+
+
+def _work(ride: _Ride) -> Iterator[Metric]:
+    """What belt, rim and bristles lose, part by part; what the bristles' cells leave open of it."""
+    work = work_of(ride.recording)
+    if work is None or work.lost <= 0.0:
+        return
+    topic, count, lost = f"{TIRE}/work", work.time.size, work.lost
+    shares = ", ".join(
+        f"{name} {100.0 * work.parts[name][-1] / lost:.3g} %" for name in LOST if work.parts[name][-1] > NAMED * lost
+    )
+    yield ride.make(
+        "lost", "energy lost in the plane of the road", lost, "J", topic=topic, count=count, basis=EVENT, remark=shares
+    )
+    slip = float(ride.conditions["largest_slip"])
+    open_ = 100.0 * abs(float(work.parts["sampling"][-1])) / lost
+    yield ride.make("sampling", "sampling of the shear", open_, "%", topic=topic, count=count,
+                    band=at_most(1.0 if slip >= LARGE_SLIP else 10.0, "cells of the bristles, of what is lost"),
+                    remark="what the bristles' force takes beside their own work")  # fmt: skip
 
 
 def _stiffness(contact: ContactSeries, standing: float) -> float | None:

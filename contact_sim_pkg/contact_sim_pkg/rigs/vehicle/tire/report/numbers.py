@@ -27,18 +27,19 @@ def standing_load_of(scene: dict[str, Any]) -> float | None:
 
 OUTSIDE = {
     "brush": "friction of the bristles",
-    "sidewall_compliance": "the belt in the plane of the road",
-    "wheel_spin": "rotation of the wheel, drive and brake",
     "tread_viscoelasticity": "rolling resistance of the tread",
+    "rolling_loss": "rolling resistance",
 }
-"""By effect: what turns energy over beside the vertical motion."""
+"""By effect: what turns energy over beside the vertical motion, where no belt moves in the plane of the road."""
 
 
-def ledger_scope(recording: Recording) -> LedgerScope:
-    """The ledger of a rolling tire is that of the vertical motion; what the scene's effects turn over
-    beside it, the work of friction with its figure.
+def ledger_scope(recording: Recording) -> LedgerScope | None:
+    """The ledger of a tire whose belt moves on its sidewalls is of the whole rig: None. Another is that of the
+    vertical motion; what the scene's effects turn over beside it, the work of friction with its figure.
     """
     effects = (recording.scene.get("effects") or {}).get(TIRE) or {}
+    if effects.get("sidewall_compliance") is not None:
+        return None
     outside = {name: text for name, text in OUTSIDE.items() if effects.get(name) is not None}
     shear = shear_of(recording)
     if shear is not None and "brush" in outside:
