@@ -80,6 +80,7 @@ RARE_BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # what no shipped scene 
     "tire": (
         ("tire_bump", "effects.tire.tread_viscoelasticity={retardation_time: 0.01, branches: []}"),
         ("tire_bump", "effects.tire.rigid_ring={}", "effects.tire.asperity_impulses={}"),
+        ("tire_bump", "effects.tire.rolling_loss={retardation_time: 1e-5}"),
     ),
     "seat": (
         ("seat_ride", "effects.seat.friction={}"),

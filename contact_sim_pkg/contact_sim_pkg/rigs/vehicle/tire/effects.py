@@ -118,7 +118,7 @@ TIRE_EFFECTS = (
     Effect(
         name="sidewall_compliance", section=f"{_SCHEMA}:SidewallComplianceSection",
         help="belt that yields along, across, in rotation and in yaw", source="Pacejka, Tire and Vehicle Dynamics, 9",
-        needs=("brush",), publishes="work", feeds=("shear", "force", "wrench"), inputs=("slip",),
+        needs=("brush",), publishes="work", feeds=("shear", "force", "wrench", "work"), inputs=("slip",),
     ),
     Effect(
         name="wheel_spin", section=f"{_SCHEMA}:WheelSpinSection", help="rotation of the wheel under drive and brake",
