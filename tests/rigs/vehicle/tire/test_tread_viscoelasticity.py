@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import quad
 
 from contact_sim_lab.twins import halfspace as reference
-from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
 from contact_sim_pkg.rigs.vehicle.field.contact_field import PressureField
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import rubber_share
 from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState, stiffening
 
@@ -164,3 +167,21 @@ def test_a_reset_tread_is_unstrained() -> None:
     pressing.tread_state.reset()
     pressing.field.reset()
     assert pressing.at_approach(gap, 4e-3) == first
+
+
+@pytest.mark.parametrize("bending", [2.0, 0.0])
+def test_the_share_of_the_rubber_is_that_of_each_wave(bending):
+    """A wave n imposed all round the ring comes back as V_n / (D_n + S V_n) of it, here by the formula."""
+    cells, radius, stiffer = 200, 0.3, 0.7
+    cell = 2.0 * math.pi * radius / cells
+    belt = InflatedBelt(radius, 7000.0, 6e5, 1e5, bending, 0.0, None, 5e4)
+    one_side = rubber_share(belt, stiffer, cells // 2 + 1, cell)
+    around = numpy.concatenate([one_side, one_side[-2:0:-1]])
+    for n in (2, 5, 12):
+        wave = numpy.cos(n * numpy.arange(cells) * cell / radius)
+        rubber = 5e4 + bending * (n**2 - 1) ** 2 / radius**4
+        rigidity = 6e5 - 5e4 + 1e5 / n**2 + 7000.0 * (n**2 - 1) / radius**2 + rubber
+        averaged = math.sin(0.5 * n * cell / radius) / (0.5 * n * cell / radius)  # over the cell that is imposed
+        expected = rubber / (rigidity + stiffer * rubber)
+        shortest = 1.0 / (1.0 + stiffer) if bending else 0.0
+        assert around @ wave == pytest.approx(shortest + (expected - shortest) * averaged, rel=1e-3)

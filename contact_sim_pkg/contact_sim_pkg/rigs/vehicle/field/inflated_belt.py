@@ -137,19 +137,21 @@ def stiffened(belt: InflatedBelt, factor: float) -> InflatedBelt:
 
 def rubber_share(belt: InflatedBelt, stiffer: float, rows: int, cell_x: float) -> Field:
     """What a unit curve imposed on the rubber alone is of the belt, i cells of ``cell_x`` [m] away from it, [rows] [1]:
-    ``V_n / (D_n + S V_n)`` of every mode n, V_n the part of D_n of the rubber, S how much ``stiffer`` it is, > 0.
+    ``V_n / (D_n + S V_n)`` of every mode n, V_n the part of D_n of the rubber, S how much ``stiffer`` it is, >= 0.
 
-    Taken as ``[1 - D_n / (D_n + S V_n)] / S``: 1 is the curve where it stands, the rest a sum that converges.
+    Of the shortest waves of a belt that bends 1 / (1 + S): that stands where the curve does, the rest is a sum that
+    converges.
     """
     n = numpy.arange(MODES + 1, dtype=numpy.float64)
     rigidity, rubber = ring_modes(belt, numpy.maximum(n, 2.0))
-    rigidity[:2], rubber[:2] = 1.0, 0.0  # translations
-    weight = rigidity / (rigidity + stiffer * rubber) * numpy.sinc(0.5 * n * cell_x / belt.radius / math.pi)
-    weight *= cell_x / (math.pi * belt.radius)
+    rubber[:2] = 0.0  # translations
+    shortest = 1.0 / (1.0 + stiffer) if belt.bending > 0.0 else 0.0
+    weight = rubber / (rigidity + stiffer * rubber) - shortest
+    weight *= numpy.sinc(0.5 * n * cell_x / belt.radius / math.pi) * cell_x / (math.pi * belt.radius)
     weight[0] *= 0.5
-    share = -numpy.cos(numpy.outer(numpy.arange(rows) * cell_x / belt.radius, n)) @ weight
-    share[0] += 1.0
-    return numpy.asarray(share / stiffer)
+    share = numpy.cos(numpy.outer(numpy.arange(rows) * cell_x / belt.radius, n)) @ weight
+    share[0] += shortest
+    return numpy.asarray(share)
 
 
 def ring_modes(belt: InflatedBelt, n: Field) -> tuple[Field, Field]:
