@@ -230,8 +230,11 @@ def _along(ride: _Ride) -> Iterator[Metric]:
 
 
 def _lean(ride: _Ride, field: FieldSeries | None) -> Iterator[Metric]:
-    """How far before the axle the pressure's centre lies, and its moment, the rolling resistance: means of the run."""
-    if field is None or ride.event or ride.rough or not field.load.any():
+    """How far before the axle the centre of pressure of a tread with memory lies, and its moment, the rolling resistance:
+    means of the run.
+    """
+    effects = (ride.recording.scene.get("effects") or {}).get(TIRE) or {}
+    if field is None or ride.event or ride.rough or not effects.get("tread_viscoelasticity") or not field.load.any():
         return
     moment, load = float((field.load * field.centre_x).mean()), float(field.load.mean())
     topic, count = f"{TIRE}/patch", field.time.size
