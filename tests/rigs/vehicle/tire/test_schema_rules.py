@@ -36,6 +36,22 @@ def test_values_of_an_effect_that_do_not_go_together_are_refused(maker, effects,
     assert sentence in fault
 
 
+@pytest.mark.parametrize(
+    ("effects", "sentence"),
+    [
+        (
+            {"inflation": {"sidewall_angle": 0.6, "sidewall_chord": 0.2}},  # atan(0.2 / 0.172)
+            "inflation.sidewall_angle: the sidewalls carry all of the inflation at 0.6 rad: a chord of 0.2 m beside a belt of "
+            "0.172 m needs more than 0.8605 rad",
+        ),
+        ({"inflation": {}, "rolling_loss": {"branches": [[0.1, 0.0]]}}, "rolling_loss.branches.0.1: 0 s is outside"),
+    ],
+)
+def test_values_of_an_inflated_tire_that_do_not_go_together_are_refused(maker, effects, sentence):
+    (fault,) = maker.faults("tire", {"effects.tire": effects})
+    assert sentence in fault
+
+
 def test_a_radius_on_the_rim_is_refused(maker):
     (fault,) = maker.faults("tire", {"effects.tire": {"inflation": {"size": "205/55 R16", "radius": 0.22}}})
     assert "inflation.radius: a radius of 0.22 m is less than 0.025 m above the rim of 205/55 R16, 0.2032 m" in fault

@@ -195,7 +195,7 @@ class RollingShear:
         )  # fmt: skip
 
     def works(self) -> Works:
-        """Works of belt, rim and bristles since the start; zeros for a rigid belt."""
+        """Works of belt, rim and bristles since the start; of a belt on sidewalls, see `has_belt`."""
         axle, drift, rim, slopes, springs, brake, dampers, rolling, bristles, of_shear = self._belt[WORKS].tolist()
         moving, strained = self.kept()
         return Works(

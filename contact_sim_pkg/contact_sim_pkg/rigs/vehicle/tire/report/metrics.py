@@ -25,6 +25,8 @@ SHORTEST = 8.0
 """[s] of a ride over an uneven road that says something of its load: ten periods of the body at 1.2 Hz"""
 STANDING_RANGE = 0.1
 """Share of the standing load by which the load may differ where the standing tire is meant."""
+LEAST_SWING = 0.05
+"""Share of the standing load by which it must vary for that slope: less is cells that come and go."""
 STIFFNESS_RANGE = 0.2
 """Share of the standing load over which the stiffness is a slope."""
 LOWEST_RINGING = 15.0
@@ -266,7 +268,7 @@ def _stiffness(contact: ContactSeries, standing: float) -> float | None:
     from there, or does not vary."""
     about = np.abs(contact.normal - standing) <= STIFFNESS_RANGE * standing
     approach = contact.approach[about]
-    if approach.size < 3 or np.ptp(approach) <= 1e-6:
+    if approach.size < 3 or np.ptp(contact.normal[about]) < LEAST_SWING * standing or np.ptp(approach) <= 1e-6:
         return None
     return float(np.polyfit(approach - approach.mean(), contact.normal[about], 1)[0])
 
