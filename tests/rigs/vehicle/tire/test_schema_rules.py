@@ -41,8 +41,7 @@ def test_values_of_an_effect_that_do_not_go_together_are_refused(maker, effects,
     [
         (
             {"inflation": {"sidewall_angle": 0.6, "sidewall_chord": 0.2}},  # atan(0.2 / 0.172)
-            "inflation.sidewall_angle: the sidewalls carry all of the inflation at 0.6 rad: a chord of 0.2 m beside a belt of "
-            "0.172 m needs more than 0.8605 rad",
+            "inflation.sidewall_angle: the sidewalls carry all of the inflation at 0.6 rad: a chord of 0.2 m beside",
         ),
         ({"inflation": {}, "rolling_loss": {"branches": [[0.1, 0.0]]}}, "rolling_loss.branches.0.1: 0 s is outside"),
     ],
