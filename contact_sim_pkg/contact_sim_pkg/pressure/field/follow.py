@@ -39,7 +39,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel
-from contact_sim_pkg.pressure.field.belt import factor_belt, keep_lines, relieve
+from contact_sim_pkg.pressure.field.belt import factor_belt, keep_lines, relieve, weigh_scatter
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, convolve, precondition
 from contact_sim_pkg.pressure.field.iteration import SolverWorkspace, evaluate, hold_load
 from contact_sim_pkg.pressure.field.solver import FieldRequest
@@ -106,7 +106,7 @@ def correct(
     holds_load = total >= 0.0
     belted = len(half_space.belt) > 0
     contact, pulling = list_cells(workspace)
-    factor_belt(half_space.belt, half_space.strip, workspace.pressure, workspace.belt)
+    press_belt(half_space, workspace)
     none = min(contact, 0)  # left; of a literal 0 another version would be compiled
     state = evaluate(workspace, contact, none, approach, holds_load)
     smallest, stalled = numpy.inf, False
@@ -167,6 +167,20 @@ def list_cells(workspace: SolverWorkspace) -> tuple[int, int]:
                 left[pulling] = i * cols + j
                 pulling += 1
     return contact, pulling
+
+
+@kernel
+def press_belt(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
+    """What the belt needs for the cells that press; nothing without one."""
+    if len(half_space.belt) > 0:
+        pressure, clearance = workspace.pressure, workspace.residual
+        rows, cols = pressure.shape
+        for i in range(rows):
+            for j in range(cols):
+                clearance[i, j] = 1.0 if pressure[i, j] > 0.0 else 0.0
+        precondition(half_space.without_belt, workspace.buffers, clearance, workspace.filtered)
+        factor_belt(half_space.belt, half_space.strip, pressure, workspace.belt)
+        weigh_scatter(half_space.strip, pressure, workspace.filtered, workspace.belt)
 
 
 @kernel

@@ -235,6 +235,25 @@ def test_softening_sidewalls_leave_the_belt_in_balance():
     assert field.softening.gap[middle - half : middle + half + 1] == pytest.approx(opened, abs=1e-3 * opened.max())
 
 
+def test_sidewalls_go_with_the_load_that_a_solution_finds():
+    """A load a twentieth higher, on a contact that grows by it, moves the settled belt; a solution that knows what yields
+    with the load is settled to a tenth of that.
+    """
+    belt, cell, rows = body_of(resolved("tire_bump")).belt, 0.0025, 108
+    sidewalls = Softening(belt, rows, cell)
+    x = abs(numpy.arange(rows) - rows // 2) * cell
+
+    def settled(length):
+        line = numpy.clip(0.5 * length / cell + 0.5 - x / cell, 0.0, 1.0) * 1.9 * belt.tension / belt.radius
+        missed = [sidewalls.follow(line) for _ in range(40)]
+        return missed[0], float(line @ sidewalls.gap[sidewalls.rows(rows)]) / float(line.sum())
+
+    before = settled(0.100)[1]
+    missed, after = settled(0.105)
+    assert after - before > 2e-5
+    assert missed < 0.1 * (after - before)
+
+
 def test_a_grid_that_follows_by_a_cell_leaves_the_sidewalls_as_they_were():
     """Before and after a step of the grid the ring under the wheel bears the same load; on the way none of its rows
     appears at once.

@@ -36,7 +36,7 @@ TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law
 TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
 SOFTENING_PASSES = 40  # most solutions at one instant of a belt whose sidewalls soften; each is closer by a factor of 7
 
-OF_SIDEWALLS = 0.3  # of the field's tolerance: what its sidewalls may miss of the depth, which the loss sees as a speed
+OF_SIDEWALLS = 0.5  # of the field's tolerance: what its sidewalls may miss of the depth, which the loss sees as a speed
 FEW_PASSES, NOISE = 12, 1e-5  # what the line load of a certified field leaves of that depth undecided
 SHALLOW = 1e-3  # [m]: a contact less deep has its sidewalls settled as if it were so deep
 
@@ -54,10 +54,15 @@ class FieldEdgeError(FieldError):
     """The contact reached the edge of the grid."""
 
 
-def half_space_of(settings: FieldSettings) -> HalfSpace:
-    """Half-space of a field's grid, with the belt that yields beside it where there is one."""
+def half_space_of(settings: FieldSettings, softening: Softening | None) -> HalfSpace:
+    """Half-space of a field's grid, with the belt that yields beside it where there is one, and what its
+    ``softening`` sidewalls yield with the load.
+    """
     size = (settings.rows, settings.cols, settings.cell_x, settings.cell_y)
-    return make_half_space(*size, settings.modulus, yielding_of(settings.belt, *size))
+    yielding = yielding_of(settings.belt, *size)
+    if yielding is not None and softening is not None:
+        yielding += softening.yields(settings.rows)[:, None] * settings.cell_y
+    return make_half_space(*size, settings.modulus, yielding)
 
 
 class PressureField:
@@ -71,11 +76,11 @@ class PressureField:
         """
         self.settings = settings
         self.contact = contact
-        self._field = (settings.solver or RollingField)(half_space_of(settings))
-        self.whole: Held[Part] = self._field.whole
         belt, self.softening = settings.belt, softening
         if softening is None and isinstance(belt, InflatedBelt) and belt.arc is not None:
             self.softening = Softening(belt, settings.rows, settings.cell_x)
+        self._field = (settings.solver or RollingField)(half_space_of(settings, self.softening))
+        self.whole: Held[Part] = self._field.whole
         self._row: int | None = None  # of the road under row 0, at the last solve
         self.pressure: Field = self._field.pressure
         self.load = self._approach = 0.0
@@ -128,8 +133,10 @@ class PressureField:
         return float(result.approach)
 
     def opened(self, gap: Field) -> Field:
-        """The gap [rows, cols] [m] as the sidewalls open it, of any grid with the cells of this one."""
-        return gap if self.softening is None else gap + self.softening.gap[self.softening.rows(len(gap))][:, None]
+        """The gap [rows, cols] [m] as the sidewalls open it beside what they yield with the load, of any grid with the cells
+        of this one.
+        """
+        return gap if self.softening is None else gap + self.softening.opening[self.softening.rows(len(gap))][:, None]
 
     def _passes(self, gap: Field, tolerance: float) -> Iterator[Field]:
         """Gaps to be solved one after the other, until the sidewalls bear what they were taken to bear: to

@@ -31,7 +31,7 @@ What they bear less, ``D(x) = C p w - S(w)``, loads the belt beside the road:
     w = G * (q + D) + c (F + sum c D) / K_b,  c = cos(x / R)
 
 since the ring's translation moves the belt by c; D is that of the lower half. `Softening` finds it by
-fixed point.
+fixed point. What of it is linear in the pressure, about a usual contact, the field is solved with.
 
 Valid for 120 to 300 kPa, deflections up to 40 mm, road slopes that are small, contact within 0.12 m
 of its middle. Sources: Gong, A study of in-plane dynamics of tires (1993), for the ring; Pacejka,
@@ -45,6 +45,7 @@ import math
 
 import numpy
 from numpy.typing import NDArray
+from scipy.fft import irfft, next_fast_len, rfft
 
 from contact_sim_pkg.compiled.guards import require, require_positive
 from contact_sim_pkg.pressure.settings import InflatedBelt, SidewallArc
@@ -62,9 +63,14 @@ MODES = 1000
 ARC_POINTS = 2000
 """Of the table of S: straight lines between them miss 1e-6 of it."""
 
-OVER, LEAST_OVER = 1.12, 0.3
+OVER, LEAST_OVER = 1.3, 0.3
 """Of a pass over the plain one, which leaves 0.09 to 0.16 of a change; where the one before went too far that
 follows from what it did (Aitken), and the least of it.
+"""
+
+CONTACT, OF_PLATEAU, SETTLING = 0.31, 1.9, 30
+"""Of a usual contact: length over the radius, line load over the hoop's T / R, passes that settle the sidewalls beside it. How
+soon a field settles hangs on them, nothing else.
 """
 
 STRAIGHTER, CLOSED = 0.7, 2.4  # ends of that table: of phi, and [rad]; the belt is near the rim
@@ -192,7 +198,12 @@ def arc_force(arc: SidewallArc) -> tuple[Field, Field]:
 class Softening:
     """What the sidewalls of a belt bear less than their linear foundation, over the lower half of the
     ring: `place` it, `start` an instant, `follow` each solution of the field, then solve again with the
-    gap raised by `opened`. Grids of any number of rows share it, middle on middle.
+    gap raised by `opening`, on a belt that `yields` more. Grids of any number of rows share it, middle
+    on middle.
+
+    D about a usual contact is linear in the line load, ``D = D_0 + d * q``: `gap` is ``opening + h * q``
+    with ``h = G * d`` and what the ring's translation adds. With h among its influences a solution is
+    settled but for the difference; without, a second one is needed whenever the load changes.
     """
 
     def __init__(self, belt: InflatedBelt, rows: int, cell_x: float) -> None:
@@ -203,22 +214,26 @@ class Softening:
         self._arc, self._cell_x = belt.arc, cell_x
         self._middle = max(math.ceil(0.5 * math.pi * belt.radius / cell_x) + 1, rows - rows // 2)
         count = 2 * self._middle + 1
-        influence = inflated_influence(belt._replace(ring_compliance=0.0), count, 1, cell_x, 1.0)[:, 0]
-        self._along = numpy.fft.rfft(numpy.concatenate((influence, [0.0], influence[:0:-1])))
+        self._size = next_fast_len(2 * count, real=True)
+        self._along = self._transform(
+            inflated_influence(belt._replace(ring_compliance=0.0), count, 1, cell_x, 1.0)[:, 0]
+        )
         self._angle: Field = numpy.arange(-self._middle, self._middle + 1, dtype=numpy.float64) * (cell_x / belt.radius)
         self._radius = belt.radius
-        self._closer, self._force = arc_force(belt.arc)
-        self._slopes = numpy.diff(self._force)[[0, -1]] / numpy.diff(self._closer)[[0, -1]]
+        self._nearer, self._force = arc_force(belt.arc)
+        self._slopes = numpy.diff(self._force)[[0, -1]] / numpy.diff(self._nearer)[[0, -1]]
         self._linear = membrane_stiffness(belt.arc.half_angle) * belt.arc.pressure
         self.load: Field = numpy.zeros(count)  # [N/m] D
-        self.gap: Field = numpy.zeros(count)  # [m] that it opens
+        self.opening: Field = numpy.zeros(count)  # [m] that it opens the gap by, but for what goes with the line load
         self.bent: Field = numpy.zeros(count)  # [m] of the belt beside that of its loads: of its memory
+        self._line: Field = numpy.zeros_like(self._along)  # transform of that line load
         self.start()
         self.place(0.0)
+        self._more, self._yields = self._by_line(belt.tension / belt.radius)  # transforms of d and h
 
     def reset(self) -> None:
         """Reset to an unloaded belt."""
-        for field in (self.load, self.gap, self.bent):
+        for field in (self.load, self.opening, self.bent, self._line):
             field.fill(0.0)
 
     def place(self, middle: float) -> None:
@@ -242,14 +257,13 @@ class Softening:
 
     def follow(self, line: Field) -> float:
         """Take the line load ``line`` [N/m] [rows of a grid] of the road; returns how far the belt under it
-        was from settled [m]: the change of `gap`, the mean under the load, without one the largest.
+        was from settled [m]: the change of `opening`, the mean under the load, without one the largest.
         """
-        place, ring, total = self.rows(len(line)), self._arc.ring_compliance, float(line.sum())
-        load = self.load.copy()
-        load[place] += line
-        closer = self._bend(load) + (total + float(self._lowered @ self.load)) * self._cell_x * ring * self._lowered
-        softer = (self._linear * (closer + self.bent) - self._borne(closer + self.bent)) * self._lower
-        missed = softer - self.load
+        whole, place, total = numpy.zeros_like(self.load), self.rows(len(line)), float(line.sum())
+        whole[place] = line
+        before, self._line = self._line, rfft(whole, self._size)
+        self.load += self._spread(self._more * (self._line - before))
+        missed = self._softer(self._line, total) - self.load
         if self._missed is not None:
             turned = missed - self._missed
             square = float(turned @ turned)
@@ -257,10 +271,22 @@ class Softening:
                 self._over = min(max(-self._over * float(self._missed @ turned) / square, LEAST_OVER), OVER)
         self._missed = missed
         self.load += self._over * missed
-        before, down = self.gap, float(self._lowered @ self.load) * self._cell_x * ring
-        self.gap = self._bend(self.load) + down * self._lowered
-        change = self.gap - before
+        linear = self._yields * self._line
+        opening = self._spread(self._along * rfft(self.load, self._size) - linear) + self._translated(0.0)
+        change, self.opening = opening - self.opening, opening
         return float(abs(change).max()) if total == 0.0 else abs(float(line @ change[place])) / total
+
+    def yields(self, rows: int) -> Field:
+        """Displacement h [m^2/N] i ``rows`` away from a unit line load on a row of cells, [rows]."""
+        along = numpy.zeros(rows)
+        half = irfft(self._yields, self._size)[: min(rows, len(self.load))]
+        along[: len(half)] = half
+        return along
+
+    @property
+    def gap(self) -> Field:
+        """How far the load moves the belt [m]."""
+        return self.opening + self._spread(self._yields * self._line)
 
     def climb(self, line: Field) -> float:
         """Force [N] against the travel of a line load ``line`` [N/m] [rows of a grid] on the slope of `gap`: of the ring's
@@ -272,13 +298,56 @@ class Softening:
         """Force [N] against the travel, negative where it takes energy, of `load` on the slope of `bent`."""
         return float(self.load @ numpy.gradient(self.bent))
 
-    def _bend(self, load: Field) -> Field:
-        """Displacement G * load of the belt [m]."""
-        count = 2 * len(load)
-        return numpy.fft.irfft(numpy.fft.rfft(load, count) * self._along, count)[: len(load)]
+    def _spread(self, transform: Field) -> Field:
+        """What has a ``transform``, on the rows of the ring."""
+        return numpy.asarray(irfft(transform, self._size)[: len(self.load)])
+
+    def _translated(self, total: float) -> Field:
+        """How much closer [m] the translation of the ring brings the belt, under `load` and so much, the ``total`` [N/m] of
+        the rows, of the road.
+        """
+        ring = self._cell_x * self._arc.ring_compliance
+        return (total + float(self._lowered @ self.load)) * ring * self._lowered
+
+    def _closer(self, line: Field, total: float) -> Field:
+        """How much closer [m] to the rim the belt is under `load` and the transform of a ``line`` load of the road, whose
+        rows sum up to a ``total`` [N/m].
+        """
+        return self._spread(self._along * (line + rfft(self.load, self._size))) + self._translated(total) + self.bent
+
+    def _softer(self, line: Field, total: float) -> Field:
+        """D [N/m] of the belt as it lies under that."""
+        closer = self._closer(line, total)
+        return numpy.asarray((self._linear * closer - self._borne(closer)) * self._lower)
+
+    def _by_line(self, plateau: float) -> tuple[Field, Field]:
+        """Transforms of d and h: what D gains by a unit line load in the middle of a usual contact, and how far
+        that moves the belt. ``plateau`` [N/m]: the hoop's T / R.
+        """
+        usual = numpy.where(abs(self._angle) <= 0.5 * CONTACT, OF_PLATEAU * plateau, 0.0)
+        line, total = rfft(usual, self._size), float(usual.sum())
+        for _ in range(SETTLING):
+            self.load = self._softer(line, total)
+        # The slope of D there, by a small difference
+        closer, small = self._closer(line, total), 1e-6 * self._radius
+        slope = self._linear - (self._borne(closer + small) - self._borne(closer - small)) / (2.0 * small)
+        unit = rfft((self._angle == 0.0).astype(numpy.float64), self._size)
+        self.load = numpy.zeros_like(closer)
+        for _ in range(SETTLING):
+            self.load = slope * self._closer(unit, 1.0) * self._lower
+        more, yields = self.load, self._closer(numpy.zeros_like(unit), 0.0)
+        self.load = numpy.zeros_like(closer)
+        return self._transform(more[self._middle :]), self._transform(yields[self._middle :])
+
+    def _transform(self, half: Field) -> Field:
+        """Transform of an influence by distance, zero beyond that ``half``."""
+        whole = numpy.zeros(self._size)
+        whole[: len(half)] = half
+        whole[len(whole) - len(half) + 1 :] = half[:0:-1]
+        return numpy.asarray(rfft(whole))
 
     def _borne(self, closer: Field) -> Field:
         """S [N/m]."""
-        first, last = closer - self._closer[0], closer - self._closer[-1]
+        first, last = closer - self._nearer[0], closer - self._nearer[-1]
         beyond = self._slopes[0] * numpy.minimum(first, 0.0) + self._slopes[1] * numpy.maximum(last, 0.0)
-        return numpy.asarray(numpy.interp(closer, self._closer, self._force) + beyond)
+        return numpy.asarray(numpy.interp(closer, self._nearer, self._force) + beyond)

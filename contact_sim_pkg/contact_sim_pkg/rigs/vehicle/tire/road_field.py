@@ -162,7 +162,7 @@ class RoadField(ContactField):
         geometry, road = self._geometry, self._road
         assert geometry is not None
         softening, rows = grids.wide.softening, grids.wide.settings.rows
-        opened = numpy.zeros(rows) if softening is None else softening.gap[softening.rows(rows)]
+        opened = numpy.zeros(rows) if softening is None else softening.opening[softening.rows(rows)]
         return self._tread_state is None and clear_beyond(
             grids.wide.whole, opened, road.height, road.first_row, geometry.form, self._first_row(grids.usual.settings),
             self.travel, approach, grids.usual.pressure, geometry.lattice.road_rows,
