@@ -69,7 +69,7 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     field = recording.fields.get(TIRE)
     stands = standing_of(recording)
     upright = _load(ride) if stands is None else (*_load(ride), *_standing(ride, stands))
-    if field is not None:
+    if field is not None and standing is not None:
         upright = *upright, *_pressures(ride, field)
     along = [*_along(ride), *_work(ride), *_lean(ride, field)]
     # Of a tire that slips, first what it slips for
@@ -167,7 +167,8 @@ def _standing(ride: _Ride, stands: TireStanding) -> Iterator[Metric]:
         remark = ", ".join(filter(None, (of, f"static, under {1e-3 * stands.load:.3g} kN")))
         yield ride.make(key, name, value, unit, quantity=f"tire_{key}", topic=f"{TIRE}/standing", basis=STATE,
                         remark=remark)  # fmt: skip
-    yield from _hop(ride, stands.stiffness)
+        if key == "stiffness":
+            yield from _hop(ride, stands.stiffness)
 
 
 def _hop(ride: _Ride, stiffness: float) -> Iterator[Metric]:
