@@ -113,10 +113,17 @@ EPISODES = {
     name: _drawn(0.1, 0.9, 5)
     for name in ("start", "end", "compression_work", "restitution_work", "restitution", "peak_force", "largest_approach")
 }  # fmt: skip
+STANDS = {
+    name: float(_drawn(low, 1.2 * low))
+    for name, low in (
+        ("load", 3400.0), ("deflection", 0.013), ("stiffness", 190e3), ("length", 0.11), ("width", 0.14), ("area", 0.013),
+        ("mean_pressure", 210e3),
+    )
+}  # fmt: skip
 ENDED = (2, 0, 3)  # episodes of the first blocks
 TOPICS = (
-    "bench/scene", "tire/force", "seat/force", "tire/axle", "tire/patch", "seat/patch", "bench/motion", "bench/energy",
-    "bench/cost", "bench/episodes",
+    "bench/scene", "tire/force", "seat/force", "tire/axle", "tire/standing", "tire/patch", "seat/patch", "bench/motion",
+    "bench/energy", "bench/cost", "bench/episodes",
 )  # fmt: skip
 
 
@@ -153,6 +160,8 @@ def _records(block: int) -> list[tuple[str, Any]]:
         ("bench/energy", records.EnergyLedger(**row(LEDGER))),
         ("bench/cost", records.SolverCost(**row(COSTS), **estimates)),
     ]
+    if block == 0:
+        found.append(("tire/standing", records.TireStanding(block=11, **STANDS)))
     if block < len(ENDED) and ENDED[block]:
         first = sum(ENDED[:block])
         ended = {name: values[first : first + ENDED[block]] for name, values in EPISODES.items()}

@@ -404,6 +404,17 @@ class SolverCost(_Record):
     estimated_of: NDArray[numpy.float64] = ...
 
 @dataclass(frozen=True, kw_only=True)
+class TireStanding(_Record):
+    block: int
+    load: float
+    deflection: float
+    stiffness: float
+    length: float
+    width: float
+    area: float
+    mean_pressure: float
+
+@dataclass(frozen=True, kw_only=True)
 class TireWork(_Record):
     block: int
     axle: float

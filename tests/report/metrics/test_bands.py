@@ -10,7 +10,7 @@ from contact_sim_pkg.report.metrics.maker import Maker, conditions_of, near
 
 
 def test_a_band_holds_where_its_conditions_are_met():
-    met = band_of("tire_stiffness", {"ring": "no", "load_kN": 4.0, "inflation_kPa": 220.0})
+    met = band_of("tire_stiffness", {"load_kN": 4.0, "inflation_kPa": 220.0})
     assert (met.band.low, met.band.high) == (180.0, 250.0)
     assert published_range("tire_stiffness") == (180.0, 250.0)
 
@@ -19,7 +19,7 @@ def test_a_band_holds_where_its_conditions_are_met():
 def test_elsewhere_it_is_named_and_not_applied(run):
     found = band_of("tire_stiffness", run)
     assert found.band is None
-    assert found.reason == "no band here: published for about 4 kN at 200 to 240 kPa, of the whole tire"
+    assert found.reason == "no band here: published for about 4 kN at 200 to 240 kPa"
 
 
 def test_a_run_on_another_speed_sees_the_bands_of_its_own_road():

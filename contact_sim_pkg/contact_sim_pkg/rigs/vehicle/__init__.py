@@ -25,6 +25,7 @@ TIRE = Contact(
         ContactTopic("shear", "contact_msgs_defs/msg/ContactShear", FIELD),
         ContactTopic("axle", "contact_msgs_defs/msg/AxleForce"),
         ContactTopic("work", "contact_msgs_defs/msg/TireWork", BLOCK),
+        ContactTopic("standing", "contact_msgs_defs/msg/TireStanding", "the first block"),
     ),
 )
 SEAT = Contact(

@@ -42,6 +42,7 @@ from contact_sim_pkg.rigs.vehicle.tire.model import (
     build_tire,
 )
 from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss
+from contact_sim_pkg.rigs.vehicle.tire.standing import TireAtRest
 from contact_sim_pkg.run.contact_laws import Cushion, elastic_law, friction, hysteresis, normal_loss
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
@@ -72,6 +73,7 @@ class Model:
     rolling_friction: RollingFriction | None
     rolling_loss: RollingLoss | None
     asperities: Asperities | None
+    tire_standing: TireAtRest | None
     seat_field: FieldGrids | None
     seat_shape: SeatShape | None
     seat_map: SeatMap | None
@@ -136,6 +138,7 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
         rolling_friction=None if tire is None else tire.rolling_friction,
         rolling_loss=None if tire is None else tire.rolling_loss,
         asperities=None if tire is None else tire.asperities,
+        tire_standing=None if tire is None else tire.standing,
         seat_field=seat_field,
         seat_shape=shape,
         seat_map=build_seat_map(scene, cushion),

@@ -18,6 +18,7 @@ from contact_sim_pkg.records.messages import (
     ContactPatch,
     ContactShear,
     EnergyLedger,
+    TireStanding,
     TireWork,
 )
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids
@@ -25,6 +26,7 @@ from contact_sim_pkg.rigs.vehicle.field.driver import FieldRecord
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.motion import entries as columns
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import Sheared, Works
+from contact_sim_pkg.rigs.vehicle.tire.standing import TireAtRest
 from contact_sim_pkg.run.contact_patch import contact_patch
 from contact_sim_pkg.run.outputs import BlockStamps, Estimate, contact_outputs, energy_ledger, largest_of, solver_cost
 
@@ -54,6 +56,7 @@ class BlockRecord:
         default_factory=list
     )  # sample, field of the tire, shear under it
     works: Works | None = None  # of a belt on its sidewalls, at the block's start
+    standing: TireAtRest | None = None  # in the first block of a run
     seat_maps: list[tuple[int, Array]] = field(default_factory=list)  # sample, pressure [Pa] of the seat's map
     counters: Array = field(default_factory=lambda: numpy.zeros(3))
     field_iterations: int = 0
@@ -120,6 +123,9 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
         outputs += _shears(stamps, model.tire_field, record)
         if record.works is not None:
             outputs.append(Output("tire/work", stamps.start, TireWork(block=record.block, **record.works._asdict())))
+        if record.standing is not None:
+            standing = TireStanding(block=record.block, **record.standing._asdict())
+            outputs.append(Output("tire/standing", stamps.start, standing))
     if model.rig.seat_contact is not None:
         force = ContactForce(
             block=record.block, sample_period=stamps.period, normal=forces[:, columns.SEAT_NORMAL],

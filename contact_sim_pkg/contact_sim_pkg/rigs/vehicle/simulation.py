@@ -56,9 +56,10 @@ class Simulation:
         ringing = () if occupant is None else ringing_cautions(occupant, self.scene.outputs.force_rate)
         if rig.tire_contact is None:
             return ringing
+        standing = self.model.tire_standing
         return (
             *ringing,
-            *stiffness_cautions(rig.tire_contact.elastic, rig.rigid_ring, self._coupling.bodies.weight()),
+            *(() if standing is None else stiffness_cautions(standing.stiffness, standing.load)),
             *edge_cautions(self.scene, None if grids is None else grids.usual.settings),
             *request_cautions(self.scene, self.model.coupling, grids),
         )
@@ -129,6 +130,7 @@ class Simulation:
         if block == self._first_block:
             time_now = block * self.model.timing.block_length
             coupling.start(drive, rate_at_start(self.model, self._travel, drive.road, float(drive.rate[0]), time_now))
+            record.standing = self.model.tire_standing
         coupling.bodies.work.counters[:] = 0.0
         for interval in range(self.model.timing.intervals):
             self._interval(block, interval, drive, record)

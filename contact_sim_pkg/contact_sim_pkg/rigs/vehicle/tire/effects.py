@@ -78,12 +78,12 @@ _FIELD = partial(_short, limit=SHORT_WAVE, lengths="three footprints")
 TIRE_EFFECTS = (
     Effect(
         name="normal_elastic", section=f"{_SCHEMA}:HertzElastic", help="elastic force", source="Johnson, Contact Mechanics, 4.2",
-        carries=True, feeds=("force", "wrench"),
+        carries=True, feeds=("force", "wrench", "standing"),
     ),
     Effect(
         name="inflation", section=f"{_SCHEMA}:Inflation", help="inflated tire: belt under tension, sidewalls, tread",
         source="Pacejka, Tire and Vehicle Dynamics, 9", carries=True, excludes=("normal_elastic", "envelopment"),
-        feeds=("force", "wrench", "patch"),
+        feeds=("force", "wrench", "patch", "standing"),
     ),
     Effect(
         name="normal_dissipative", section=f"{_SCHEMA}:TireLoss", help="loss", source="Brogliato, Nonsmooth Mechanics, 2",
@@ -95,11 +95,11 @@ TIRE_EFFECTS = (
     ),
     Effect(
         name="rigid_ring", section=f"{_SCHEMA}:RigidRingSection", help="rigid ring on sidewalls",
-        source="Pacejka, Tire and Vehicle Dynamics, 9", needs=("normal_elastic",), feeds=("force", "wrench", "patch"),
+        source="Pacejka, Tire and Vehicle Dynamics, 9", needs=("normal_elastic",), feeds=("force", "wrench", "patch", "standing"),
     ),
     Effect(
         name="envelopment", section=f"{_SCHEMA}:Envelopment", help="belt that bends over obstacles",
-        source="Pacejka, Tire and Vehicle Dynamics, 10", needs=("contact_field",), feeds=("patch", "force", "wrench"),
+        source="Pacejka, Tire and Vehicle Dynamics, 10", needs=("contact_field",), feeds=("patch", "force", "wrench", "standing"),
         called_for=partial(_short, limit=FOOTPRINT, lengths="the footprint"),
     ),
     Effect(

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.laws.parameters import TabulatedElastic
 from contact_sim_pkg.laws.tabulated_elastic import tabulated_approach_of_force, tabulated_law
+from contact_sim_pkg.pressure.field import extent, patch
 from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.field import inflated_belt
@@ -22,7 +23,7 @@ from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, Pressur
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import RANGE
 
-__all__ = ["TireTable", "gap_over_level_road", "tire_table"]
+__all__ = ["Footprint", "TireTable", "footprint_of", "gap_over_level_road", "tire_table"]
 
 Field = NDArray[numpy.float64]
 SPACING = 5e-4  # [m] between two approaches
@@ -32,12 +33,21 @@ TOLERANCE, ITERATIONS = 1e-6, 400
 MAP_EVERY = 4  # approaches from one kept footprint to the next
 
 
+class Footprint(NamedTuple):
+    """Contact of a tire on a level road."""
+
+    length: float  # [m] along the travel
+    width: float  # [m] across
+    area: float  # [m^2]
+
+
 class TireTable(NamedTuple):
     """Forces [N] at the approaches 0, ``spacing``, 2 ``spacing`` ... [m] of a level road."""
 
     spacing: float  # [m]
     force: Field  # [nodes] [N]
-    size: Field  # [nodes, 3] length along, width across [m], area [m^2] of the contact
+    size: Field  # [nodes, 3] length along, width across [m], area [m^2] of the contact, in whole cells
+    edges: Field  # [nodes, 3] the same with the edges between cells
     cell: Field  # [2] [m] of the footprints, along and across
     quarters: NDArray[numpy.float32]
     """[nodes / MAP_EVERY, rows, cols] [Pa] footprints, the quarter x, y >= 0: cell (i, j) at (i, j +
@@ -49,11 +59,19 @@ class TireTable(NamedTuple):
         return tabulated_law(self.spacing, self.force)
 
     def contact_at(self, load: float) -> tuple[float, float, float]:
-        """Length along, width across [m] and area [m^2] of the contact under a ``load`` [N]."""
+        """Length along, width across [m] and area [m^2] of the contact under a ``load`` [N], in whole cells."""
+        return self._at(load, self.size)
+
+    def footprint_at(self, load: float) -> Footprint:
+        """The footprint under a ``load`` [N], its edges between cells."""
+        return Footprint(*self._at(load, self.edges))
+
+    def _at(self, load: float, columns: Field) -> tuple[float, float, float]:
+        """Three ``columns`` [nodes, 3] under a ``load`` [N], linear between the nodes."""
         place = tabulated_approach_of_force(self.law(), load) / self.spacing
         nodes = numpy.arange(len(self.force))
-        length, width, area = (float(numpy.interp(place, nodes, column)) for column in self.size.T)
-        return length, width, area
+        first, second, third = (float(numpy.interp(place, nodes, column)) for column in columns.T)
+        return first, second, third
 
     def weights(self, load: float, cells: tuple[float, float], cols: int) -> Field:
         """Weights of the road under a ``load`` [N] on its nodes, [2 reach + 1, cols], of sum 1; see
@@ -80,6 +98,14 @@ class TireTable(NamedTuple):
         return numpy.asarray((1.0 - part) * self.quarters[i].astype(numpy.float64) + part * self.quarters[i + 1])
 
 
+def footprint_of(pressure: Field, cell_x: float, cell_y: float) -> Footprint:
+    """Footprint of a ``pressure`` [rows, cols] [Pa] on cells of ``cell_x`` by ``cell_y`` [m], its edges where the square
+    of the pressure comes to 0; zeros without contact.
+    """
+    length, width = extent.extent(pressure) * cell_x, extent.extent(pressure.T) * cell_y
+    return Footprint(length, width, float(patch.contact_area(pressure, cell_x, cell_y)))
+
+
 def _between(values: Field, place: Field) -> Field:
     """Rows of ``values`` at places between them, linear; zeros beyond the last."""
     low = numpy.clip(numpy.floor(place).astype(numpy.int64), 0, len(values) - 2)
@@ -104,7 +130,8 @@ def tire_table(body: TireBody, solver: type | None = None) -> TireTable:
     """The table of a body, kept on disk; not so with another ``solver`` of a half-space."""
     if solver is not None:
         return _make(body, solver)
-    arrays = kept_arrays("tires", repr(body), [__file__, inflated_belt.__file__], lambda: _make(body)._asdict())
+    sources = [__file__, inflated_belt.__file__, extent.__file__, patch.__file__]
+    arrays = kept_arrays("tires", repr(body), sources, lambda: _make(body)._asdict())
     arrays["spacing"] = float(arrays["spacing"])  # type: ignore[assignment]
     return TireTable(**arrays)  # type: ignore[arg-type]
 
@@ -118,7 +145,7 @@ def _make(body: TireBody, solver: type | None = None) -> TireTable:
     middle_row, middle_col = rows // 2, cols // 2
     x, y = (numpy.arange(rows) - middle_row) * cell_x, (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y
     gap, field = gap_over_level_road(body.form, x, y), PressureField(settings._replace(solver=solver), "tire")
-    force, size = [0.0], [(0.0, 0.0, 0.0)]
+    force, size, edges = [0.0], [(0.0, 0.0, 0.0)], [Footprint(0.0, 0.0, 0.0)]
     quarters: list[Field] = [numpy.zeros((rows - middle_row, cols - middle_col))]
     for node in range(1, round(DEEPEST / SPACING) + 1):
         try:
@@ -132,9 +159,10 @@ def _make(body: TireBody, solver: type | None = None) -> TireTable:
         size.append(
             (loaded.any(axis=1).sum() * cell_x, loaded.any(axis=0).sum() * cell_y, loaded.sum() * cell_x * cell_y)
         )
+        edges.append(footprint_of(field.pressure, cell_x, cell_y))
         if node % MAP_EVERY == 0:
             quarters.append(field.pressure[middle_row:, middle_col:].copy())
     return TireTable(
-        SPACING, numpy.array(force), numpy.array(size), numpy.array([cell_x, cell_y]),
+        SPACING, numpy.array(force), numpy.array(size), numpy.array(edges), numpy.array([cell_x, cell_y]),
         numpy.array(quarters, dtype=numpy.float32),
     )  # fmt: skip

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.excitation.blocks import RoadLattice
 from contact_sim_pkg.laws.elastic_law import approach_of_force
-from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, NormalElastic
-from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, power_law
+from contact_sim_pkg.laws.parameters import Contact, ElasticLaw
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids, make_grids, tangent_law
@@ -26,10 +25,19 @@ from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection
 from contact_sim_pkg.rigs.vehicle.tire import schema
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm, body_of
 from contact_sim_pkg.rigs.vehicle.tire.footprint import hertz_weights
-from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, gap_over_level_road, tire_table
+from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load, tire_lattice
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, LoadFriction, Sidewalls, TreadViscoelasticity, WheelSpin
 from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss, rolling_loss
+from contact_sim_pkg.rigs.vehicle.tire.standing import (
+    TireAtRest,
+    crown_of,
+    hertz_law,
+    hertz_semi_axes,
+    of_field,
+    of_half_space,
+    of_table,
+)
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import stiffening
 from contact_sim_pkg.run.contact_laws import normal_loss
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -129,6 +137,7 @@ class TireParts:
     rolling_friction: RollingFriction | None
     rolling_loss: RollingLoss | None
     asperities: Asperities | None
+    standing: TireAtRest | None  # under its standing load; None where no static solution carries that
 
 
 def build_tire(scene: ResolvedScene, occupant: OccupantSection | None, solver: type | None = None) -> TireParts:
@@ -161,7 +170,21 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None, solver: t
         rolling_friction=_rolling_friction(scene, deflection, body.form.radius_rolling, geometry),
         rolling_loss=_rolling_loss(scene, body),
         asperities=asperities,
+        standing=_standing(scene, body, table, rigid_ring, load, solver),
     )
+
+
+def _standing(
+    scene: ResolvedScene, body: TireBody, table: TireTable | None, rigid_ring: RigidRing | None, load: float,
+    solver: type | None,
+) -> TireAtRest | None:  # fmt: skip
+    """The tire at rest, a tread with memory relaxed: `body` is that for long, as its table."""
+    if table is not None:
+        return of_table(table, rigid_ring, load)
+    settings = _field_settings(scene, body)
+    if settings is None or body.belt is None:  # a belt needs a field
+        return of_half_space(body, rigid_ring, load)
+    return of_field(make_grids(settings._replace(solver=solver), "tire"), body.form, rigid_ring, load)
 
 
 def _elastic(
@@ -179,9 +202,8 @@ def _elastic(
     if field is None and table is not None:
         return table.law(), geometry.footprint_length, None
     if field is None:
-        curvatures = (0.5 / body.form.radius_rolling, 0.5 / body.form.radius_lateral)
-        return NormalElastic(float(power_law(*curvatures, body.modulus)), 1.5), geometry.footprint_length, None
-    law, length = tangent_law(field, lambda grid: _crown(body.form, grid), load, "tire")
+        return hertz_law(body), geometry.footprint_length, None
+    law, length = tangent_law(field, lambda grid: crown_of(body.form, grid), load, "tire")
     if tread is not None:
         return law, geometry.footprint_length, field
     return (law, length, field) if table is None else (table.law(), length, field)
@@ -304,19 +326,9 @@ def _geometry(scene: ResolvedScene, body: TireBody, table: TireTable | None, loa
     if table is not None:
         length, width, _area = table.contact_at(load)
         return TireGeometry(body.form, length, 0.5 * width, table.weights(load, cells, lattice.road_cols), lattice)
-    form = body.form
-    footprint = hertz_contact(0.5 / form.radius_rolling, 0.5 / form.radius_lateral, body.modulus, load)
-    wide = form.radius_lateral >= form.radius_rolling
-    semi_x, semi_y = (footprint.b, footprint.a) if wide else (footprint.a, footprint.b)
+    semi_x, semi_y = hertz_semi_axes(body, load)
     weights = hertz_weights(semi_x, semi_y, *cells, lattice.road_cols)
-    return TireGeometry(form, 2.0 * semi_x, semi_y, weights, lattice)
-
-
-def _crown(form: TireForm, grid: FieldSettings) -> NDArray[numpy.float64]:
-    """Gap of the tire over a level road in [m], on the cells of a grid."""
-    x = (numpy.arange(grid.rows) - grid.rows // 2) * grid.cell_x
-    y = (numpy.arange(grid.cols) - 0.5 * (grid.cols - 1)) * grid.cell_y
-    return gap_over_level_road(form, x, y)
+    return TireGeometry(body.form, 2.0 * semi_x, semi_y, weights, lattice)
 
 
 def relaxed_grids(grids: FieldGrids, tread: Tread) -> FieldGrids:

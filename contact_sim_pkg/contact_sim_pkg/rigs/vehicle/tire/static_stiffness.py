@@ -28,9 +28,10 @@ def tire_stiffness(law: ElasticLaw, rigid_ring: RigidRing | None, load: float) -
     return 1.0 / compliance
 
 
-def stiffness_cautions(law: ElasticLaw, rigid_ring: RigidRing | None, load: float) -> tuple[str, ...]:
-    """A sentence where a tire under the ``load`` [N] of a car's wheel is not as stiff as one."""
-    stiffness = tire_stiffness(law, rigid_ring, load)
+def stiffness_cautions(stiffness: float, load: float) -> tuple[str, ...]:
+    """A sentence where the ``stiffness`` [N/m] of a tire under the ``load`` [N] of a car's wheel is not that of a car
+    tire.
+    """
     least, most = CAR_TIRES
     if least <= stiffness <= most or not CAR_LOADS[0] <= load <= CAR_LOADS[1]:
         return ()

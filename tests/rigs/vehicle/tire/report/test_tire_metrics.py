@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-import scipy.stats
 from tests.report import uneven_bag as known
 
-from contact_sim_pkg.report.field_series import extent, peak_over
+from contact_sim_pkg.pressure.field.extent import extent
+from contact_sim_pkg.records.metric import STATE
+from contact_sim_pkg.report.field_series import peak_over
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.rigs.vehicle.tire.report.metrics import tire_metrics
 
@@ -30,22 +31,29 @@ def test_time_off_the_road_counts_samples_and_how_often_it_lifts(metrics):
     assert metrics["lift_off"].remark.endswith("2 times")
 
 
-def test_the_stiffness_is_the_slope_of_load_over_approach_about_the_standing_load(metrics):
-    about = abs(FORCE["normal"] - known.STANDING) <= 0.2 * known.STANDING
-    slope = scipy.stats.linregress(FORCE["approach"][about], FORCE["normal"][about]).slope
-    assert metrics["stiffness"].value == pytest.approx(1e-3 * slope, rel=1e-9)
+@pytest.mark.parametrize(
+    ("key", "scale", "unit"),
+    [
+        ("stiffness", 1e-3, "kN/m"),
+        ("length", 1e3, "mm"),
+        ("width", 1e3, "mm"),
+        ("area", 1e4, "cm²"),
+        ("mean_pressure", 1e-3, "kPa"),
+    ],
+)
+def test_stiffness_and_footprint_are_those_of_the_standing_tire(metrics, key, scale, unit):
+    assert metrics[key].value == pytest.approx(scale * known.STANDS[key], rel=1e-12)
+    assert (metrics[key].unit, metrics[key].basis, metrics[key].topic) == (unit, STATE, "tire/standing")
 
 
-def test_the_footprint_is_the_median_of_the_fields_about_the_standing_load(metrics):
-    about = abs(FIELD["load"] - known.STANDING) <= 0.1 * known.STANDING
-    assert 2 < about.sum() < known.BLOCKS - 1
-    fields = known.PRESSURES["tire"].astype(float)
-    sizes = {
-        "length": 1e3 * known.CELL_X * np.array([extent(field) for field in fields]),
-        "width": 1e3 * known.CELL_Y * np.array([extent(field.T) for field in fields]),
-    }
-    for key, values in {**sizes, "area": 1e4 * FIELD["area"], "mean_pressure": 1e-3 * FIELD["mean"]}.items():
-        assert metrics[key].value == pytest.approx(np.median(values[about]), rel=1e-9)
+def test_a_bag_without_the_standing_tire_has_no_guess_of_it(uneven, metrics):
+    recording = read_recording(uneven)
+    older = recording._replace(series={name: value for name, value in recording.series.items() if name != "standing"})
+    left = {each.key.partition(".")[2] for each in tire_metrics(older)}
+    assert set(metrics) - left == {"stiffness", "length", "width", "area", "mean_pressure"}
+
+
+def test_the_peak_is_the_largest_of_the_run(metrics):
     assert metrics["peak_pressure"].value == pytest.approx(1e-3 * FIELD["peak"].max())
     assert metrics["peak_pressure"].remark.endswith(f"at {known.STAMPS[FIELD['peak'].argmax()] * 1e-9:.3f} s")
 

@@ -20,6 +20,11 @@ TIRE_REPORT = ContactReport(
             name="work", types=("contact_msgs_defs/msg/TireWork",), reader=f"{__name__}.work_series:WorkReader"
         ),
         SeriesReader(
+            name="standing",
+            types=("contact_msgs_defs/msg/TireStanding",),
+            reader=f"{__name__}.standing_series:StandingReader",
+        ),
+        SeriesReader(
             name="shear",
             types=("contact_msgs_defs/msg/ContactShear",),
             reader=f"{__name__}.shear_series:ShearReader",

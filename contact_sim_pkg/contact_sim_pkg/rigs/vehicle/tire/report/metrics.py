@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from contact_sim_pkg.excitation.kinds import RoadKind, kind_known
+from contact_sim_pkg.records.messages import TireStanding
 from contact_sim_pkg.records.metric import EVENT, STATE, Metric
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of, near
 from contact_sim_pkg.report.metrics.numerical import Errors, errors_of, not_resolved
@@ -19,16 +20,11 @@ from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import AxleSeries, axl
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
+from contact_sim_pkg.rigs.vehicle.tire.report.standing_series import standing_of
 from contact_sim_pkg.rigs.vehicle.tire.report.work_series import LOST, work_of
 
 SHORTEST = 8.0
 """[s] of a ride over an uneven road that says something of its load: ten periods of the body at 1.2 Hz"""
-STANDING_RANGE = 0.1
-"""Share of the standing load by which the load may differ where the standing tire is meant."""
-LEAST_SWING = 0.05
-"""Share of the standing load by which it must vary for that slope: less is cells that come and go."""
-STIFFNESS_RANGE = 0.2
-"""Share of the standing load over which the stiffness is a slope."""
 LOWEST_RINGING = 15.0
 """[Hz] below which the axle's force follows body and wheel"""
 RINGING_TIME = 0.3
@@ -71,10 +67,10 @@ def tire_metrics(recording: Recording) -> list[Metric]:
         str(conditions.get("road", "")).startswith("class"), _has_one_obstacle(recording.scene), errors_of(recording), conditions,
     )  # fmt: skip
     field = recording.fields.get(TIRE)
-    stiffness = None if standing is None else _stiffness(contact, standing)
-    upright = [*_load(ride), *_standing(ride, stiffness)]
+    stands = standing_of(recording)
+    upright = _load(ride) if stands is None else (*_load(ride), *_standing(ride, stands))
     if field is not None and standing is not None:
-        upright += _footprint(ride, field, standing)
+        upright = *upright, *_pressures(ride, field)
     along = [*_along(ride), *_work(ride), *_lean(ride, field)]
     # Of a tire that slips, first what it slips for
     return [*along, *upright] if float(conditions["largest_slip"]) >= LARGE_SLIP else [*upright, *along]
@@ -89,7 +85,7 @@ def _has_one_obstacle(scene: Mapping[str, Any]) -> bool:
 
 
 def _conditions(recording: Recording) -> dict[str, float | str]:
-    """Standing load [kN], inflation [kPa], mean speed [m/s], road and ground, ring, belt, largest slip."""
+    """Standing load [kN], inflation [kPa], mean speed [m/s], road, belt, largest slip."""
     found = conditions_of(recording.scene)
     effects = (recording.scene.get("effects") or {}).get(TIRE) or {}
     standing, road, shear = standing_load_of(recording.scene), road_of(recording), shear_of(recording)
@@ -97,8 +93,6 @@ def _conditions(recording: Recording) -> dict[str, float | str]:
         found["load_kN"] = 1e-3 * standing
     if effects.get("inflation"):
         found["inflation_kPa"] = 1e-3 * float(effects["inflation"]["pressure"])
-    found["ground"] = "stones" if found.get("road") in ("opencrg", "profile") else "even"
-    found["ring"] = "yes" if effects.get("rigid_ring") is not None else "no"
     found["belt"] = "yes" if effects.get("sidewall_compliance") is not None else "no"
     if road is not None and recording.duration > 0.0:
         found["speed_m_s"] = float(road.travel.distance[-1] - road.travel.distance[0]) / recording.duration
@@ -158,12 +152,27 @@ def _short(ride: _Ride) -> tuple[str, ...]:
     return (f"too short: {duration:.3g} s, {SHORTEST:g} s needed",) if ride.rough and duration < SHORTEST else ()
 
 
-def _standing(ride: _Ride, stiffness: float | None) -> Iterator[Metric]:
-    """Stiffness about the standing load, and the frequency at which the wheel hops on it."""
-    if stiffness is None:
-        return
-    yield ride.make("stiffness", "vertical stiffness", 1e-3 * stiffness, "kN/m", quantity="tire_stiffness", basis=STATE,
-                    remark="slope of the contact within 20 % of the standing load")  # fmt: skip
+def _standing(ride: _Ride, stands: TireStanding) -> Iterator[Metric]:
+    """The tire under its standing load as the model has it, the same in every run; the frequency at which the wheel
+    hops on its stiffness.
+    """
+    values = (
+        ("stiffness", "vertical stiffness", 1e-3 * stands.stiffness, "kN/m", "of the whole tire"),
+        ("length", "footprint length", 1e3 * stands.length, "mm", ""),
+        ("width", "footprint width", 1e3 * stands.width, "mm", ""),
+        ("area", "footprint area", 1e4 * stands.area, "cm²", ""),
+        ("mean_pressure", "mean pressure", 1e-3 * stands.mean_pressure, "kPa", ""),
+    )
+    for key, name, value, unit, of in values:
+        remark = ", ".join(filter(None, (of, f"static, under {1e-3 * stands.load:.3g} kN")))
+        yield ride.make(key, name, value, unit, quantity=f"tire_{key}", topic=f"{TIRE}/standing", basis=STATE,
+                        remark=remark)  # fmt: skip
+        if key == "stiffness":
+            yield from _hop(ride, stands.stiffness)
+
+
+def _hop(ride: _Ride, stiffness: float) -> Iterator[Metric]:
+    """The frequency at which the wheel hops on an uneven road, beside that on the ``stiffness`` [N/m] of its tire."""
     tire, motion = ride.recording.scene["tire"], ride.recording.motion
     wheel = None if motion is None else motion.acceleration.get("wheel_z")
     if motion is None or wheel is None or not ride.rough:
@@ -178,21 +187,9 @@ def _standing(ride: _Ride, stiffness: float | None) -> Iterator[Metric]:
                     band=near(expected, 0.15, "wheel on tire and suspension, no damping"))  # fmt: skip
 
 
-def _footprint(ride: _Ride, field: FieldSeries, standing: float) -> Iterator[Metric]:
-    """The footprint where the load is the standing one, the largest pressure, and that over a patch."""
-    about = np.abs(field.load - standing) <= STANDING_RANGE * standing
-    count, topic = int(about.sum()), f"{TIRE}/patch"
-    of_area, of_peak = (ride.errors.largest(TIRE, kind) for kind in ("area", "peak"))
-    values = (
-        ("length", "footprint length", 1e3 * field.length, "mm", math.nan),
-        ("width", "footprint width", 1e3 * field.width, "mm", math.nan),
-        ("area", "footprint area", 1e4 * field.area, "cm²", of_area),
-        ("mean_pressure", "mean pressure", 1e-3 * field.mean, "kPa", of_area),
-    )
-    for key, name, column, unit, error in values if count else ():
-        yield ride.make(key, name, float(np.median(column[about])), unit, quantity=f"tire_{key}", topic=topic, count=count,
-                        basis=STATE, error=error * float(column[about].max()),
-                        remark="median about the standing load")  # fmt: skip
+def _pressures(ride: _Ride, field: FieldSeries) -> Iterator[Metric]:
+    """The largest pressure of the run, and that over a patch."""
+    topic, of_peak = f"{TIRE}/patch", ride.errors.largest(TIRE, "peak")
     yield ride.make("peak_pressure", "peak pressure", 1e-3 * float(field.peak.max()), "kPa", quantity="tire_peak_pressure",
                     topic=topic, count=field.time.size, basis=EVENT, error=1e-3 * of_peak * float(field.peak.max()),
                     remark=f"at {field.highest_time:.3f} s")  # fmt: skip
@@ -261,16 +258,6 @@ def _work(ride: _Ride) -> Iterator[Metric]:
     yield ride.make("sampling", "sampling of the shear", open_, "%", topic=topic, count=count,
                     band=at_most(1.0 if slip >= LARGE_SLIP else 10.0, "cells of the bristles, of what is lost"),
                     remark="what the bristles' force takes beside their own work")  # fmt: skip
-
-
-def _stiffness(contact: ContactSeries, standing: float) -> float | None:
-    """Slope [N/m] of load over approach within 20 % of the ``standing`` load [N]; None where the load stays away
-    from there, or does not vary."""
-    about = np.abs(contact.normal - standing) <= STIFFNESS_RANGE * standing
-    approach = contact.approach[about]
-    if approach.size < 3 or np.ptp(contact.normal[about]) < LEAST_SWING * standing or np.ptp(approach) <= 1e-6:
-        return None
-    return float(np.polyfit(approach - approach.mean(), contact.normal[about], 1)[0])
 
 
 def ringing_of(axle: AxleSeries) -> float | None:

@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 from contact_sim_pkg.records.regime import Figure
 from contact_sim_pkg.report.series import FieldSeries, Recording
 from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import axle_of
-from contact_sim_pkg.rigs.vehicle.tire.report.metrics import STANDING_RANGE, ringing_of
+from contact_sim_pkg.rigs.vehicle.tire.report.metrics import ringing_of
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import MOSTLY, shear_of
 
+STANDING_RANGE = 0.1
+"""Share of the standing load by which the load may differ where the standing tire is meant."""
 LOCKED = -0.999
 """Slip of a wheel that hardly turns."""
 
