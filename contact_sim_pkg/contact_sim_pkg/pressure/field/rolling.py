@@ -70,6 +70,11 @@ NEW, REPEAT, START = 0, 1, 2
 start from nothing.
 """
 
+NESTED_COSTS, NEWEST, AGAIN = 2.0, 0.125, 16
+"""Corrections that the coarser fields of a nested start cost; weight of the newest count of corrections in its mean; instants
+after which the start that was worse is tried again.
+"""
+
 Values = NDArray[numpy.float64]
 Box = tuple[int, int, int, int]
 
@@ -93,6 +98,8 @@ class RollingField:
         self._cells: int | None = None  # of travel since the last field, if a new instant began
         self._box: Box = NOWHERE  # of the last field's contact
         self._lengths: Values = numpy.full((3, MOST_CORRECTIONS), FIRST_LENGTH)
+        self._taken = [0.0, 0.0, 0.0]  # mean corrections of each
+        self._same = 0  # instants since the other start was tried
         self._parts: dict[tuple[int, int], Held[Part]] = {}
         self.whole = self._part(half_space.rows, half_space.cols)
         self._half = _half_of(half_space)
@@ -116,6 +123,7 @@ class RollingField:
         """Drop the fields before: the next one starts from nothing."""
         self._instants, self._cells, self._box = 0, None, NOWHERE
         self._lengths.fill(FIRST_LENGTH)
+        self._taken, self._same = [0.0, 0.0, 0.0], 0
         self.pressure.fill(0.0)
 
     def solve_at_load(self, gap: Field, load: float, tolerance: float, max_iterations: int) -> FieldResult:
@@ -146,7 +154,7 @@ class RollingField:
         """Solve where the gap and what is requested are known to be finite."""
         # Predict from the fields before, or start from a coarser grid.
         repeats, has_left = self._begin()
-        window, spent = self._expected(has_left), 0
+        window, spent = self._expected(has_left or (not repeats and self._prefers_nested())), 0
         share, lengths = (0.0, REPEAT) if repeats else (EXTRAPOLATION if self._instants > 1 else 0.0, NEW)
         if window is None:
             (window, share), lengths = self._start(gap, request), START
@@ -160,6 +168,8 @@ class RollingField:
                 self._half._last if self._half else self._last, left, start, self._lengths[lengths], self.pressure,
             )  # fmt: skip
             spent += found.corrections
+            if share != FROM_PRESSURE:
+                self._learn(lengths, found.corrections if found.certified else MOST_CORRECTIONS)
             if not found.certified:
                 return self._settle(window, gap, request, spent, repeats)
             if found.window == window:
@@ -190,11 +200,25 @@ class RollingField:
             self._last, self._before = self._before, self._last
             self._instants = min(self._instants + 1, 2)
 
-    def _expected(self, has_left: bool) -> GridWindow | None:
-        """Where the contact will be: around the place of the last; None where no field before is of
-        use, or a coarser grid has a better start once the road `has_left`.
+    def _learn(self, start: int, corrections: int) -> None:
+        """Take up how many ``corrections`` a ``start`` needed."""
+        self._taken[start] += (NEWEST if self._taken[start] else 1.0) * (corrections - self._taken[start])
+
+    def _prefers_nested(self) -> bool:
+        """Whether a nested start needs fewer corrections than a prediction; on a road whose tops pass quickly
+        under a stiff tread it does. The other one is tried again now and then.
         """
-        if self._instants == 0 or self._box == NOWHERE or (has_left and self._half is not None):
+        if self._half is None or self._instants < 2:
+            return False
+        self._same = (self._same + 1) % AGAIN
+        nested = self._taken[NEW] > self._taken[START] + NESTED_COSTS
+        return nested if self._same else not nested
+
+    def _expected(self, starts_nested: bool) -> GridWindow | None:
+        """Where the contact will be: around the place of the last; None where no field before is of
+        use, or a coarser grid, where there is one, has a better start.
+        """
+        if self._instants == 0 or self._box == NOWHERE or (starts_nested and self._half is not None):
             return None
         top, bottom, left, right = self._box
         return GridWindow(*widened(self.half_space.rows, self.half_space.cols, top, bottom, left, right))

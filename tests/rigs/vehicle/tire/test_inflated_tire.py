@@ -14,6 +14,7 @@ from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, elastic_stiffness
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt, SidewallArc
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
+from contact_sim_pkg.rigs.vehicle.field import contact_field
 from contact_sim_pkg.rigs.vehicle.field.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import (
     Softening,
@@ -252,6 +253,31 @@ def test_sidewalls_go_with_the_load_that_a_solution_finds():
     missed, after = settled(0.105)
     assert after - before > 2e-5
     assert missed < 0.1 * (after - before)
+
+
+def test_what_sidewalls_have_yet_to_open_is_taken_off_the_height(monkeypatch):
+    """One solution after a step from 3 to 3.3 kN has the height of the settled one but for a fifth of what is left."""
+    body = body_of(resolved("tire_bump"))
+    law, settings = tire_table(body).law(), FieldSettings(54, 24, 0.005, 0.0075, body.modulus, 1e-7, 400, 0, body.belt)
+    x, y = (numpy.arange(54) - 27) * 0.005, (numpy.arange(24) - 11.5) * 0.0075
+    gap, (low, high) = (
+        gap_over_level_road(body.form, x, y),
+        (float(approach_of_force(law, each)) for each in (3e3, 3.3e3)),
+    )
+
+    def solved(share):
+        field = PressureField(settings, "tire")
+        field.solve(gap, low)
+        monkeypatch.setattr(contact_field, "OF_SIDEWALLS", share)
+        field.solve(gap, high)
+        monkeypatch.undo()
+        return float(approach_of_force(law, field.load)), field.unsettled
+
+    settled, none = solved(0.1)
+    height, left = solved(math.inf)
+    assert abs(none) < 1e-7
+    assert abs(height - settled) > 1e-5
+    assert height - left == pytest.approx(settled, abs=0.2 * abs(left))
 
 
 def test_a_grid_that_follows_by_a_cell_leaves_the_sidewalls_as_they_were():

@@ -36,7 +36,9 @@ TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law
 TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
 SOFTENING_PASSES = 40  # most solutions at one instant of a belt whose sidewalls soften; each is closer by a factor of 7
 
-OF_SIDEWALLS = 0.5  # of the field's tolerance: what its sidewalls may miss of the depth, which the loss sees as a speed
+OF_SIDEWALLS = (
+    4.0  # of the field's tolerance: what its sidewalls may miss of the depth; the height takes the mean of it
+)
 FEW_PASSES, NOISE = 12, 1e-5  # what the line load of a certified field leaves of that depth undecided
 SHALLOW = 1e-3  # [m]: a contact less deep has its sidewalls settled as if it were so deep
 
@@ -84,6 +86,7 @@ class PressureField:
         self._row: int | None = None  # of the road under row 0, at the last solve
         self.pressure: Field = self._field.pressure
         self.load = self._approach = 0.0
+        self.unsettled = 0.0  # [m] by which the sidewalls open the gap further than it was solved with
         self.iterations = 0
         self.residual = 0.0
 
@@ -147,15 +150,15 @@ class PressureField:
             yield gap
             return
         self.softening.start()
-        missed, lowest = math.inf, float(gap.min())
+        lowest = float(gap.min())
         for count in range(SOFTENING_PASSES):
             yield self.opened(gap)
-            missed = self.softening.follow(self.pressure.sum(axis=1) * self.settings.cell_y)
+            self.unsettled = self.softening.follow(self.pressure.sum(axis=1) * self.settings.cell_y)
             allowed = OF_SIDEWALLS * tolerance if count < FEW_PASSES else max(OF_SIDEWALLS * tolerance, NOISE)
-            if missed <= allowed * max(self._approach - lowest, SHALLOW):
+            if abs(self.unsettled) <= allowed * max(self._approach - lowest, SHALLOW):
                 return
         raise FieldError(
-            f"{self.contact}: the sidewalls do not settle, {missed:.2g} m are left after {SOFTENING_PASSES} passes"
+            f"{self.contact}: the sidewalls do not settle, {abs(self.unsettled):.2g} m are left after {SOFTENING_PASSES} passes"
         )
 
     def _accept(self, result: FieldResult, gap: Field) -> None:
@@ -240,11 +243,12 @@ def correction_of(elastic: ElasticLaw, field: PressureField, gap: Field, approac
     """Effective-height correction [m] of the ``geometric`` approach [m]: the law then has the
     field's force.
 
-    ``field`` was solved at ``gap`` [rows, cols] [m] and ``approach`` [m]. Without contact the law's
-    approach is minus the smallest distance.
+    ``field`` was solved at ``gap`` [rows, cols] [m] and ``approach`` [m]. By as much as its sidewalls have
+    yet to open the gap, the body is nearer to the road than it would be with them. Without contact the
+    law's approach is minus the smallest distance.
     """
     if field.load > 0.0:
-        return approach_at(elastic, field.load) - geometric
+        return approach_at(elastic, field.load) - field.unsettled - geometric
     return min(0.0, approach - float(gap.min())) - geometric
 
 

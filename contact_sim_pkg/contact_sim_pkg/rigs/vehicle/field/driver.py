@@ -218,12 +218,21 @@ class ContactField(ABC):
         self.published = FieldRecord(field.pressure, origin_x, origin_y, approach, self.travel, field.residual)
         level = self.level_height(field)
         if level is not None:  # the law is exact, the field its map
-            force = float(elastic_force(self.contact.elastic, approach + level))
-            self.published = self.published._replace(pressure=field.pressure * (force / field.load), is_level=True)
+            self._carry(approach + level, field, is_level=True)
             return approach + level - geometric
         if field.load == 0.0:  # free: the nearest place may lie beyond the usual grid
             gap = self.gap(self.grids.wide.settings)
-        return correction_of(self.contact.elastic, field, gap, approach, geometric)
+        correction = correction_of(self.contact.elastic, field, gap, approach, geometric)
+        if field.unsettled != 0.0 and field.load > 0.0:
+            self._carry(geometric + correction, field, is_level=False)
+        return correction
+
+    def _carry(self, height: float, field: PressureField, is_level: bool) -> None:
+        """Scale the published pressure to the law's force at a ``height`` [m]."""
+        assert self.contact is not None
+        assert self.published is not None
+        force = float(elastic_force(self.contact.elastic, height))
+        self.published = self.published._replace(pressure=field.pressure * (force / field.load), is_level=is_level)
 
     def level_height(self, field: PressureField) -> float | None:
         """Height [m] of what the contact of the last solution rests on, where that is level and the

@@ -63,10 +63,8 @@ MODES = 1000
 ARC_POINTS = 2000
 """Of the table of S: straight lines between them miss 1e-6 of it."""
 
-OVER, LEAST_OVER = 1.3, 0.3
-"""Of a pass over the plain one, which leaves 0.09 to 0.16 of a change; where the one before went too far that
-follows from what it did (Aitken), and the least of it.
-"""
+LATER = 0.8
+"""Of a pass after the first of an instant, which would go too far and come back."""
 
 CONTACT, OF_PLATEAU, SETTLING = 0.31, 1.9, 30
 """Of a usual contact: length over the radius, line load over the hoop's T / R, passes that settle the sidewalls beside it. How
@@ -251,30 +249,25 @@ class Softening:
         return slice(first, first + count)
 
     def start(self) -> None:
-        """Begin an instant: its passes are as long as they themselves show."""
-        self._over: float = OVER
-        self._missed: Field | None = None
+        """Begin an instant: its first pass is a whole one."""
+        self._part = 1.0
 
     def follow(self, line: Field) -> float:
-        """Take the line load ``line`` [N/m] [rows of a grid] of the road; returns how far the belt under it
-        was from settled [m]: the change of `opening`, the mean under the load, without one the largest.
+        """Take the line load ``line`` [N/m] [rows of a grid] of the road; returns by how much the belt under it
+        opens further [m]: the change of `opening`, the mean under the load, without one the largest.
         """
         whole, place, total = numpy.zeros_like(self.load), self.rows(len(line)), float(line.sum())
         whole[place] = line
         before, self._line = self._line, rfft(whole, self._size)
         self.load += self._spread(self._more * (self._line - before))
         missed = self._softer(self._line, total) - self.load
-        if self._missed is not None:
-            turned = missed - self._missed
-            square = float(turned @ turned)
-            if square > 0.0:
-                self._over = min(max(-self._over * float(self._missed @ turned) / square, LEAST_OVER), OVER)
-        self._missed = missed
-        self.load += self._over * missed
+        # The rest of what D draws after it is about that of a usual contact
+        self.load += self._part * (missed + self._spread(self._more * rfft(missed, self._size)))
+        self._part = LATER
         linear = self._yields * self._line
         opening = self._spread(self._along * rfft(self.load, self._size) - linear) + self._translated(0.0)
         change, self.opening = opening - self.opening, opening
-        return float(abs(change).max()) if total == 0.0 else abs(float(line @ change[place])) / total
+        return float(abs(change).max()) if total == 0.0 else float(line @ change[place]) / total
 
     def yields(self, rows: int) -> Field:
         """Displacement h [m^2/N] i ``rows`` away from a unit line load on a row of cells, [rows]."""
