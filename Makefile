@@ -63,7 +63,7 @@ KERNEL_TESTS = $(addprefix tests/,compiled integrate laws pressure rigid papers 
 bounds:  ## run the tests of kernels with bounds checks, in a cache of their own
 	@SECONDS=0; $(ENTER) && NUMBA_BOUNDSCHECK=1 $(TEST_ENVIRONMENT) python -m pytest $(KERNEL_TESTS) $(PYTEST_OPTIONS); $(REPORT_TIME)
 
-mutants:  ## change lines one at a time on a copy, list the changes that no test notices (MUTANTS=outputs: not physics)
+mutants:  ## change lines one at a time on a copy, list the changes that no test notices (MUTANTS=outputs: not physics; papers: physics off by 1 to 5 %)
 	@SECONDS=0; $(ENTER) && $(TEST_ENVIRONMENT) python -m tests.mutants $(MUTANTS); $(REPORT_TIME)
 
 measures:  ## measure the shape of the package: folders, circles, tables of effects, shared files of an addition, calls, docstrings

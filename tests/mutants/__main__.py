@@ -1,6 +1,6 @@
 """`make mutants`: break the code one line at a time on a copy, run the tests that must notice, list what they missed.
 
-    python -m tests.mutants [NAME …]     NAME: part of a function's name, `energies` or `outputs`; without one, all
+    python -m tests.mutants [NAME …]     NAME: part of a function's name, `energies`, `outputs` or `papers`; without one, all
 
 Exit status 1 where a mutant survives that is not marked equivalent, or a test fails without any mutant.
 """
@@ -16,6 +16,7 @@ from pathlib import Path
 from tests.mutants.energies import ENERGIES
 from tests.mutants.listed import MUTANTS, Mutant
 from tests.mutants.outputs import OUTPUTS
+from tests.mutants.papers import PAPERS
 from tests.mutants.source import PACKAGES, file_of, mutated, noticing
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -23,11 +24,11 @@ TIME_LIMIT = 600.0  # [s] for the tests of one mutant; a mutant that hangs is no
 
 
 def main(names: list[str]) -> int:
-    lists = {"energies": ENERGIES, "outputs": OUTPUTS}
+    lists = {"energies": ENERGIES, "outputs": OUTPUTS, "papers": PAPERS}
     if len(names) == 1 and names[0] in lists:
         chosen = [*lists[names[0]]]
     else:
-        every = (*MUTANTS, *ENERGIES, *OUTPUTS)
+        every = (*MUTANTS, *ENERGIES, *OUTPUTS, *PAPERS)
         chosen = [each for each in every if not names or any(name in each.function for name in names)]
     with tempfile.TemporaryDirectory(prefix="mutants-") as folder:
         copy = Path(folder) / "copy"

@@ -105,7 +105,7 @@ REPORT = (
     ),
     # Tire
     Mutant("tire/report/metrics._load", "normal + ride.contact.impulses", "normal", TIRE),
-    Mutant("tire/report/metrics._footprint", "np.median(column[about])", "np.median(column)", TIRE),
+    Mutant("tire/report/metrics._standing", "1e4 * stands.area", "1e3 * stands.area", TIRE),
     Mutant("report/field_series.peak_over", "(cell_x, cell_y)", "(cell_y, cell_x)", TIRE),
     Mutant("tire/report/metrics._along", "-float(axle.longitudinal", "float(axle.longitudinal", TIRE),
     # Series of a bag

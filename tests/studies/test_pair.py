@@ -28,6 +28,30 @@ def test_half_the_cells_are_half_along_each_side_and_nothing_else_changes():
     assert half.data["outputs"] == scene.data["outputs"]
 
 
+@pytest.mark.parametrize(
+    ("scene", "where", "sides"),
+    [
+        ("seat_slap", ("backrest", "mat"), {"rows": (40, 20), "cols": (32, 16)}),
+        (
+            "roller_steady",
+            ("effects", "roller", "subsurface"),
+            {"cells_x": (48, 24), "cells_y": (60, 30), "cells_z": (12, 6)},
+        ),
+        (
+            "seat_ride_full",
+            ("backrest", "mat"),
+            {"rows": (40, 40)},
+        ),  # does not act on a cushion, which has its own cells
+    ],
+)
+def test_a_mat_and_the_box_under_a_contact_have_half_the_cells_too(scene, where, sides):
+    whole = load_resolved(scene)
+    before, after = whole.data, halved(whole).data
+    for key in where:
+        before, after = before[key], after[key]
+    assert {side: (before[side], after[side]) for side in sides} == sides
+
+
 def test_the_error_is_that_of_the_steps_and_that_of_the_cells(monkeypatch):
     """On half the cells 10.3, with finer steps 10.1, the run 10: 0.2 and 0.3."""
     runs = iter(([metric(10.3)], [metric(10.1)]))

@@ -37,6 +37,10 @@ LEAST = {INTEGRATOR: 1e-13, "coupling_tolerance": 1e-8, "tolerance": 1e-12, "cel
 """Bounds of the schema."""
 FEWEST_CELLS, LARGEST_CELL = 4, 0.02
 """a side of a field, and of a cushion [m]: bounds of the schema too"""
+COUNTS = ("rows", "cols", "cells_x", "cells_y", "cells_z", "table_rows")
+"""Keys of cells along a side, and of rows of a table, in a rig's section and its effects. Those round a track that is
+rough by itself are none: other cells are another track.
+"""
 
 
 class Companion(NamedTuple):
@@ -58,18 +62,29 @@ def companion_of(scene: ResolvedScene, *, grid: bool = True) -> Companion:
 
 
 def halved(scene: ResolvedScene) -> ResolvedScene:
-    """The scene with half as many cells along each side of its fields and cushions, all other dials as they are."""
+    """The scene with half as many cells along each side of its fields, cushions, mats and boxes under a contact, and half
+    the rows of its tables, all other dials as they are.
+    """
     values: dict[str, Any] = {}
     for contact in rigs()[scene.rig].contacts:
-        for effect, keys in (scene.data["effects"].get(contact.name) or {}).items():
-            where = f"effects.{contact.name}.{effect}"
-            if keys is not None and "rows" in keys and "corrector_passes" in keys:
-                values |= {
-                    f"{where}.{side}": max(FEWEST_CELLS, 2 * round(0.25 * keys[side])) for side in ("rows", "cols")
-                }
-            if keys is not None and keys.get("cell") is not None:
-                values[f"{where}.cell"] = min(LARGEST_CELL, 2.0 * keys["cell"])
+        effects = scene.data["effects"].get(contact.name) or {}
+        values |= _coarser(f"effects.{contact.name}", effects)
+        if not any(keys and "cell" in keys for keys in effects.values()):  # a cushion has the cells of its map itself
+            values |= _coarser(contact.name, scene.data.get(contact.name) or {})
     return _with(scene, values)
+
+
+def _coarser(where: str, keys: Mapping[str, Any]) -> dict[str, Any]:
+    """Dotted keys of cells below ``where``, with half as many along each side."""
+    found: dict[str, Any] = {}
+    for key, value in keys.items():
+        if isinstance(value, Mapping):
+            found |= _coarser(f"{where}.{key}", value)
+        elif key in COUNTS and isinstance(value, int):
+            found[f"{where}.{key}"] = min(value, max(FEWEST_CELLS, 2 * round(0.25 * value)))
+        elif key == "cell" and value is not None:
+            found[f"{where}.{key}"] = min(LARGEST_CELL, 2.0 * value)
+    return found
 
 
 def finer_than(scene: ResolvedScene, other: ResolvedScene) -> ResolvedScene:

@@ -18,8 +18,14 @@ QUICK = [
     ("contact-area", "4"),
     ("contact-area", "5"),
     ("rolling-contact", "9"),
+    ("rolling-contact", "3"),
+    ("rolling-contact", "4"),
+    ("rolling-contact", "10"),
     ("tire-road", "2"),
+    ("tire-road", "3"),
+    ("driver-seat", "6"),
     ("driver-seat", "7"),
+    ("identifiability", "1"),
 ]
 
 

@@ -32,17 +32,25 @@ def test_a_largest_value_errs_by_its_kind_and_a_mean_by_what_random_signs_leave(
     assert errors.largest("tire", "force") == pytest.approx(40.0 / 5000.0)
     assert errors.largest("tire", "peak") == pytest.approx(0.02)
     assert errors.largest("tire", "area") == pytest.approx(0.008)  # the force that makes it errs by more than 5e-3
-    assert errors.of_mean("tire", "force") * 5000.0 == pytest.approx(12.5)
-    assert errors.of_mean("motion", "motion") * 5000.0 == pytest.approx(12.5)
-    assert errors.of_column_mean("tire/axle.longitudinal") == 30.0
+    assert errors.of_mean("tire", "force", 3000.0, 5000.0) == pytest.approx(12.5)
+    assert errors.of_mean("motion", "motion", 1.0, 4.0) == pytest.approx(4.0 * 12.5 / 5000.0)
+    assert errors.of_column_mean("tire/axle.longitudinal", np.array([-75.0, 5.0])) == 30.0
     assert math.isnan(errors.largest("seat", "force"))
-    assert math.isnan(errors_of(recording._replace(scene={}, block_errors={})).of_mean("tire", "force"))
+    assert math.isnan(errors_of(recording._replace(scene={}, block_errors={})).of_mean("tire", "force", 3000.0, 5000.0))
 
 
-def test_what_no_request_makes_smaller_does_not_average_out(recording):
-    scene = {**recording.scene, "rig": "car", "effects": {"seat": {"cushion": {}}}}
+def test_what_no_request_makes_smaller_is_a_share_of_the_mean_itself(recording):
+    """Of an rms of 1, whatever its largest value; of a column's mean, also where the blocks err by less."""
+    scene = {**recording.scene, "rig": "car", "effects": {"seat": {"cushion": {}}, "tire": {"brush": {}}}}
     errors = errors_of(recording._replace(scene=scene))
-    assert errors.of_mean("seat", "force") == errors.largest("seat", "force") == pytest.approx(1e-3)
+    assert errors.largest("seat", "force") == pytest.approx(1e-3)
+    assert (
+        errors.of_mean("seat", "force", 1.0, 5.0) == errors.of_mean("seat", "force", 1.0, 50.0) == pytest.approx(1e-3)
+    )
+    assert errors.of_column_mean("tire/axle.longitudinal", np.array([-3000.0, 1000.0])) == pytest.approx(30.0)
+    assert errors.of_column_mean("tire/axle.longitudinal", np.array([-5000.0, 3000.0])) == pytest.approx(
+        1.5e-2 * 4000.0
+    )
 
 
 def test_the_metrics_of_a_run_say_what_they_rest_on(uneven):

@@ -39,6 +39,8 @@ CIRCUMFERENCE = 2.0 * math.pi * SHAFT_RADIUS  # [m]
 LIMIT = 1.76e9  # [Pa] rolling fatigue limit p_f of the shaft
 COUNTED = 32  # points along each side of a quarter of the box
 GAIN, DAMPING_RATIO, TURN_TIME = 0.05, 0.05, 0.005  # of roller_corrugation: gamma, zeta, [s]
+TURN_BY_TURN = ("roller.acceleration=1", "block_length=0.1", "duration=15.5")
+"""Of roller_corrugation, whose waves err by 2 and 4 % of their growth where a turn stands for five."""
 LACK = "not reached: the print gives neither the loads of the steps nor the damping of the suspension"
 
 
@@ -89,7 +91,7 @@ def _figure_2(values: Values) -> Drawn:
     stable = series_of("roller/stability", "roller_programme")
     names = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX")
     numbers = [
-        Number(f"F_c in step {name}, mean", "N", float(own), float(load), 2e-3, "equilibrium: the mean load is F_N of the step",
+        Number(f"F_c in step {name}, mean", "N", float(own), float(load), 1.1e-3, "equilibrium: the mean load is F_N of the step",
                relative=True)
         for name, own, load in zip(names, carried, loads, strict=True)
     ]  # fmt: skip
@@ -250,17 +252,19 @@ def _figure_4(values: Values) -> Drawn:
     modes = 2.0 * numpy.abs(numpy.fft.rfft(heights, axis=1)) / heights.shape[1]
     slope = _damage_slope()
     origin = "linear theory of a small wave: own transfer function, Hertz in 50 digits, F dω_T/dF by quadrature"
+    slow = _blocks("roller_corrugation", *TURN_BY_TURN)
+    slow_modes = 2.0 * numpy.abs(numpy.fft.rfft(slow["height"], axis=1)) / slow["height"].shape[1]
     numbers = [
         Number("F dω_T/dF at F_N", "", _slope_of_bench(), slope, 0.019,
                "eqs 22 to 24 by Boussinesq's point forces at 32³ points of a quarter of the box", relative=True)
     ]  # fmt: skip
-    for waves, blocks, allowed in ((2, slice(5, 61), 0.048), (3, slice(0, 11), 0.05)):
-        found = float(numpy.polyfit(cycles[blocks], numpy.log(modes[blocks, waves]), 1)[0])
+    for waves, (first, last), allowed in ((2, (300.0, 3050.0), 0.013), (3, (0.0, 550.0), 0.018)):
+        small = (slow["cycles"] >= first) & (slow["cycles"] <= last)
+        found = float(numpy.polyfit(slow["cycles"][small], numpy.log(slow_modes[small, waves]), 1)[0])
         numbers.append(
-            Number(
-                f"growth in a cycle, {waves} waves", "", found, _growth(waves, slope), allowed, origin, relative=True
-            )
-        )
+            Number(f"growth in a cycle, {waves} waves, turn by turn", "", found, _growth(waves, slope), allowed, origin,
+                   relative=True)
+        )  # fmt: skip
     fastest = max(range(1, 20), key=lambda waves: _growth(waves, slope))
     leading = 1 + int(numpy.argmax(modes[60, 1:]))
     numbers += [
@@ -333,7 +337,8 @@ FIGURE_3 = Figure(
 FIGURE_4 = Figure(
     "4", "radial wave along the track",
     ("scene roller_corrugation", "contact_sim_pkg.rigs.roller.theory.volumes:dangerous_volumes"),
-    "growth and wavelength by the theory, 5 %, its F dω_T/dF by quadrature; amplitude: no reference", _figure_4,
+    "growth turn by turn and wavelength by the theory, 1.3 and 1.8 %, its F dω_T/dF by quadrature; amplitude: no reference",
+    _figure_4,
     note="The slope 0.45 and the growth 0.004 a turn that were once worked out for these data do not hold: quadrature gives 0.26 "
     "and 0.0023. The older pair has V_T/V_k times F/F_N, one power of the load too many.",
 )  # fmt: skip

@@ -40,6 +40,7 @@ SIDE, CELLS = 0.32, {"bump": 128, "irregular": 256}  # [m] of the grid at 4000 N
 TOLERANCE, MOST = 1e-9, 2000
 SMALL = (48, 48, 0.25, 0.30)  # rows, columns and sides [m] at 4000 N of the grid that is also solved densely
 PLACES = 20
+POINTS = (1600, 800)  # along and across the strip of the irregular road: four a wave of 5 mm
 
 LOAD = Parameter("load", "N", 4000.0, least=500.0, most=20000.0, help="on the tire")
 BUMP = (
@@ -152,6 +153,15 @@ def _conditions(found: Solved, gap: Field, load: float) -> list[Number]:
     ]  # fmt: skip
 
 
+def _road_numbers(kind: str, road: Road, values: Values) -> list[Number]:
+    """Of the irregular road, which is drawn: its height over the whole strip of 2 m by 1 m, after which it repeats."""
+    if kind != "irregular":
+        return []
+    x, y = (numpy.arange(count) * side / count for count, side in zip(POINTS, (2.0, 1.0), strict=True))
+    rms = float(road.heights(x, y).std())
+    return [Number("rms height of the road", "m", rms, values["rms"], 1.2e-8, "that of the figure", relative=True)]
+
+
 def _surface_numbers(found: Solved, gap: Field, load: float) -> list[Number]:
     rng = numpy.random.default_rng(7)
     places = numpy.stack([rng.integers(0, n, PLACES) for n in found.pressure.shape], axis=1)
@@ -213,6 +223,7 @@ def _compute(kind: str, what: str, values: Values) -> Drawn:
         numbers = _surface_numbers(found, _own_gap(kind, road, values, found), values["load"])
     else:
         numbers = _pressure_numbers(kind, road, values, found, flat)
+    numbers = [*_road_numbers(kind, road, values), *numbers]
 
     def draw(canvas: Canvas) -> None:
         shown = found.displacement * 1e3 if what == "u" else found.pressure / flat.pressure.max()

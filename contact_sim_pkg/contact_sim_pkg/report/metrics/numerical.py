@@ -1,7 +1,8 @@
 """Numerical error of metrics by what the run estimates of itself, block by block.
 
 A largest value errs by the error of its kind. A mean or rms averages it out: the blocks err with signs that have
-nothing to do with each other, so that n of them leave sqrt(sum e^2) / n.
+nothing to do with each other, so that n of them leave sqrt(sum e^2) / n. What no request makes smaller is the same
+share of every sample, and so of the mean or rms itself.
 """
 
 from __future__ import annotations
@@ -32,22 +33,29 @@ class Errors(NamedTuple):
     def largest(self, place: str, kind: str) -> float:
         """Error of a kind at a contact, or of the ``motion``, over its largest value; nan where none is known."""
         estimated = self.numbers.get("estimated", {}).get(place, {}).get(kind)
-        least, _effect = self.numbers.get("not_below", {}).get(place, {}).get(kind, (math.nan, ""))
-        return float(np.fmax(math.nan if estimated is None else estimated, least))
+        return float(np.fmax(math.nan if estimated is None else estimated, self._least(place, kind)))
 
-    def of_mean(self, place: str, kind: str) -> float:
-        """As `largest`, of a mean or rms over the run; what no request makes smaller does not average out."""
+    def of_mean(self, place: str, kind: str, mean: float, largest: float) -> float:
+        """Error of a ``mean`` or rms over the run, both in one unit, which the result has; ``largest``: the largest value
+        that it is taken of. nan where nothing is known.
+        """
         estimated = self.numbers.get("estimated", {}).get(place, {}).get(kind)
-        least, _effect = self.numbers.get("not_below", {}).get(place, {}).get(kind, (math.nan, ""))
         own = f"{place}/{FORCE}"
         columns = [own] if own in self.blocks else [each for each in self.blocks if each.endswith(FORCE)]
         share = max((_averaged(self.blocks[each]) for each in columns), default=1.0)
-        return float(np.fmax(math.nan if estimated is None else share * estimated, least))
+        averaged = math.nan if estimated is None else share * estimated * largest
+        return float(np.fmax(averaged, self._least(place, kind) * mean))
 
-    def of_column_mean(self, column: str) -> float:
-        """Error of the mean of a column, in its unit; nan where none is estimated."""
+    def of_column_mean(self, column: str, values: FloatArray) -> float:
+        """Error of the mean of a column of forces with these ``values`` [samples], in its unit; nan where none is known."""
         errors = self.blocks.get(column)
-        return math.nan if errors is None else _averaged(errors) * float(errors.max())
+        averaged = math.nan if errors is None else _averaged(errors) * float(errors.max())
+        return float(np.fmax(averaged, self._least(column.partition("/")[0], "force") * float(np.abs(values).mean())))
+
+    def _least(self, place: str, kind: str) -> float:
+        """Error over the largest value that no request makes smaller; nan where there is none."""
+        least, _effect = self.numbers.get("not_below", {}).get(place, {}).get(kind, (math.nan, ""))
+        return float(least)
 
 
 def errors_of(recording: Recording) -> Errors:

@@ -42,7 +42,7 @@ def seat_metrics(recording: Recording) -> list[Metric]:
     if signals is not None and shock:
         found = shock_metrics(signals, errors.largest("motion", "motion"))
     elif signals is not None:
-        found = vibration_metrics(signals, recorded_faults(recording), errors.of_mean("motion", "motion"))
+        found = vibration_metrics(signals, recorded_faults(recording), errors)
     if contact is None:
         return found
     window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
@@ -106,9 +106,9 @@ def shock_metrics(signals: RideSignals, error: float = math.nan) -> list[Metric]
     return found
 
 
-def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = (), error: float = math.nan) -> list[Metric]:
+def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = (), errors: Errors | None = None) -> list[Metric]:
     """SEAT, exposure and the peak of the way from floor to seat; ``faults`` of the recording that drives the
-    floor hold for all of them, and the numerical ``error`` of the motion's mean over its largest value."""
+    floor hold for all of them; ``errors``: numerical ones of the run."""
     rate, length = signals.sample_rate, signals.time.size
     floor, seat = (ride_metrics(each, rate) for each in (signals.floor, signals.seat))
     window = float(signals.time[0]), float(signals.time[0]) + length / rate
@@ -117,7 +117,8 @@ def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = (), error:
     peaky = (*doubts, *confidence.peaky(seat.crest_factor))
     factor = seat_factor(seat.weighted_rms, floor.weighted_rms)
     spread = 100.0 * confidence.spread_of_ratio(seat.weighted, floor.weighted, rate)
-    of_rms = error * seat.crest_factor  # over the rms
+    # Over the rms, of which the largest value is crest factor times as much.
+    of_rms = math.nan if errors is None else errors.of_mean("motion", "motion", 1.0, seat.crest_factor)
     found = [
         make("factor", "SEAT", factor, "%", quantity="seat_factor", broken=peaky, spread=spread, count=length,
              error=of_rms * factor, remark=f"floor {floor.weighted_rms:.3g} m/s²"),

@@ -115,17 +115,19 @@ def _load(ride: _Ride) -> Iterator[Metric]:
     doubts = _short(ride)
     lifted = 100.0 * float((normal <= 0.0).mean())
     lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
-    error = ride.errors.of_mean(TIRE, "force") * float(normal.max())
+    largest, swing = float(normal.max()), float(carried.std())
     if ride.standing is not None:
         spread = spread_of_rms(carried - carried.mean(), rate) / ride.standing
-        yield ride.make("dlc", "dynamic load coefficient", float(carried.std()) / ride.standing, "", quantity="dynamic_load",
-                        broken=doubts, count=count, spread=spread, error=error / ride.standing)  # fmt: skip
+        yield ride.make("dlc", "dynamic load coefficient", swing / ride.standing, "", quantity="dynamic_load",
+                        broken=doubts, count=count, spread=spread,
+                        error=ride.errors.of_mean(TIRE, "force", swing, largest) / ride.standing)  # fmt: skip
     yield ride.make("lift_off", "time off the road", lifted, "%", quantity="lift_off", broken=doubts, count=count,
                     spread=spread_of_mean(np.where(normal <= 0.0, 100.0, 0.0), rate), error=100.0 * lifts / count,
                     remark=f"{lifts} times")  # fmt: skip
     band = None if ride.standing is None else near(ride.standing, 0.05, "weight, mean over the run")
     yield ride.make("load", "load, mean", carried.mean(), "N", band=band, broken=doubts, count=count,
-                    spread=spread_of_mean(carried, rate), error=error,
+                    spread=spread_of_mean(carried, rate),
+                    error=ride.errors.of_mean(TIRE, "force", float(carried.mean()), largest),
                     remark=f"{carried.min():.4g} to {carried.max():.4g} N")  # fmt: skip
 
 
@@ -206,7 +208,9 @@ def _along(ride: _Ride) -> Iterator[Metric]:
     if axle is not None and not ride.event:  # a mean over the run, which an obstacle is a part of
         load = float(ride.contact.normal.mean())
         resistance = -float(axle.longitudinal.mean()) / load if load > 0.0 else math.nan
-        error = ride.errors.of_column_mean(f"{topic}.longitudinal") / load if load > 0.0 else math.nan
+        error = (
+            ride.errors.of_column_mean(f"{topic}.longitudinal", axle.longitudinal) / load if load > 0.0 else math.nan
+        )
         yield ride.make("resistance", "force along over load", resistance, "", quantity="tire_rolling_resistance", topic=topic,
                         count=axle.time.size, error=error, broken=not_resolved(resistance, error),
                         remark=f"{axle.longitudinal.min():.4g} to {axle.longitudinal.max():.4g} N")  # fmt: skip
