@@ -37,6 +37,7 @@ TESTED_IN = {
     "pressure.cushion.force_table": "pressure/cushion/test_force_table.py",
     "pressure.cushion.sitter": "pressure/cushion/test_sitter.py",
     "pressure.field.belt": "pressure/field/test_belt.py",
+    "pressure.field.extent": "rigs/vehicle/tire/report/test_tire_metrics.py",
     "pressure.field.filtering": "pressure/field/test_filtering.py",
     "pressure.field.follow": "pressure/field/test_rolling.py",
     "pressure.field.instant": "pressure/field/test_rolling.py",

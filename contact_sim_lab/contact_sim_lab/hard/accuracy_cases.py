@@ -150,7 +150,7 @@ CASES = (
     AccuracyCase(
         "soft tire", "120 kPa over a short bump: a long footprint", "tire_bump",
         ("duration=0.4", SLOW, "road={kind: bump, position: 0.2, height: 0.02, length: 0.2}",
-         "effects.tire.inflation.pressure=120000", "tire.body_mass=330"),
+         "effects.tire.inflation.pressure=120000", "tire.body_mass=340"),
         guard.at_least("longest footprint over the bump", 0.85), _longest_footprint, 0.03,
     ),
     AccuracyCase(

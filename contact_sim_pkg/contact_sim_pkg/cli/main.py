@@ -23,6 +23,7 @@ BEGAN = time.monotonic()  # start of the process, near enough: what a run calls 
 COMMANDS = {  # command -> its module, and its name there where that is not `command`
     "list": "scenes:list_command",
     "show": "scenes:show_command",
+    "new": "scenes:new_command",
     "run": "run",
     "replay": "replay",
     "metrics": "bags.metrics",

@@ -65,6 +65,12 @@ def shipped_names() -> list[str]:
     return list(shipped_scenes())
 
 
+def nearest_name(wanted: str) -> str:
+    """The shipped scene whose name is nearest to a ``wanted`` one; of several the first."""
+    near = difflib.get_close_matches(wanted.lower(), shipped_names(), n=1, cutoff=0.0)
+    return near[0]
+
+
 def list_scenes() -> list[SceneEntry]:
     """The shipped scenes, smallest first.
 

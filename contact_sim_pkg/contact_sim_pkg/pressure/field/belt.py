@@ -48,6 +48,9 @@ Cells = NDArray[numpy.int64]
 SOFTEST = 1e-6
 """Of the belt's influence under the load, added there: short waves of a thick belt have none."""
 
+FEWEST = 3
+"""Free cells of a row that lines are spread over: a cell of its own at the border would be held by them."""
+
 SCATTERED = 0.25
 """Power of that factor: with 1 contacts of many tops take twice the corrections, with 0 one in five fails."""
 
@@ -198,7 +201,7 @@ def relieve(belt: Field, residual: Field, filtered: Field, scratch: BeltWorkspac
         free = 0
         for j in range(cols):
             free += 1 if residual[i, j] != 0.0 else 0
-        each = taken[i] / max(free, 1)
+        each = taken[i] / free if free >= FEWEST else 0.0
         for j in range(cols):
             filtered[i, j] -= each
 

@@ -36,9 +36,9 @@ TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law
 TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
 SOFTENING_PASSES = 40  # most solutions at one instant of a belt whose sidewalls soften; each is closer by a factor of 7
 
-OF_SIDEWALLS = (
-    4.0  # of the field's tolerance: what its sidewalls may miss of the depth; the height takes the mean of it
-)
+OF_SIDEWALLS = 0.15
+"""Of the field's tolerance: what its sidewalls may miss of the depth; the height takes the mean of it off."""
+
 FEW_PASSES, NOISE = 12, 1e-5  # what the line load of a certified field leaves of that depth undecided
 SHALLOW = 1e-3  # [m]: a contact less deep has its sidewalls settled as if it were so deep
 

@@ -63,8 +63,10 @@ MODES = 1000
 ARC_POINTS = 2000
 """Of the table of S: straight lines between them miss 1e-6 of it."""
 
-LATER = 0.8
-"""Of a pass after the first of an instant, which would go too far and come back."""
+LEAST, MOST = 0.1, 1.3
+"""Of a pass after the first of an instant, by what the one before left (Aitken): of a belt far beyond a usual contact it
+goes too far.
+"""
 
 CONTACT, OF_PLATEAU, SETTLING = 0.31, 1.9, 30
 """Of a usual contact: length over the radius, line load over the hoop's T / R, passes that settle the sidewalls beside it. How
@@ -250,7 +252,9 @@ class Softening:
 
     def start(self) -> None:
         """Begin an instant: its first pass is a whole one."""
-        self._part = 1.0
+        self._part: float
+        self._step: Field | None
+        self._part, self._step = 1.0, None
 
     def follow(self, line: Field) -> float:
         """Take the line load ``line`` [N/m] [rows of a grid] of the road; returns by how much the belt under it
@@ -261,9 +265,15 @@ class Softening:
         before, self._line = self._line, rfft(whole, self._size)
         self.load += self._spread(self._more * (self._line - before))
         missed = self._softer(self._line, total) - self.load
-        # The rest of what D draws after it is about that of a usual contact
-        self.load += self._part * (missed + self._spread(self._more * rfft(missed, self._size)))
-        self._part = LATER
+        # With what D draws after it about a usual contact
+        step = missed + self._spread(self._more * rfft(missed, self._size))
+        if self._step is not None:
+            turned = step - self._step
+            square = float(turned @ turned)
+            if square > 0.0:
+                self._part = min(max(-self._part * float(self._step @ turned) / square, LEAST), MOST)
+        self._step = step
+        self.load += self._part * step
         linear = self._yields * self._line
         opening = self._spread(self._along * rfft(self.load, self._size) - linear) + self._translated(0.0)
         change, self.opening = opening - self.opening, opening
