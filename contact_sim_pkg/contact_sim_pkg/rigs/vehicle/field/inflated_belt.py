@@ -68,6 +68,9 @@ LEAST, MOST = 0.1, 1.3
 goes too far.
 """
 
+PARTS, SETTLED = (1.0, 0.5, 0.25, 0.0), 1e-3
+"""Of what sidewalls yield with the load, and its last change at which it is taken."""
+
 CONTACT, OF_PLATEAU, SETTLING = 0.31, 1.9, 30
 """Of a usual contact: length over the radius, line load over the hoop's T / R, passes that settle the sidewalls beside it. How
 soon a field settles hangs on them, nothing else.
@@ -335,9 +338,14 @@ class Softening:
         closer, small = self._closer(line, total), 1e-6 * self._radius
         slope = self._linear - (self._borne(closer + small) - self._borne(closer - small)) / (2.0 * small)
         unit = rfft((self._angle == 0.0).astype(numpy.float64), self._size)
-        self.load = numpy.zeros_like(closer)
-        for _ in range(SETTLING):
-            self.load = slope * self._closer(unit, 1.0) * self._lower
+        # Sidewalls that would draw more and more after them are taken to go with the load in part, or not at all
+        for part in PARTS:
+            self.load, change = numpy.zeros_like(closer), numpy.zeros_like(closer)
+            for _ in range(SETTLING):
+                more = part * slope * self._closer(unit, 1.0) * self._lower
+                self.load, change = more, more - self.load
+            if abs(change).sum() <= SETTLED * abs(self.load).sum():
+                break
         more, yields = self.load, self._closer(numpy.zeros_like(unit), 0.0)
         self.load = numpy.zeros_like(closer)
         return self._transform(more[self._middle :]), self._transform(yields[self._middle :])
