@@ -102,9 +102,9 @@ def softening(belt, n, rigidity, place, x, line):
 
 @pytest.mark.parametrize("share", [0.0, 3.8])
 def test_force_against_the_travel_is_the_energy_lost_per_metre(share):
-    """To 6 %: the tread alone misses 3.7 % on these cells, with the memory of the belt 5.1 %."""
+    """To 4 %: the tread alone misses 3.7 % on these cells, whatever the steps and the accuracy."""
     body, force, patch = rolled(f"effects.tire.tread_viscoelasticity.belt={share}")
-    assert -force == pytest.approx(lost_per_metre(body, patch, share), rel=0.06)
+    assert -force == pytest.approx(lost_per_metre(body, patch, share), rel=0.04)
 
 
 def test_the_usual_tire_has_a_resistance_of_one_per_cent():

@@ -229,6 +229,7 @@ class Softening:
         self.load: Field = numpy.zeros(count)  # [N/m] D
         self.opening: Field = numpy.zeros(count)  # [m] that it opens the gap by, but for what goes with the line load
         self.bent: Field = numpy.zeros(count)  # [m] of the belt beside that of its loads: of its memory
+        self._taken: Field = numpy.zeros(count)  # [m] opening that the last solution was made with
         self._line: Field = numpy.zeros_like(self._along)  # transform of that line load
         self.start()
         self.place(0.0)
@@ -236,7 +237,7 @@ class Softening:
 
     def reset(self) -> None:
         """Reset to an unloaded belt."""
-        for field in (self.load, self.opening, self.bent, self._line):
+        for field in (self.load, self.opening, self._taken, self.bent, self._line):
             field.fill(0.0)
 
     def place(self, middle: float) -> None:
@@ -279,7 +280,7 @@ class Softening:
         self.load += self._part * step
         linear = self._yields * self._line
         opening = self._spread(self._along * rfft(self.load, self._size) - linear) + self._translated(0.0)
-        change, self.opening = opening - self.opening, opening
+        change, self._taken, self.opening = opening - self.opening, self.opening, opening
         return float(abs(change).max()) if total == 0.0 else float(line @ change[place]) / total
 
     def yields(self, rows: int) -> Field:
@@ -295,10 +296,12 @@ class Softening:
         return self.opening + self._spread(self._yields * self._line)
 
     def climb(self, line: Field) -> float:
-        """Force [N] against the travel of a line load ``line`` [N/m] [rows of a grid] on the slope of `gap`: of the ring's
-        translation, which stays with the wheel; what the belt's memory does in it is `remembered`.
+        """Force [N] against the travel of a line load ``line`` [N/m] [rows of a grid] on the slope of the gap that it was
+        found with: of the ring's translation, which stays with the wheel; what the belt's memory does in it is
+        `remembered`.
         """
-        return float(line @ numpy.gradient(self.gap[self.rows(len(line))])) - self.remembered()
+        taken = self._taken + self._spread(self._yields * self._line)
+        return float(line @ numpy.gradient(taken[self.rows(len(line))])) - self.remembered()
 
     def remembered(self) -> float:
         """Force [N] against the travel, negative where it takes energy, of `load` on the slope of `bent`."""
