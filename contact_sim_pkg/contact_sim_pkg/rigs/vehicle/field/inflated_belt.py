@@ -45,7 +45,7 @@ import math
 
 import numpy
 from numpy.typing import NDArray
-from scipy.fft import irfft, next_fast_len, rfft
+from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
 from contact_sim_pkg.compiled.guards import require, require_positive
 from contact_sim_pkg.pressure.settings import InflatedBelt, SidewallArc
@@ -231,6 +231,7 @@ class Softening:
         self.bent: Field = numpy.zeros(count)  # [m] of the belt beside that of its loads: of its memory
         self._taken: Field = numpy.zeros(count)  # [m] opening that the last solution was made with
         self._line: Field = numpy.zeros_like(self._along)  # transform of that line load
+        self._placed = 0.0  # [m]
         self.start()
         self.place(0.0)
         self._more, self._yields = self._by_line(belt.tension / belt.radius)  # transforms of d and h
@@ -244,6 +245,11 @@ class Softening:
         """Set where the ``middle`` row lies ahead of the wheel's centre [m]: a grid follows the wheel by whole cells, the
         ring stays with it.
         """
+        moved, self._placed = (middle - self._placed) / self._cell_x, middle
+        if moved != 0.0:  # what the ring bears stays with it too
+            number = numpy.arange(len(self.load), dtype=numpy.float64)
+            self.load, self.opening = (numpy.interp(number + moved, number, each) for each in (self.load, self.opening))
+            self._line = self._line * numpy.exp(2j * math.pi * rfftfreq(self._size) * moved)
         angle = self._angle + middle / self._radius
         below = 0.5 + (0.5 * math.pi - abs(angle)) * self._radius / self._cell_x
         self._lower: Field = numpy.clip(below, 0.0, 1.0)  # part of a row that is of the lower half
