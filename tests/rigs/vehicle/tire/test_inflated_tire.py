@@ -17,12 +17,12 @@ from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPa
 from contact_sim_pkg.rigs.vehicle.field import contact_field
 from contact_sim_pkg.rigs.vehicle.field.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import (
-    Softening,
     arc_force,
     belt_share,
     inflated_influence,
     membrane_stiffness,
 )
+from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of, tire_body
 from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road, tire_table

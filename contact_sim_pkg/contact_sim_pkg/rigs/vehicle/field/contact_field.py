@@ -28,7 +28,7 @@ from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, SE
 from contact_sim_pkg.pressure.field.window import Part
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt, widened
 from contact_sim_pkg.rigs.vehicle.field.envelopment import yielding_of
-from contact_sim_pkg.rigs.vehicle.field.inflated_belt import Softening
+from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening
 from contact_sim_pkg.scene.errors import Fault, SceneError
 
 Field = NDArray[numpy.float64]

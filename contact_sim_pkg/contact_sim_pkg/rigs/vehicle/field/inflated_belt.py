@@ -30,8 +30,8 @@ What they bear less, ``D(x) = C p w - S(w)``, loads the belt beside the road:
 
     w = G * (q + D) + c (F + sum c D) / K_b,  c = cos(x / R)
 
-since the ring's translation moves the belt by c; D is that of the lower half. `Softening` finds it by
-fixed point. What of it is linear in the pressure, about a usual contact, the field is solved with.
+since the ring's translation moves the belt by c; D is that of the lower half, found in
+``sidewalls.py``.
 
 Valid for 120 to 300 kPa, deflections up to 40 mm, road slopes that are small, contact within 0.12 m
 of its middle. Sources: Gong, A study of in-plane dynamics of tires (1993), for the ring; Pacejka,
@@ -45,13 +45,12 @@ import math
 
 import numpy
 from numpy.typing import NDArray
-from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
 from contact_sim_pkg.compiled.guards import require, require_positive
 from contact_sim_pkg.pressure.settings import InflatedBelt, SidewallArc
 
 __all__ = [
-    "Softening", "arc_force", "belt_share", "inflated_influence", "make_belt", "membrane_stiffness", "ring_modes",
+    "arc_force", "belt_share", "inflated_influence", "make_belt", "membrane_stiffness", "ring_modes",
     "ring_stiffness", "rubber_share", "stiffened",
 ]  # fmt: skip
 
@@ -62,19 +61,6 @@ MODES = 1000
 
 ARC_POINTS = 2000
 """Of the table of S: straight lines between them miss 1e-6 of it."""
-
-LEAST, MOST = 0.1, 1.3
-"""Of a pass after the first of an instant, by what the one before left (Aitken): of a belt far beyond a usual contact it
-goes too far.
-"""
-
-PARTS, SETTLED = (1.0, 0.5, 0.25, 0.0), 1e-3
-"""Of what sidewalls yield with the load, and its last change at which it is taken."""
-
-CONTACT, OF_PLATEAU, SETTLING = 0.31, 1.9, 30
-"""Of a usual contact: length over the radius, line load over the hoop's T / R, passes that settle the sidewalls beside it. How
-soon a field settles hangs on them, nothing else.
-"""
 
 STRAIGHTER, CLOSED = 0.7, 2.4  # ends of that table: of phi, and [rad]; the belt is near the rim
 
@@ -196,178 +182,3 @@ def arc_force(arc: SidewallArc) -> tuple[Field, Field]:
     height = 0.5 * length * numpy.cos(opened) / opened
     rest = 0.5 * length * math.cos(arc.half_angle) / arc.half_angle
     return closer, 2.0 * arc.pressure * (rest - height)
-
-
-class Softening:
-    """What the sidewalls of a belt bear less than their linear foundation, over the lower half of the
-    ring: `place` it, `start` an instant, `follow` each solution of the field, then solve again with the
-    gap raised by `opening`, on a belt that `yields` more. Grids of any number of rows share it, middle
-    on middle.
-
-    D about a usual contact is linear in the line load, ``D = D_0 + d * q``: `gap` is ``opening + h * q``
-    with ``h = G * d`` and what the ring's translation adds. With h among its influences a solution is
-    settled but for the difference; without, a second one is needed whenever the load changes.
-    """
-
-    def __init__(self, belt: InflatedBelt, rows: int, cell_x: float) -> None:
-        """Under a belt with an arc, unloaded, on cells of ``cell_x`` [m]; no grid has more than so many
-        ``rows``.
-        """
-        assert belt.arc is not None
-        self._arc, self._cell_x = belt.arc, cell_x
-        self._middle = max(math.ceil(0.5 * math.pi * belt.radius / cell_x) + 1, rows - rows // 2)
-        count = 2 * self._middle + 1
-        self._size = next_fast_len(2 * count, real=True)
-        self._along = self._transform(
-            inflated_influence(belt._replace(ring_compliance=0.0), count, 1, cell_x, 1.0)[:, 0]
-        )
-        self._angle: Field = numpy.arange(-self._middle, self._middle + 1, dtype=numpy.float64) * (cell_x / belt.radius)
-        self._radius = belt.radius
-        self._nearer, self._force = arc_force(belt.arc)
-        self._slopes = numpy.diff(self._force)[[0, -1]] / numpy.diff(self._nearer)[[0, -1]]
-        self._linear = membrane_stiffness(belt.arc.half_angle) * belt.arc.pressure
-        self.load: Field = numpy.zeros(count)  # [N/m] D
-        self.opening: Field = numpy.zeros(count)  # [m] that it opens the gap by, but for what goes with the line load
-        self.bent: Field = numpy.zeros(count)  # [m] of the belt beside that of its loads: of its memory
-        self._taken: Field = numpy.zeros(count)  # [m] opening that the last solution was made with
-        self._line: Field = numpy.zeros_like(self._along)  # transform of that line load
-        self._placed = 0.0  # [m]
-        self.start()
-        self.place(0.0)
-        self._more, self._yields = self._by_line(belt.tension / belt.radius)  # transforms of d and h
-
-    def reset(self) -> None:
-        """Reset to an unloaded belt."""
-        for field in (self.load, self.opening, self._taken, self.bent, self._line):
-            field.fill(0.0)
-
-    def place(self, middle: float) -> None:
-        """Set where the ``middle`` row lies ahead of the wheel's centre [m]: a grid follows the wheel by whole cells, the
-        ring stays with it.
-        """
-        moved, self._placed = (middle - self._placed) / self._cell_x, middle
-        if moved != 0.0:  # what the ring bears stays with it too
-            number = numpy.arange(len(self.load), dtype=numpy.float64)
-            self.load, self.opening = (numpy.interp(number + moved, number, each) for each in (self.load, self.opening))
-            self._line = self._line * numpy.exp(2j * math.pi * rfftfreq(self._size) * moved)
-        angle = self._angle + middle / self._radius
-        below = 0.5 + (0.5 * math.pi - abs(angle)) * self._radius / self._cell_x
-        self._lower: Field = numpy.clip(below, 0.0, 1.0)  # part of a row that is of the lower half
-        self._lowered: Field = numpy.maximum(numpy.cos(angle), 0.0) * self._lower
-
-    def rows(self, count: int) -> slice:
-        """Place of a grid of so many rows in `load`, `gap` and `bent`."""
-        first = self._middle - count // 2
-        return slice(first, first + count)
-
-    def start(self) -> None:
-        """Begin an instant: its first pass is a whole one."""
-        self._part: float
-        self._step: Field | None
-        self._part, self._step = 1.0, None
-
-    def follow(self, line: Field) -> float:
-        """Take the line load ``line`` [N/m] [rows of a grid] of the road; returns by how much the belt under it
-        opens further [m]: the change of `opening`, the mean under the load, without one the largest.
-        """
-        whole, place, total = numpy.zeros_like(self.load), self.rows(len(line)), float(line.sum())
-        whole[place] = line
-        before, self._line = self._line, rfft(whole, self._size)
-        self.load += self._spread(self._more * (self._line - before))
-        missed = self._softer(self._line, total) - self.load
-        # With what D draws after it about a usual contact
-        step = missed + self._spread(self._more * rfft(missed, self._size))
-        if self._step is not None:
-            turned = step - self._step
-            square = float(turned @ turned)
-            if square > 0.0:
-                self._part = min(max(-self._part * float(self._step @ turned) / square, LEAST), MOST)
-        self._step = step
-        self.load += self._part * step
-        linear = self._yields * self._line
-        opening = self._spread(self._along * rfft(self.load, self._size) - linear) + self._translated(0.0)
-        change, self._taken, self.opening = opening - self.opening, self.opening, opening
-        return float(abs(change).max()) if total == 0.0 else float(line @ change[place]) / total
-
-    def yields(self, rows: int) -> Field:
-        """Displacement h [m^2/N] i ``rows`` away from a unit line load on a row of cells, [rows]."""
-        along = numpy.zeros(rows)
-        half = irfft(self._yields, self._size)[: min(rows, len(self.load))]
-        along[: len(half)] = half
-        return along
-
-    @property
-    def gap(self) -> Field:
-        """How far the load moves the belt [m]."""
-        return self.opening + self._spread(self._yields * self._line)
-
-    def climb(self, line: Field) -> float:
-        """Force [N] against the travel of a line load ``line`` [N/m] [rows of a grid] on the slope of the gap that it was
-        found with: of the ring's translation, which stays with the wheel; what the belt's memory does in it is
-        `remembered`.
-        """
-        taken = self._taken + self._spread(self._yields * self._line)
-        return float(line @ numpy.gradient(taken[self.rows(len(line))])) - self.remembered()
-
-    def remembered(self) -> float:
-        """Force [N] against the travel, negative where it takes energy, of `load` on the slope of `bent`."""
-        return float(self.load @ numpy.gradient(self.bent))
-
-    def _spread(self, transform: Field) -> Field:
-        """What has a ``transform``, on the rows of the ring."""
-        return numpy.asarray(irfft(transform, self._size)[: len(self.load)])
-
-    def _translated(self, total: float) -> Field:
-        """How much closer [m] the translation of the ring brings the belt, under `load` and so much, the ``total`` [N/m] of
-        the rows, of the road.
-        """
-        ring = self._cell_x * self._arc.ring_compliance
-        return (total + float(self._lowered @ self.load)) * ring * self._lowered
-
-    def _closer(self, line: Field, total: float) -> Field:
-        """How much closer [m] to the rim the belt is under `load` and the transform of a ``line`` load of the road, whose
-        rows sum up to a ``total`` [N/m].
-        """
-        return self._spread(self._along * (line + rfft(self.load, self._size))) + self._translated(total) + self.bent
-
-    def _softer(self, line: Field, total: float) -> Field:
-        """D [N/m] of the belt as it lies under that."""
-        closer = self._closer(line, total)
-        return numpy.asarray((self._linear * closer - self._borne(closer)) * self._lower)
-
-    def _by_line(self, plateau: float) -> tuple[Field, Field]:
-        """Transforms of d and h: what D gains by a unit line load in the middle of a usual contact, and how far
-        that moves the belt. ``plateau`` [N/m]: the hoop's T / R.
-        """
-        usual = numpy.where(abs(self._angle) <= 0.5 * CONTACT, OF_PLATEAU * plateau, 0.0)
-        line, total = rfft(usual, self._size), float(usual.sum())
-        for _ in range(SETTLING):
-            self.load = self._softer(line, total)
-        # The slope of D there, by a small difference
-        closer, small = self._closer(line, total), 1e-6 * self._radius
-        slope = self._linear - (self._borne(closer + small) - self._borne(closer - small)) / (2.0 * small)
-        unit = rfft((self._angle == 0.0).astype(numpy.float64), self._size)
-        # Sidewalls that would draw more and more after them are taken to go with the load in part, or not at all
-        for part in PARTS:
-            self.load, change = numpy.zeros_like(closer), numpy.zeros_like(closer)
-            for _ in range(SETTLING):
-                more = part * slope * self._closer(unit, 1.0) * self._lower
-                self.load, change = more, more - self.load
-            if abs(change).sum() <= SETTLED * abs(self.load).sum():
-                break
-        more, yields = self.load, self._closer(numpy.zeros_like(unit), 0.0)
-        self.load = numpy.zeros_like(closer)
-        return self._transform(more[self._middle :]), self._transform(yields[self._middle :])
-
-    def _transform(self, half: Field) -> Field:
-        """Transform of an influence by distance, zero beyond that ``half``."""
-        whole = numpy.zeros(self._size)
-        whole[: len(half)] = half
-        whole[len(whole) - len(half) + 1 :] = half[:0:-1]
-        return numpy.asarray(rfft(whole))
-
-    def _borne(self, closer: Field) -> Field:
-        """S [N/m]."""
-        first, last = closer - self._nearer[0], closer - self._nearer[-1]
-        beyond = self._slopes[0] * numpy.minimum(first, 0.0) + self._slopes[1] * numpy.maximum(last, 0.0)
-        return numpy.asarray(numpy.interp(closer, self._nearer, self._force) + beyond)

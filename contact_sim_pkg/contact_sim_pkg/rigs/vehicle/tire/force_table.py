@@ -18,7 +18,7 @@ from contact_sim_pkg.laws.tabulated_elastic import tabulated_approach_of_force, 
 from contact_sim_pkg.pressure.field import extent, patch
 from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.field import inflated_belt
+from contact_sim_pkg.rigs.vehicle.field import inflated_belt, sidewalls
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, PressureField
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import RANGE
@@ -130,7 +130,7 @@ def tire_table(body: TireBody, solver: type | None = None) -> TireTable:
     """The table of a body, kept on disk; not so with another ``solver`` of a half-space."""
     if solver is not None:
         return _make(body, solver)
-    sources = [__file__, inflated_belt.__file__, extent.__file__, patch.__file__]
+    sources = [__file__, inflated_belt.__file__, sidewalls.__file__, extent.__file__, patch.__file__]
     arrays = kept_arrays("tires", repr(body), sources, lambda: _make(body)._asdict())
     arrays["spacing"] = float(arrays["spacing"])  # type: ignore[assignment]
     return TireTable(**arrays)  # type: ignore[arg-type]

@@ -13,7 +13,7 @@ from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, FieldGrids, PressureField
 from contact_sim_pkg.rigs.vehicle.field.driver import AT_REST, ContactField, FieldRecord, Gap
-from contact_sim_pkg.rigs.vehicle.field.inflated_belt import Softening
+from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening
 from contact_sim_pkg.rigs.vehicle.tire.footprint import clear_beyond, level_under, mean_slope, tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState

@@ -27,8 +27,9 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 from contact_sim_pkg.pressure.settings import InflatedBelt
-from contact_sim_pkg.rigs.vehicle.field import inflated_belt
-from contact_sim_pkg.rigs.vehicle.field.inflated_belt import Softening, ring_modes, stiffened
+from contact_sim_pkg.rigs.vehicle.field import inflated_belt, sidewalls
+from contact_sim_pkg.rigs.vehicle.field.inflated_belt import ring_modes, stiffened
+from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening
 from contact_sim_pkg.rigs.vehicle.tire import force_table
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody
 from contact_sim_pkg.rigs.vehicle.tire.force_table import MAP_EVERY, tire_table
@@ -64,7 +65,7 @@ def rolling_loss(body: TireBody, tread: TreadViscoelasticity, of_belt: float) ->
     of the ``tread``.
     """
     memory = tread.retardation_time, tread.ratios.tolist(), tread.times.tolist(), of_belt
-    sources = [__file__, inflated_belt.__file__, force_table.__file__]
+    sources = [__file__, inflated_belt.__file__, sidewalls.__file__, force_table.__file__]
     arrays = kept_arrays("rolling", repr((body, memory)), sources, lambda: _make(body, tread, of_belt)._asdict())
     return RollingLoss(**arrays)
 
