@@ -1,9 +1,9 @@
 """Contact forces and pressure fields of simulated rigs, as ROS 2 topics and bags.
 
-As a library: ``from contact_sim_pkg import compare, load_scene, open_bag, run, series``; laws of a contact
+As a library: ``from contact_sim_pkg import compare, load_scene, open_bag, run, series, sweep``; laws of a contact
 point in ``contact_sim_pkg.laws``, pressure fields in ``contact_sim_pkg.pressure``, rigs in
-``contact_sim_pkg.rigs``. `docs/library.md` has examples. ``run`` is also the package of that name:
-it can be called.
+``contact_sim_pkg.rigs``. `docs/library.md` has examples. ``run`` and ``sweep`` are also the packages of that name:
+they can be called.
 """
 
 from contact_sim_pkg.public import on_use
@@ -21,5 +21,6 @@ __getattr__ = on_use(
         "load_scene": "contact_sim_pkg.library:load_scene",
         "open_bag": "contact_sim_pkg.library:open_bag",
         "series": "contact_sim_pkg.library:series",
+        "sweep": "contact_sim_pkg.library:sweep",
     },
 )

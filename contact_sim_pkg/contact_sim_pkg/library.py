@@ -30,8 +30,9 @@ if TYPE_CHECKING:
     from contact_sim_pkg.answers import Answers
     from contact_sim_pkg.compare.side_by_side import ComparedMetric
     from contact_sim_pkg.records.metric import Metric
+    from contact_sim_pkg.sweep.table import SweepTable
 
-__all__ = ["Bag", "Series", "compare", "load_scene", "open_bag", "run", "series"]
+__all__ = ["Bag", "Series", "compare", "load_scene", "open_bag", "run", "series", "sweep"]
 
 
 def load_scene(name: str | Path, *values: str) -> ResolvedScene:
@@ -88,6 +89,39 @@ def _show(progress: RunProgress) -> None:
     if progress.simulated > 0.0:
         text = f"{progress.simulated:.2f} s simulated, {progress.real_time_factor:.2f}x real time"
         doing(text, progress.block / progress.blocks)
+
+
+def sweep(
+    scene: str | Path, directory: str | Path, *varied: str, sample: str = "grid", seeds: int = 0, sample_seed: int = 1,
+    jobs: int | None = None, keep_bags: bool = False, progress: bool = True,
+) -> SweepTable:  # fmt: skip
+    """Run many cases of a scene over the processors and return the table of their metrics, as `bench sweep` does.
+
+    Args:
+        scene: a name or path.
+        directory: new, empty, or of a sweep: a case that it holds does not run again.
+        varied: what varies, ``"travel.speed=5:20:4"``, ``"road.roughness_class=A,B,C"``; ``:log`` behind a range for
+            equal ratios.
+        sample: ``grid``, ``lhs:N``, ``sobol:N``, or a CSV file whose header names keys.
+        seeds: each case so many times, with seeds from 1; 0: the seed of the scene.
+        sample_seed: of what is drawn.
+        jobs: processes, of one thread each; None: as many as processors.
+        keep_bags: whether the bags stay, in ``bags`` of the directory.
+        progress: whether it is shown on standard error.
+
+    Raises:
+        SweepError: nothing varies, or not so.
+        SceneError: a key or a value is refused; a combination that is impossible is a row that says so.
+    """
+    from contact_sim_pkg.sweep.sweep import plan_of
+    from contact_sim_pkg.sweep.sweep import sweep as run_cases
+    from contact_sim_pkg.sweep.variation import read_variation, samples_of
+
+    variations = [read_variation(each) for each in varied]
+    values = samples_of(variations, sample, seeds, sample_seed)
+    plan_of(str(scene), variations, values)
+    with working(f"{len(values)} cases: starting") if progress else nullcontext():
+        return run_cases(str(scene), values, Path(str(directory)), jobs=jobs, keep_bags=keep_bags, notify=doing)
 
 
 class Bag(reader.Bag):

@@ -25,6 +25,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "show": "scenes:show_command",
     "new": "scenes:new_command",
     "run": "run",
+    "sweep": "sweep",
     "replay": "replay",
     "metrics": "bags.metrics",
     "compare": "bags.compare",

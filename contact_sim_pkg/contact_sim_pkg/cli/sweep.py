@@ -1,0 +1,117 @@
+"""`bench sweep`: many cases of one scene over the processors, and their table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from contact_sim_pkg.cli.output.say import say
+from contact_sim_pkg.cli.output.tables import json_option, print_json, show_rows
+from contact_sim_pkg.cli.output.working import doing
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.sweep.table import SweepTable
+    from contact_sim_pkg.sweep.variation import Values
+
+MOST_FAULTS = 5
+"""Sentences of failed cases that are printed; all are in the table."""
+
+
+@click.command("sweep")
+@click.argument("scene")
+@click.option(
+    "--vary", "varied", multiple=True, metavar="KEY=LOW:HIGH:N|A,B,C",
+    help="What varies: a range with its number of points, :log behind it for equal ratios, or a list; may be repeated.",
+)  # fmt: skip
+@click.option(
+    "--seeds", type=click.IntRange(1), default=None, metavar="N", help="Each case N times, with seeds 1 to N."
+)
+@click.option(
+    "--sample", default="grid", show_default=True, metavar="grid|lhs:N|sobol:N|FILE.csv",
+    help="All combinations, N drawn ones, or the rows of a file whose header names keys.",
+)  # fmt: skip
+@click.option("--sample-seed", type=click.IntRange(0), default=1, show_default=True, help="Of what is drawn.")
+@click.option(
+    "--jobs", type=click.IntRange(1, 1024), default=None, metavar="N", help="Processes.  [default: processors]"
+)
+@click.option("--keep-bags", type=click.Choice(["none", "all"]), default="none", show_default=True, help="In DIR/bags.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), default=None, metavar="DIR", help="Folder: table.csv, cases, bags."
+)
+@click.option("--dry-run", is_flag=True, help="Check and count the cases; run none.")
+@json_option
+def command(
+    scene: str,
+    varied: tuple[str, ...],
+    seeds: int | None,
+    sample: str,
+    sample_seed: int,
+    jobs: int | None,
+    keep_bags: str,
+    out: Path | None,
+    dry_run: bool,
+    as_json: bool,
+) -> int:
+    """Run SCENE once for each combination of what varies, without ROS, and write the metrics of all to table.csv in DIR.
+
+    A case is known by its resolved scene, its files and the version of the bench: the same command goes on where it was
+    interrupted, and one with more values runs only what is new. The metrics are those of `bench metrics`. Exit code 1
+    where a case failed.
+    """
+    from contact_sim_pkg.sweep.sweep import plan_of, sweep
+    from contact_sim_pkg.sweep.variation import read_variation, samples_of
+
+    if out is None and not dry_run:
+        raise click.UsageError("--out DIR is where the table goes; or --dry-run")
+    variations = [read_variation(each) for each in varied]
+    values = samples_of(variations, sample, seeds or 0, sample_seed)
+    doing(f"checking {len(values)} cases")
+    plan_of(scene, variations, values)
+    if dry_run:
+        _say_plan(values, as_json=as_json)
+        return 0
+    assert out is not None
+    try:
+        table = sweep(scene, values, out, jobs=jobs, keep_bags=keep_bags == "all", notify=doing)
+    except KeyboardInterrupt:
+        say(f"interrupted; what has ended is in {out}, the same command goes on", err=True)
+        return 1
+    _say_table(table, out, as_json=as_json)
+    return 1 if table.failed else 0
+
+
+def _say_plan(values: list[Values], *, as_json: bool) -> None:
+    """How many cases, and of what."""
+    keys = {key: len({each[key] for each in values}) for key in values[0]}
+    if as_json:
+        print_json({"cases": len(values), "keys": keys})
+    else:
+        say(f"{len(values)} cases: " + ", ".join(f"{count} values of {key}" for key, count in keys.items()))
+
+
+def _say_table(table: SweepTable, out: Path, *, as_json: bool) -> None:
+    """What the metrics do over the cases, the cases that failed, and where all of it is."""
+    ranges = table.ranges()
+    if as_json:
+        print_json({
+            "cases": len(table), "failed": [dict(each) for each in table.failed], "table": str(out / "table.csv"),
+            "metrics": [each._asdict() for each in ranges],
+        })  # fmt: skip
+        return
+    if ranges:
+        show_rows(
+            [
+                {"metric": each.metric, "smallest": each.smallest, "largest": each.largest, "unit": each.unit,
+                 "in cases": f"{each.smallest_in}, {each.largest_in}", "moves with": each.moved_by}
+                for each in ranges
+            ],
+            False,
+        )  # fmt: skip
+    for row in table.failed[:MOST_FAULTS]:
+        values = ", ".join(f"{key}={row[key]}" for key in table.keys)
+        say(f"case {row['number']} ({values}) {row['outcome']}: {row['sentence']}", err=True)
+    if len(table.failed) > MOST_FAULTS:
+        say(f"and {len(table.failed) - MOST_FAULTS} more", err=True)
+    say(f"{len(table)} cases, {len(table.failed)} failed; {out / 'table.csv'} has a row each")

@@ -1,0 +1,160 @@
+"""One case: its scene, the name that says all it follows from, its run, and what it gave."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import json
+import os
+import platform
+import shutil
+import tempfile
+import time
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.files import RefusedError
+from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.scene.load import load_scene
+from contact_sim_pkg.scene.overrides import set_value
+from contact_sim_pkg.scene.resolve import resolve
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+__all__ = [
+    "FAILED",
+    "FINISHED",
+    "REFUSED",
+    "Row",
+    "Task",
+    "case_name",
+    "failed",
+    "run_case",
+    "scene_of",
+    "sources_hash",
+]
+
+FINISHED, FAILED, REFUSED = "finished", "failed", "refused"
+NOT_PHYSICS = ("name", "description", "pace")
+"""Keys of a scene that no number follows from."""
+
+Row = dict[str, Any]
+"""Of a case: `case`, `outcome`, `sentence`, `metrics`, `wall`, `cpu`, `machine`."""
+
+
+class Task(NamedTuple):
+    """What a worker is given."""
+
+    number: int
+    """of the case, from 0"""
+    scene: str
+    values: tuple[str, ...]
+    """`key=value` as `--set` takes them"""
+    folder: str
+    """of the sweep"""
+    keeps_bag: bool
+    sources: str
+    """hash of the bench's sources, see `sources_hash`"""
+
+
+def scene_of(scene: str, values: tuple[str, ...]) -> ResolvedScene:
+    """The resolved scene of a case. Raises SceneError."""
+    return resolve(load_scene(scene, [set_value(each, "--vary ") for each in values]))
+
+
+@functools.cache
+def sources_hash() -> str:
+    """Hash of all sources of the bench: numbers of other physics are not those of this one."""
+    root = Path(__file__).parents[1]
+    digest = hashlib.sha256()
+    for path in sorted(root.rglob("*.py")):
+        digest.update(f"{path.relative_to(root)}\0".encode() + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def case_name(scene: ResolvedScene, sources: str) -> str:
+    """Name of a case: the hash of its resolved scene, with the checksums of its files and the versions of its plug-ins,
+    and of the ``sources`` that it runs with.
+    """
+    data = {key: value for key, value in scene.data.items() if key not in NOT_PHYSICS}
+    text = json.dumps([data, sources], sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()[:20]
+
+
+def run_case(task: Task) -> Row:
+    """Run a case and keep what it gave in the folder of the sweep; one that is there already does not run again."""
+    try:
+        scene = scene_of(task.scene, task.values)
+    except SceneError as error:
+        return failed(task, str(error), REFUSED)
+    name = case_name(scene, task.sources)
+    kept, bag = Path(task.folder) / "cases" / f"{name}.json", Path(task.folder) / "bags" / name
+    found = _kept(kept)
+    if found is not None and (bag.is_dir() or not task.keeps_bag):
+        return {**found, "number": task.number, "again": True}
+    row = {"number": task.number, "case": name, "machine": _machine(), **_run(scene, bag if task.keeps_bag else None)}
+    if row["outcome"] == FINISHED:
+        _write(kept, row)
+    return row
+
+
+def _kept(path: Path) -> Row | None:
+    """The row in a file; None where there is none, or a damaged one."""
+    try:
+        found: Row = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return found
+
+
+def failed(task: Task, sentence: str, outcome: str = FAILED) -> Row:
+    """The row of a case that gave nothing."""
+    return {"number": task.number, "case": "", "outcome": outcome, "sentence": sentence, "metrics": []}
+
+
+def _run(scene: ResolvedScene, bag: Path | None) -> Row:
+    """Run and measure; the bag goes where it is not to be kept."""
+    folder = Path(tempfile.mkdtemp(prefix="contact_bench_"))
+    wall, cpu = time.perf_counter(), time.process_time()
+    try:
+        if bag is not None:
+            shutil.rmtree(bag, ignore_errors=True)  # of a run that was interrupted
+            bag.parent.mkdir(exist_ok=True)
+        path = folder / "bag" if bag is None else bag
+        outcome = run_offline(scene, path)
+        if outcome.failure or outcome.loss:
+            raise RunError(outcome.failure or outcome.loss)
+        found = [_facts(each) for each in metrics_of_bags([path]).metrics]
+    except (RunError, RefusedError, OSError) as error:
+        return {"outcome": FAILED, "sentence": str(error), "metrics": []}
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+    spent = {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu}
+    return {"outcome": FINISHED, "sentence": "", "metrics": found, **spent}
+
+
+def _facts(metric: Metric) -> Row:
+    names = "key", "name", "value", "unit", "verdict", "error", "spread"
+    return {name: getattr(metric, name) for name in names} | {"doubtful": list(metric.broken)}
+
+
+def _machine() -> str:
+    """What the bits of a number hang on beside the case."""
+    return f"{platform.machine()} {_processor()}, Python {platform.python_version()}"
+
+
+@functools.cache
+def _processor() -> str:
+    import llvmlite.binding
+
+    return str(llvmlite.binding.get_host_cpu_name())
+
+
+def _write(path: Path, row: Row) -> None:
+    """Write a row that appears whole or not at all."""
+    partial = path.with_suffix(f".{os.getpid()}.partial")
+    partial.write_text(json.dumps(row), encoding="utf-8")
+    partial.replace(path)

@@ -1,0 +1,112 @@
+"""Processes that run cases, and what becomes of a case that takes its process with it."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import sys
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from typing import Any
+
+from contact_sim_pkg.sweep.case import Row, Task, failed, run_case
+
+__all__ = ["run_all"]
+
+ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")
+ALONE = 2
+"""Times that a case whose process ended is tried by itself."""
+
+Work = Callable[[Task], Row]
+
+
+def run_all(tasks: Sequence[Task], jobs: int, work: Work = run_case) -> Iterator[Row]:
+    """The rows of cases as they end, of ``jobs`` processes with one thread each.
+
+    As many cases are in the processes as there are of them: where one ends, killed or out of memory, these are suspects.
+    Each is tried alone, `ALONE` times, and is a row that failed then.
+    """
+    waiting, deaths = deque(tasks), dict.fromkeys((task.number for task in tasks), 0)
+    suspects: deque[Task] = deque()
+    with _one_thread():
+        pool = _pool(jobs)
+        try:
+            flying: dict[Future[Row], Task] = {}
+            while waiting or suspects or flying:
+                # Suspects fly alone, after those that were in the air
+                while len(flying) < jobs and waiting and not suspects:
+                    task = waiting.popleft()
+                    flying[_submit(pool, work, task)] = task
+                if not flying and suspects:
+                    task = suspects.popleft()
+                    flying[_submit(pool, work, task)] = task
+                ended, _ = wait(flying, return_when=FIRST_COMPLETED)
+                lost = []
+                for future in ended:
+                    task = flying.pop(future)
+                    try:
+                        yield future.result()
+                    except BrokenProcessPool:
+                        lost.append(task)
+                if lost:
+                    lost += flying.values()  # the pool has gone, with all of them
+                    alone = len(lost) == 1
+                    flying.clear()
+                    pool.shutdown(wait=False)
+                    pool = _pool(jobs)
+                    for task in lost:
+                        deaths[task.number] += alone
+                        if deaths[task.number] >= ALONE:
+                            yield failed(task, f"its process was killed or ran out of memory, {ALONE} times alone")
+                        else:
+                            suspects.append(task)
+        finally:
+            for process in list((pool._processes or {}).values()):  # whatever they are at: finished cases are kept
+                process.kill()
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _pool(jobs: int) -> ProcessPoolExecutor:
+    """Begun anew, not forked: threads of compilers and of DDS do not survive a fork."""
+    return ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), _ignore_interrupt)
+
+
+def _ignore_interrupt() -> None:
+    """Who interrupts means the process that waits for this one, which ends it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _submit(pool: ProcessPoolExecutor, work: Work, task: Task) -> Future[Row]:
+    with _main_hidden():
+        return pool.submit(work, task)
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """While processes begin: each has one thread."""
+    before = {name: os.environ.get(name) for name in ONE_THREAD}
+    os.environ.update(dict.fromkeys(ONE_THREAD, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value
+
+
+@contextmanager
+def _main_hidden() -> Iterator[None]:
+    """While a process begins: it does not run the caller's own program again, which may have no guard against that."""
+    main = vars(sys.modules["__main__"])
+    kept: dict[str, Any] = {name: main.pop(name) for name in ("__file__", "__spec__") if name in main}
+    main["__spec__"] = None
+    try:
+        yield
+    finally:
+        main.update(kept)

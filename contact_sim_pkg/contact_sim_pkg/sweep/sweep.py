@@ -1,0 +1,119 @@
+"""A sweep: many cases of one scene, run over the processors, those that ran before left as they are."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
+from contact_sim_pkg.sweep.pool import run_all
+from contact_sim_pkg.sweep.table import SweepTable
+from contact_sim_pkg.sweep.variation import SweepError, Values, Variation
+
+__all__ = ["TABLE", "plan_of", "sweep"]
+
+TABLE, CASES, BAGS = "table.csv", "cases", "bags"
+
+Notify = Callable[[str, float], None]
+"""What is being done, and how much of it is done in [0, 1]."""
+
+
+def plan_of(scene: str, variations: Sequence[Variation], values: Sequence[Values]) -> None:
+    """Try what would be refused in every case before the first of them runs: the keys, both ends of each range, each
+    value of a list. A combination that is impossible is found by its case.
+
+    Raises SceneError, which names the option.
+    """
+    scene_of(scene, _texts(values[0]))
+    usual = values[0]
+    tried = {(each.key, end) for each in variations for end in each.ends} - {*usual.items()}
+    for key, end in sorted(tried):
+        scene_of(scene, _texts({**usual, key: end}))
+
+
+def sweep(
+    scene: str,
+    values: Sequence[Values],
+    folder: Path,
+    *,
+    jobs: int | None = None,
+    keep_bags: bool = False,
+    notify: Notify = lambda _text, _done: None,
+) -> SweepTable:
+    """Run all cases of a scene and return their table, which is written to ``table.csv`` in the folder as well.
+
+    Args:
+        scene: a name or path.
+        values: of each case, what it sets.
+        folder: new, empty, or of a sweep: cases that it holds do not run again.
+        jobs: processes; None: as many as there are processors.
+        keep_bags: whether the bag of each case stays, in ``bags``.
+        notify: gets what is being done.
+
+    Raises:
+        SweepError: the folder is none of a sweep.
+        SceneError: the first case is refused.
+    """
+    _prepare(folder)
+    count = jobs or _processors()
+    tasks = [
+        Task(number, scene, _texts(each), str(folder.absolute()), keep_bags, sources_hash())
+        for number, each in enumerate(values)
+    ]
+    rows: list[Row] = []
+    try:
+        for row in _ordered(tasks, values, count):
+            rows.append(row)
+            notify(_progress(rows, len(tasks)), len(rows) / len(tasks))
+    finally:  # interrupted as well: what has ended is there
+        table = SweepTable(values, rows)
+        partial = folder / f"{TABLE}.partial"
+        partial.write_text(table.csv(), encoding="utf-8")
+        partial.replace(folder / TABLE)
+    return table
+
+
+def _ordered(tasks: Sequence[Task], values: Sequence[Values], jobs: int) -> Iterator[Row]:
+    """The first case of each combination of effects alone, which compiles what the others of it load; then those."""
+    first: dict[tuple[tuple[str, str], ...], Task] = {}
+    for task, given in zip(tasks, values, strict=True):
+        first.setdefault(tuple((key, value) for key, value in given.items() if not _is_number(value)), task)
+    warming = list(first.values()) if len(first) <= len(tasks) // 2 else [tasks[0]]
+    began = {task.number for task in warming}
+    yield from run_all(warming, 1)
+    yield from run_all([task for task in tasks if task.number not in began], jobs)
+
+
+def _prepare(folder: Path) -> None:
+    if folder.exists() and not folder.is_dir():
+        raise SweepError(f"{folder} is a file; --out names the folder of a sweep")
+    if folder.is_dir() and any(folder.iterdir()) and not (folder / CASES).is_dir():
+        raise SweepError(f"{folder} holds something else than a sweep; name a folder that is new or empty")
+    (folder / CASES).mkdir(parents=True, exist_ok=True)
+
+
+def _texts(values: Values) -> tuple[str, ...]:
+    return tuple(f"{key}={value}" for key, value in values.items())
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _processors() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _progress(rows: Sequence[Row], count: int) -> str:
+    """`37 of 200 cases, 2 failed, 12 had run before`."""
+    lost = sum(row["outcome"] != FINISHED for row in rows)
+    again = sum(row.get("again", False) for row in rows)
+    parts = [f"{len(rows)} of {count} cases"]
+    parts += [f"{lost} failed"] if lost else []
+    parts += [f"{again} had run before"] if again else []
+    return ", ".join(parts)
