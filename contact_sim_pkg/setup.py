@@ -45,6 +45,7 @@ setup(
             "msg/*.msg",
             "excitation/data/*",
             "rigs/*/scenes/*.yaml",
+            "sweep/plans/*.yaml",
             "rigs/**/README.md",
             "py.typed",
             "**/*.pyi",

@@ -25,6 +25,9 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("export", "out"): ["BAG", "--csv", "--out", "FILE"],
     ("import", "out"): ["RIDE", "--rate", "100", "--out", "FILE"],
     ("run", "out"): ["seat_ride", "--offline", "--out", "FILE"],
+    ("sweep", "out"): ["seat_ride", "--vary", "seed=1,2", "--out", "FILE"],
+    ("plan", "out"): ["tire_cleat_speeds", "--out", "FILE"],
+    ("plan", "junit_file"): ["tire_cleat_speeds", "--out", "plans", "--junit", "FILE"],
     ("recover", "target"): ["BAG", "FILE"],
 }
 INPUTS = {"impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag", "file", "tolerances"}

@@ -7,6 +7,7 @@ import json
 import pytest
 
 from contact_sim_pkg import SceneError, load_scene, open_bag, run, sweep
+from contact_sim_pkg.files import FileRefusedError
 from contact_sim_pkg.sweep.case import case_name, scene_of
 from contact_sim_pkg.sweep.variation import SweepError
 
@@ -94,7 +95,7 @@ def test_a_key_that_is_none_and_a_value_that_is_refused_are_said_before_anything
 
 def test_a_folder_that_is_none_of_a_sweep_is_left_alone(tmp_path):
     (tmp_path / "thesis.txt").write_text("mine")
-    with pytest.raises(SweepError, match="something else"):
+    with pytest.raises(FileRefusedError, match="something else"):
         swept(tmp_path, "impact.mass=0.03,0.06")
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
 

@@ -38,6 +38,12 @@ def test_a_list_is_drawn_too():
     assert sorted(each["road.roughness_class"] for each in found) == sorted("AAABBBCCC")
 
 
+def test_a_value_may_be_a_list_or_a_mapping():
+    found = samples("road={kind: flat},{kind: bump, height: 0.02}", "impact.temperatures=[253.15, 260],[293.15]")
+    assert [each["road"] for each in found] == ["{kind: flat}"] * 2 + ["{kind: bump, height: 0.02}"] * 2
+    assert [each["impact.temperatures"] for each in found] == ["[253.15, 260]", "[293.15]"] * 2
+
+
 def test_seeds_repeat_each_case():
     assert samples("k=1,2", seeds=2) == [{"k": k, "seed": seed} for k in "12" for seed in "12"]
     assert samples(seeds=3) == [{"seed": seed} for seed in "123"]

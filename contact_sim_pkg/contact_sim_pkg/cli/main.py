@@ -26,6 +26,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "new": "scenes:new_command",
     "run": "run",
     "sweep": "sweep",
+    "plan": "plan",
     "replay": "replay",
     "metrics": "bags.metrics",
     "compare": "bags.compare",

@@ -60,11 +60,13 @@ def command(
     interrupted, and one with more values runs only what is new. The metrics are those of `bench metrics`. Exit code 1
     where a case failed.
     """
-    from contact_sim_pkg.sweep.sweep import plan_of, sweep
+    from contact_sim_pkg.sweep.sweep import check_folder, plan_of, sweep
     from contact_sim_pkg.sweep.variation import read_variation, samples_of
 
     if out is None and not dry_run:
         raise click.UsageError("--out DIR is where the table goes; or --dry-run")
+    if out is not None:
+        check_folder(out)
     variations = [read_variation(each) for each in varied]
     values = samples_of(variations, sample, seeds or 0, sample_seed)
     doing(f"checking {len(values)} cases")

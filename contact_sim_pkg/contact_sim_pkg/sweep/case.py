@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.files import RefusedError
-from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags
+from contact_sim_pkg.report.metrics.views import rows_of
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.errors import SceneError
@@ -127,18 +127,13 @@ def _run(scene: ResolvedScene, bag: Path | None) -> Row:
         outcome = run_offline(scene, path)
         if outcome.failure or outcome.loss:
             raise RunError(outcome.failure or outcome.loss)
-        found = [_facts(each) for each in metrics_of_bags([path]).metrics]
+        found = rows_of(metrics_of_bags([path]).metrics)
     except (RunError, RefusedError, OSError) as error:
         return {"outcome": FAILED, "sentence": str(error), "metrics": []}
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     spent = {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu}
     return {"outcome": FINISHED, "sentence": "", "metrics": found, **spent}
-
-
-def _facts(metric: Metric) -> Row:
-    names = "key", "name", "value", "unit", "verdict", "error", "spread"
-    return {name: getattr(metric, name) for name in names} | {"doubtful": list(metric.broken)}
 
 
 def _machine() -> str:

@@ -6,12 +6,13 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
+from contact_sim_pkg.files import FileRefusedError, wrong_name
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.pool import run_all
 from contact_sim_pkg.sweep.table import SweepTable
-from contact_sim_pkg.sweep.variation import SweepError, Values, Variation
+from contact_sim_pkg.sweep.variation import Values, Variation
 
-__all__ = ["TABLE", "plan_of", "sweep"]
+__all__ = ["TABLE", "check_folder", "plan_of", "sweep"]
 
 TABLE, CASES, BAGS = "table.csv", "cases", "bags"
 
@@ -52,10 +53,11 @@ def sweep(
         notify: gets what is being done.
 
     Raises:
-        SweepError: the folder is none of a sweep.
+        FileRefusedError: the folder is none of a sweep.
         SceneError: the first case is refused.
     """
-    _prepare(folder)
+    check_folder(folder)
+    (folder / CASES).mkdir(parents=True, exist_ok=True)
     count = jobs or _processors()
     tasks = [
         Task(number, scene, _texts(each), str(folder.absolute()), keep_bags, sources_hash())
@@ -85,12 +87,16 @@ def _ordered(tasks: Sequence[Task], values: Sequence[Values], jobs: int) -> Iter
     yield from run_all([task for task in tasks if task.number not in began], jobs)
 
 
-def _prepare(folder: Path) -> None:
-    if folder.exists() and not folder.is_dir():
-        raise SweepError(f"{folder} is a file; --out names the folder of a sweep")
-    if folder.is_dir() and any(folder.iterdir()) and not (folder / CASES).is_dir():
-        raise SweepError(f"{folder} holds something else than a sweep; name a folder that is new or empty")
-    (folder / CASES).mkdir(parents=True, exist_ok=True)
+def check_folder(folder: Path) -> None:
+    """Refuse a folder that is not new, empty, or that of a sweep, before any work is done for it. Raises FileRefusedError."""
+    if reason := wrong_name(folder):
+        raise FileRefusedError(folder, reason)
+    if not folder.exists():
+        return
+    if not folder.is_dir():
+        raise FileRefusedError(folder, "exists already and is no folder; give another name")
+    if any(folder.iterdir()) and not (folder / CASES).is_dir():
+        raise FileRefusedError(folder, "exists already and holds something else than a sweep; give another name")
 
 
 def _texts(values: Values) -> tuple[str, ...]:

@@ -39,6 +39,7 @@ class SweepTable(Sequence[Mapping[str, Any]]):
 
     Attributes:
         keys: that vary.
+        cases: values and row of each, in their order.
         columns: of a row: `number`, the keys, `outcome`, `sentence`, each metric with `[unit]`, its verdict, numerical error
             and spread; `wall_s`, `cpu_s`, `case`, `machine`.
     """
@@ -47,14 +48,14 @@ class SweepTable(Sequence[Mapping[str, Any]]):
         """Of the ``values`` of all cases and the ``rows`` of those that ended, in any order."""
         self.keys = list(dict.fromkeys(key for each in values for key in each))
         by_number = {row["number"]: row for row in rows}
-        self._cases = [(values[number], by_number[number]) for number in sorted(by_number)]
-        self._units = {each["key"]: each["unit"] for _, row in self._cases for each in row["metrics"]}
+        self.cases = [(values[number], by_number[number]) for number in sorted(by_number)]
+        self._units = {each["key"]: each["unit"] for _, row in self.cases for each in row["metrics"]}
         self.columns = [
             "number", *self.keys, "outcome", "sentence",
             *(name for key in self._units for name in (self._column(key), *(f"{key} {after}" for after in AFTER))),
             *TIMES, "case", "machine",
         ]  # fmt: skip
-        self._rows = [self._row(given, row) for given, row in self._cases]
+        self._rows = [self._row(given, row) for given, row in self.cases]
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -119,9 +120,10 @@ class SweepTable(Sequence[Mapping[str, Any]]):
         found.update({f"{key} verdict": "" for key in self._units})
         for metric in row["metrics"]:
             key = metric["key"]
-            found[self._column(key)] = metric["value"]
-            found[f"{key} verdict"] = "doubtful" if metric["doubtful"] else metric["verdict"]
-            found[f"{key} error"], found[f"{key} spread"] = metric["error"], metric["spread"]
+            found[f"{key} verdict"] = "doubtful" if metric["broken"] else metric["verdict"]
+            for name, column in (("value", self._column(key)), ("error", f"{key} error"), ("spread", f"{key} spread")):
+                if metric[name] is not None:
+                    found[column] = metric[name]
         return found
 
     def _moved_by(self, column: Any, known: Any) -> str:

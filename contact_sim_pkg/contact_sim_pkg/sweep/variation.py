@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import itertools
 import math
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -19,6 +20,8 @@ GRID, LATIN, SOBOL = "grid", "lhs", "sobol"
 LOGARITHMIC = "log"
 SEED = "seed"  # key of a scene
 MOST_CASES = 1_000_000
+COMMA = re.compile(r",(?![^\[{]*[\]}])")
+"""One that parts a list, not one within a value such as `{kind: flat}`."""
 
 Values = dict[str, str]
 """Of a case: what `--set` would take, by key."""
@@ -73,7 +76,7 @@ class Variation(NamedTuple):
 
 
 def read_variation(text: str) -> Variation:
-    """`KEY=low:high`, `KEY=low:high:count`, either with `:log`, or `KEY=a,b,c`.
+    """`KEY=low:high`, `KEY=low:high:count`, either with `:log`, or `KEY=a,b,c`, of which each may be a list or a mapping.
 
     Raises SweepError for what is none of them.
     """
@@ -81,9 +84,9 @@ def read_variation(text: str) -> Variation:
     if not equals or not key or not value:
         raise SweepError(f"--vary {text}: is not of the form KEY=low:high:count or KEY=a,b,c")
     parts = value.split(":")
-    if "," not in value and len(parts) > 1:
+    if len(parts) > 1 and not set(value) & set(",{["):
         return _range(text, key, parts)
-    listed = tuple(each.strip() for each in value.split(","))
+    listed = tuple(each.strip() for each in COMMA.split(value))
     if not all(listed):
         raise SweepError(f"--vary {text}: a value of the list is empty")
     twice = sorted({each for each in listed if listed.count(each) > 1})

@@ -14,7 +14,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
 from contact_sim_pkg.records.metric import NO_BAND, OUTSIDE, REQUIRED, UNDECIDED, Band, Metric, exit_status, judged
 
-__all__ = ["Requirement", "exit_code", "places_of", "read_requirements", "required"]
+__all__ = ["Requirement", "exit_code", "places_of", "read_requirements", "required", "requirements_of"]
 
 SENTENCE = re.compile(
     r"\s*(?P<metric>[^<>=]+?)\s*(?P<sign><=|>=|<|>)\s*(?P<limit>[-+.\deE]+)\s*(?P<unit>[^\s\d]\S*)?\s*"
@@ -71,7 +71,11 @@ def _of_text(text: str) -> Requirement:
 
 
 def _of_file(path: Path) -> list[Requirement]:
-    given = table_of_file(path, "requirements", FORM)
+    return requirements_of(table_of_file(path, "requirements", FORM), path)
+
+
+def requirements_of(given: Mapping[str, object], path: Path) -> list[Requirement]:
+    """The requirements of a table that stands in the file ``path``. Raises BagError for a line that is none."""
     return [_of_line(path, key, values) for key, values in given.items()]
 
 

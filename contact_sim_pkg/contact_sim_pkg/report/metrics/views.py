@@ -20,9 +20,11 @@ __all__ = [
     "rests_on",
     "row_of",
     "rows_of",
+    "suite_of",
     "value_text",
     "verdict_line",
     "verdict_text",
+    "xml_text",
 ]
 
 COLUMNS = (
@@ -144,14 +146,19 @@ def metric_of(row: Mapping[str, Any]) -> Metric:
 
 
 def junit_of(name: str, metrics: Sequence[Metric], warnings: Sequence[str] = ()) -> str:
-    """JUnit XML of the list of the bag ``name``, whose ``warnings`` are an error of its first case: outside its band is
+    """JUnit XML of the list of the bag ``name``; see `suite_of`."""
+    return xml_text(suite_of(name, metrics, warnings))
+
+
+def suite_of(name: str, metrics: Sequence[Metric], warnings: Sequence[str] = ()) -> ElementTree.Element:
+    """The list of a run as a suite of tests; its ``warnings`` are an error of the first: outside its band is
     a failure, a broken assumption an error, as is a limit within the uncertainty, no band skipped. What a case rests
-    on is its `system-out`."""
+    on is its `system-out`.
+    """
     cases = [ElementTree.Element("testcase", classname="run", name=name)] if warnings else []
     for case in cases:
         ElementTree.SubElement(case, "error", message="; ".join(warnings))
-    cases += [_case(each) for each in metrics]
-    return junit_text(name, cases)
+    return suite_of_cases(name, [*cases, *(_case(each) for each in metrics)])
 
 
 def _case(metric: Metric) -> ElementTree.Element:
@@ -170,14 +177,24 @@ def _case(metric: Metric) -> ElementTree.Element:
 
 def junit_text(name: str, cases: Sequence[ElementTree.Element]) -> str:
     """One suite of test cases as XML."""
+    return xml_text(suite_of_cases(name, cases))
+
+
+def suite_of_cases(name: str, cases: Sequence[ElementTree.Element]) -> ElementTree.Element:
+    """A suite of test cases, counted."""
     counts = {
         f"{kind}s" if kind != "skipped" else kind: str(sum(each.find(kind) is not None for each in cases))
         for kind in ("failure", "error", "skipped")
     }
     suite = ElementTree.Element("testsuite", {"name": name, "tests": str(len(cases)), **counts})
     suite.extend(cases)
-    ElementTree.indent(suite)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(suite, encoding="unicode") + "\n"
+    return suite
+
+
+def xml_text(root: ElementTree.Element) -> str:
+    """An element as a whole document."""
+    ElementTree.indent(root)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
 
 
 def _finite(value: float) -> float | None:
