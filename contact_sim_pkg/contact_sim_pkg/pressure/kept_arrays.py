@@ -3,8 +3,8 @@
 
 A file is named by the hash of everything that its arrays follow from: a description and the sources
 that compute them. It begins with the hash of its content; a file that does not match, or that
-others own or can write to, is not taken: its arrays are computed again and written anew. The last
-`MOST_KEPT` used of a kind stay.
+others own or can write to, is not taken: its arrays are computed again and written anew. Those of a kind
+that were used last stay, up to `MOST_BYTES`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import hashlib
 import io
 import logging
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -34,7 +34,8 @@ __all__ = ["Arrays", "kept_arrays"]
 
 _log = logging.getLogger(__name__)
 Arrays = dict[str, NDArray[Any]]
-MOST_KEPT = 32
+MOST_BYTES = 1_000_000_000
+"""Of a kind: some hundred cushions, thousands of tires; a sweep comes back to each of its own."""
 
 
 def kept_arrays(
@@ -95,14 +96,24 @@ def _read(path: Path) -> Arrays | None:
         return dict(arrays)
 
 
+def _kept_in(place: Path) -> Iterator[tuple[float, int, Path]]:
+    """Date of last use, bytes and path of each file; one that another process removes meanwhile is left out."""
+    for each in place.glob("*.npz"):
+        with suppress(FileNotFoundError):
+            found = each.stat()
+            yield found.st_mtime, found.st_size, each
+
+
 def _write(path: Path, arrays: Arrays) -> None:
-    """Write a file that appears whole or not at all, and remove the oldest beyond `MOST_KEPT`."""
+    """Write a file that appears whole or not at all, and remove the oldest beyond `MOST_BYTES`."""
     buffer = io.BytesIO()
     numpy.savez(buffer, **arrays)  # type: ignore[arg-type]
     try:
         write_kept(path, buffer.getvalue())
-        kept = sorted(path.parent.glob("*.npz"), key=lambda each: each.stat().st_mtime, reverse=True)
-        for each in kept[MOST_KEPT:]:
-            each.unlink(missing_ok=True)
+        left = MOST_BYTES
+        for _used, size, each in sorted(_kept_in(path.parent), reverse=True):
+            left -= size
+            if left < 0:
+                each.unlink(missing_ok=True)
     except OSError as error:
         _log.warning("a table is not kept on disk (each start takes a second longer): %s", error)

@@ -9,8 +9,8 @@ import pytest
 from tests.pressure.cushion.cushions import pan_layer
 
 from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force, elastic_stiffness
+from contact_sim_pkg.pressure import kept_arrays as kept_arrays_module
 from contact_sim_pkg.pressure.cushion.force_table import ForceTable, kept_table, make_table
-from contact_sim_pkg.pressure.kept_arrays import MOST_KEPT
 
 F_TABLE = (5.9, 20.7, 46.3, 95.0, 179.1, 280.5, 386.5, 496.3, 613.3, 746.8, 910.1, 1136.6, 1515.0)  # at 5, 10 ... 65 mm
 
@@ -135,10 +135,13 @@ def test_without_a_directory_the_table_is_computed_at_each_start(tmp_path):
     assert not missing.exists()
 
 
-def test_the_oldest_tables_give_way(tmp_path):
-    for number in range(MOST_KEPT + 3):
+def test_the_oldest_tables_give_way(tmp_path, monkeypatch):
+    kept_table("first", small_table, tmp_path)
+    (one,) = tmp_path.iterdir()
+    monkeypatch.setattr(kept_arrays_module, "MOST_BYTES", 4 * one.stat().st_size + 1)
+    for number in range(6):
         kept_table(f"n{number}", small_table, tmp_path)
         for age, path in enumerate(sorted(tmp_path.iterdir(), key=lambda p: p.stat().st_mtime)):
             os.utime(path, (1e9 + age, 1e9 + age))
-    assert len(list(tmp_path.iterdir())) == MOST_KEPT
-    assert kept_table(f"n{MOST_KEPT + 2}", refuse, tmp_path).force[2] == 3.0
+    assert len(list(tmp_path.iterdir())) == 4
+    assert kept_table("n5", refuse, tmp_path).force[2] == 3.0
