@@ -113,13 +113,13 @@ def sweep(
         SweepError: nothing varies, or not so.
         SceneError: a key or a value is refused; a combination that is impossible is a row that says so.
     """
-    from contact_sim_pkg.sweep.sweep import plan_of
     from contact_sim_pkg.sweep.sweep import sweep as run_cases
+    from contact_sim_pkg.sweep.sweep import try_ends
     from contact_sim_pkg.sweep.variation import read_variation, samples_of
 
     variations = [read_variation(each) for each in varied]
     values = samples_of(variations, sample, seeds, sample_seed)
-    plan_of(str(scene), variations, values)
+    try_ends(str(scene), variations, values)
     with working(f"{len(values)} cases: starting") if progress else nullcontext():
         return run_cases(str(scene), values, Path(str(directory)), jobs=jobs, keep_bags=keep_bags, notify=doing)
 

@@ -12,7 +12,7 @@ from contact_sim_pkg.records.metric import EVENT, NO_BAND, STATIONARY, Metric
 from contact_sim_pkg.report.metrics.views import rows_of
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.sweep.plan import Plan, judge, judged_rows, junit, read_plan, shipped_plans, status_of
-from contact_sim_pkg.sweep.sweep import plan_of
+from contact_sim_pkg.sweep.sweep import try_ends
 
 TEXT = "sweeps: {ride: {scene: seat_ride, vary: ['k=1,2'], require: {seat.SEAT: {max: 60, unit: '%'}}}}"
 
@@ -106,7 +106,7 @@ def test_junit_has_a_failure_an_error_and_a_test_that_passes(tmp_path):
 def test_shipped_plans_ask_what_their_scenes_take(name):
     for each in read_plan(name).sweeps:
         load_scene(each.scene)
-        plan_of(each.scene, each.variations, each.values)
+        try_ends(each.scene, each.variations, each.values)
         assert each.requirements
 
 

@@ -60,7 +60,7 @@ def command(
     interrupted, and one with more values runs only what is new. The metrics are those of `bench metrics`. Exit code 1
     where a case failed.
     """
-    from contact_sim_pkg.sweep.sweep import check_folder, plan_of, sweep
+    from contact_sim_pkg.sweep.sweep import check_folder, sweep, try_ends
     from contact_sim_pkg.sweep.variation import read_variation, samples_of
 
     if out is None and not dry_run:
@@ -70,7 +70,7 @@ def command(
     variations = [read_variation(each) for each in varied]
     values = samples_of(variations, sample, seeds or 0, sample_seed)
     doing(f"checking {len(values)} cases")
-    plan_of(scene, variations, values)
+    try_ends(scene, variations, values)
     if dry_run:
         _say_plan(values, as_json=as_json)
         return 0

@@ -15,7 +15,7 @@ from contact_sim_pkg.report.metrics.repeated import repeated
 from contact_sim_pkg.report.metrics.requirements import Requirement, required, requirements_of
 from contact_sim_pkg.report.metrics.views import metric_of, suite_of, value_text, xml_text
 from contact_sim_pkg.sweep.case import FINISHED, Row
-from contact_sim_pkg.sweep.sweep import Notify, check_folder, plan_of, sweep
+from contact_sim_pkg.sweep.sweep import Notify, check_folder, sweep, try_ends
 from contact_sim_pkg.sweep.variation import SEED, SweepError, Values, Variation, read_variation, samples_of
 
 __all__ = [
@@ -148,7 +148,7 @@ def run_plan(plan: Plan, folder: Path, *, jobs: int | None, notify: Notify) -> l
     for each in plan.sweeps:
         notify(f"checking {each.name}", 0.0)
         check_folder(folder / each.name)
-        plan_of(each.scene, each.variations, each.values)
+        try_ends(each.scene, each.variations, each.values)
     found: list[Outcome] = []
     for each in plan.sweeps:
         table = sweep(

@@ -12,15 +12,15 @@ from contact_sim_pkg.sweep.pool import run_all
 from contact_sim_pkg.sweep.table import SweepTable
 from contact_sim_pkg.sweep.variation import Values, Variation
 
-__all__ = ["TABLE", "check_folder", "plan_of", "sweep"]
+__all__ = ["TABLE", "check_folder", "sweep", "try_ends"]
 
-TABLE, CASES, BAGS = "table.csv", "cases", "bags"
+TABLE, CASES = "table.csv", "cases"
 
 Notify = Callable[[str, float], None]
 """What is being done, and how much of it is done in [0, 1]."""
 
 
-def plan_of(scene: str, variations: Sequence[Variation], values: Sequence[Values]) -> None:
+def try_ends(scene: str, variations: Sequence[Variation], values: Sequence[Values]) -> None:
     """Try what would be refused in every case before the first of them runs: the keys, both ends of each range, each
     value of a list. A combination that is impossible is found by its case.
 
