@@ -16,6 +16,7 @@ from contact_sim_pkg import compare, load_scene, open_bag, series
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.cli.output import progress, working
+from contact_sim_pkg.files import FileRefusedError
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "library"
 
@@ -104,6 +105,18 @@ def test_a_bag_says_its_metrics_as_the_command_does(two, capsys):
     assert f"{found}\n" == capsys.readouterr().out
     with pytest.raises(KeyError, match=r"no 'seat.a_v'; nearest are seat.a_w"):
         found["seat.a_v"]
+
+
+def test_a_bag_writes_the_page_of_the_command(two, tmp_path):
+    page = two[0].report(tmp_path / "mine.html")
+    main(["report", str(two[0].path), "--out", str(tmp_path / "theirs.html")])
+    assert page.read_bytes() == (tmp_path / "theirs.html").read_bytes()
+    assert two[0].report(str(page)) == page  # a page of the bench is made again
+    (tmp_path / "notes.html").write_text("mine")
+    with pytest.raises(FileRefusedError, match="exists already"):
+        two[0].report(tmp_path / "notes.html")
+    assert two[0].report(tmp_path / "notes.html", overwrite=True).stat().st_size > 10_000
+    assert two[1].report() == two[1].path.parent / "report.html"
 
 
 def test_two_bags_side_by_side(two):
