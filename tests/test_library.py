@@ -1,5 +1,6 @@
 """The bench as a library: the examples run, and a series has one row a sample, as the messages hold them."""
 
+import ast
 import json
 import re
 import subprocess
@@ -7,6 +8,7 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+import matplotlib.pyplot
 import numpy
 import pytest
 from tests.bench_process import ENVIRONMENT, LONGEST_COMMAND
@@ -46,9 +48,33 @@ def test_the_pressure_of_a_sphere_is_that_of_hertz(tmp_path):
     assert found[2:] == pytest.approx([peak] * 2, rel=2e-2)
 
 
-def test_the_notebook_shows_its_picture(tmp_path):
-    assert re.search(r"tire \d+ N, seat \d+ N", run_example("seat_and_tire.py", tmp_path))
+def run_notebook(path):
+    """Run the cells of a notebook one after the other; returns what each code cell shows, as Jupyter would."""
+    names, shown = {}, []
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] != "code":
+            continue
+        assert (cell["outputs"], cell["execution_count"]) == ([], None)  # a notebook is kept without its outputs
+        tree = ast.parse("".join(cell["source"]))
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, path.name, "exec"), names)
+        shown.append(None if last is None else eval(compile(ast.Expression(last.value), path.name, "eval"), names))
+    return names, shown
+
+
+def test_the_notebook_runs_from_top_to_bottom(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    matplotlib.pyplot.switch_backend("agg")
+    names, shown = run_notebook(EXAMPLES / "seat_and_tire.ipynb")
+    assert re.search(r"tire \d+ N, seat \d+ N", capsys.readouterr().out)
+    tables = [each for each in shown if each is not None and not isinstance(each, Path)]
+    assert len(tables) == 4
+    for each in tables:
+        ElementTree.fromstring(f"<div>{each._repr_html_()}</div>")
+    assert names["bag"].metrics()["tire.load"].value == pytest.approx(names["tire"]["normal"].mean(), rel=1e-2)
     assert (tmp_path / "seat_and_tire.png").stat().st_size > 10_000
+    assert shown[-1] == Path("seat_and_tire.html")
+    assert shown[-1].stat().st_size > 100_000
 
 
 def test_a_series_has_one_row_a_sample(tmp_path):
