@@ -167,6 +167,7 @@ def hdf5(path):
 
 SAMPLES_OF: dict[str, Callable[[Path], object]] = {
     "ride.csv": lambda path: table(path, "time [s],x,z", TIME, X, Z),
+    "floor_g.csv": lambda path: table(path, "time [s],z [g]", TIME, Z / G),
     "bare.csv": lambda path: table(path, "x,z", X, Z),
     "phone.csv": lambda path: table(path, "time,ahead,up,heart rate", TIME, X / G, Z / G, 70.0 + X),
     "ride.mat": lambda path: savemat(path, {"time": TIME, "x": X, "z": Z}, do_compression=True),

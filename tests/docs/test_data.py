@@ -39,6 +39,7 @@ class Shown(NamedTuple):
 
 SHOWN = {
     "bench run seat_ride --vibration ride.csv --set vibration.time_column=time": Shown("simulated 0.02 s"),
+    "bench run seat_ride --vibration floor_g.csv --set vibration.time_column=time": Shown("simulated 0.02 s"),
     "bench run seat_ride --vibration bare.csv --rate 200": Shown("simulated 0.02 s"),
     "bench run seat_ride --vibration ride.mat --set vibration.time_column=time": Shown("simulated 0.02 s"),
     "bench run seat_ride --vibration ride.mcap": Shown("simulated 0.02 s"),
