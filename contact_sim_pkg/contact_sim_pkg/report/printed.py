@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import IO
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
@@ -17,14 +17,11 @@ from contact_sim_pkg.report.reading import OnRead, read_recording
 from contact_sim_pkg.report.report import OnSection, sections
 from contact_sim_pkg.report.series import Recording
 
-__all__ = ["FORMATS", "figures_of", "write_figure"]
+__all__ = ["figure_named", "figures_of", "save_figure", "write_figure"]
 
 DOTS_PER_INCH = 300
-FORMATS: dict[str, dict[str, Any]] = {
-    "png": {"dpi": DOTS_PER_INCH, "metadata": {"Software": None}},
-    "svg": {"dpi": DOTS_PER_INCH, "metadata": {"Date": None, "Creator": None}},
-}
-"""Options of `Figure.savefig` by the format: nothing in a file changes from one day to the next."""
+UNDATED: dict[str, dict[str, None]] = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None}}
+"""Metadata by the format: nothing in a file changes from one day to the next."""
 OUTLINES = {"svg.fonttype": "path"}
 """A letter is drawn, so that it looks the same where its font is missing."""
 
@@ -44,7 +41,7 @@ def write_figure(
     Args:
         bag: opened with `open_bag`.
         kind: `png`, of 300 dpi, or `svg`.
-        name: of the figure, one of `figures_of`, or its first words: `tire-road` for `tire-road-0-10`.
+        name: of the figure, one of `figures_of`, or its first words: `rolling-road` for `rolling-road-0-10`.
         out: file to write, which ends in the format; `NAME.KIND` in the bag's directory where it is None.
         overwrite: whether an existing file is replaced.
         on_section: called before each section is drawn.
@@ -58,15 +55,30 @@ def write_figure(
         FileRefusedError: the file exists, is read, or ends in another format.
     """
     path = free_figure(bag, kind, name, out, overwrite=overwrite)
-    found = figures_of(read_recording(bag, on_read), on_section)
-    chosen = next((each for each in found if each == name or each.startswith(f"{name}-")), None)
-    if chosen is None:
-        near = get_close_matches(name, found, 1, 0.0)
-        nearest = f"; nearest is {near[0]}" if near else ""
-        raise BagError(f"the report of {bag.path} has no figure {name!r}{nearest}; it has {', '.join(found) or 'none'}")
-    with new_figure_file(path, bag, overwrite=overwrite) as file, style(), rc_context(OUTLINES):
-        found[chosen].savefig(file, format=kind, facecolor="white", **FORMATS[kind])
+    figure = figure_named(name, read_recording(bag, on_read), on_section)
+    with new_figure_file(path, bag, overwrite=overwrite) as file:
+        save_figure(file, figure, kind)
     return path
+
+
+def save_figure(file: IO[bytes], figure: Figure, kind: str, dots_per_inch: float = DOTS_PER_INCH) -> None:
+    """Write a figure into a file, on white; `dots_per_inch` is that of a PNG, and of maps within an SVG."""
+    with style(), rc_context(OUTLINES):
+        figure.savefig(file, format=kind, dpi=dots_per_inch, facecolor="white", metadata=UNDATED[kind])
+
+
+def figure_named(name: str, recording: Recording, on_section: OnSection = lambda *_: None) -> Figure:
+    """The figure of a report with this name, or the first that begins with its words.
+
+    Raises BagError with the nearest name and all of them.
+    """
+    found = figures_of(recording, on_section)
+    for each, figure in found.items():
+        if each == name or each.startswith(f"{name}-"):
+            return figure
+    near = get_close_matches(name, found, 1, 0.0)
+    nearest = f"; nearest is {near[0]}" if near else ""
+    raise BagError(f"{recording.name}: its report has no figure {name!r}{nearest}; it has {', '.join(found) or 'none'}")
 
 
 def figures_of(recording: Recording, on_section: OnSection = lambda *_: None) -> dict[str, Figure]:
