@@ -1,5 +1,6 @@
 """The bench as a library: the examples run, and a series has one row a sample, as the messages hold them."""
 
+import ast
 import json
 import re
 import subprocess
@@ -7,6 +8,7 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+import matplotlib.pyplot
 import numpy
 import pytest
 from tests.bench_process import ENVIRONMENT, LONGEST_COMMAND
@@ -16,6 +18,7 @@ from contact_sim_pkg import compare, load_scene, open_bag, series
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.cli.output import progress, working
+from contact_sim_pkg.files import FileRefusedError
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "library"
 
@@ -45,9 +48,33 @@ def test_the_pressure_of_a_sphere_is_that_of_hertz(tmp_path):
     assert found[2:] == pytest.approx([peak] * 2, rel=2e-2)
 
 
-def test_the_notebook_shows_its_picture(tmp_path):
-    assert re.search(r"tire \d+ N, seat \d+ N", run_example("seat_and_tire.py", tmp_path))
+def run_notebook(path):
+    """Run the cells of a notebook one after the other; returns what each code cell shows, as Jupyter would."""
+    names, shown = {}, []
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] != "code":
+            continue
+        assert (cell["outputs"], cell["execution_count"]) == ([], None)  # a notebook is kept without its outputs
+        tree = ast.parse("".join(cell["source"]))
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, path.name, "exec"), names)
+        shown.append(None if last is None else eval(compile(ast.Expression(last.value), path.name, "eval"), names))
+    return names, shown
+
+
+def test_the_notebook_runs_from_top_to_bottom(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    matplotlib.pyplot.switch_backend("agg")
+    names, shown = run_notebook(EXAMPLES / "seat_and_tire.ipynb")
+    assert re.search(r"tire \d+ N, seat \d+ N", capsys.readouterr().out)
+    tables = [each for each in shown if each is not None and not isinstance(each, Path)]
+    assert len(tables) == 4
+    for each in tables:
+        ElementTree.fromstring(f"<div>{each._repr_html_()}</div>")
+    assert names["bag"].metrics()["tire.load"].value == pytest.approx(names["tire"]["normal"].mean(), rel=1e-2)
     assert (tmp_path / "seat_and_tire.png").stat().st_size > 10_000
+    assert shown[-1] == Path("seat_and_tire.html")
+    assert shown[-1].stat().st_size > 100_000
 
 
 def test_a_series_has_one_row_a_sample(tmp_path):
@@ -104,6 +131,18 @@ def test_a_bag_says_its_metrics_as_the_command_does(two, capsys):
     assert f"{found}\n" == capsys.readouterr().out
     with pytest.raises(KeyError, match=r"no 'seat.a_v'; nearest are seat.a_w"):
         found["seat.a_v"]
+
+
+def test_a_bag_writes_the_page_of_the_command(two, tmp_path):
+    page = two[0].report(tmp_path / "mine.html")
+    main(["report", str(two[0].path), "--out", str(tmp_path / "theirs.html")])
+    assert page.read_bytes() == (tmp_path / "theirs.html").read_bytes()
+    assert two[0].report(str(page)) == page  # a page of the bench is made again
+    (tmp_path / "notes.html").write_text("mine")
+    with pytest.raises(FileRefusedError, match="exists already"):
+        two[0].report(tmp_path / "notes.html")
+    assert two[0].report(tmp_path / "notes.html", overwrite=True).stat().st_size > 10_000
+    assert two[1].report() == two[1].path.parent / "report.html"
 
 
 def test_two_bags_side_by_side(two):

@@ -135,6 +135,26 @@ class Bag(reader.Bag):
 
         return metrics(self)
 
+    def report(self, out: str | Path | None = None, *, overwrite: bool = False) -> Path:
+        """Write the report of the bag, one HTML page that needs nothing beside it: that of `bench report`.
+
+        Args:
+            out: file to write; None: `report.html` beside the bag, which goes with a temporary bag.
+            overwrite: whether another file of that name is replaced; a page of the bench is made again anyway.
+
+        Returns:
+            Where the page is.
+
+        Raises:
+            BagError: the bag cannot be read, or was not made by a run.
+            FileRefusedError: `out` is another file, or part of the bag.
+        """
+        from contact_sim_pkg.report.reading import scenes_fit
+        from contact_sim_pkg.report.report import write_report
+
+        with scenes_fit([self]):
+            return write_report(self, None if out is None else Path(out), overwrite=overwrite)
+
     def _repr_html_(self) -> str:
         rows = [
             {"topic": name, "type": row.type, "messages": self.count(name)}

@@ -109,7 +109,8 @@ def packed_file(path: Path) -> Path:
     return _file(path / "packed.mcap.zstd", zstandard.compress(mcap(ROWS, chunk_size=20_000)))
 
 
-def _metadata(directory: Path, files: list[str], storage: str = "mcap") -> Path:
+def write_metadata(directory: Path, files: list[str], storage: str = "mcap") -> Path:
+    """`metadata.yaml` of a bag of these files."""
     content = {
         "version": 9, "storage_identifier": storage, "duration": {"nanoseconds": 1}, "message_count": len(ROWS),
         "starting_time": {"nanoseconds_since_epoch": BEGIN}, "topics_with_message_count": [], "compression_format": "",
@@ -125,7 +126,7 @@ def split(path: Path) -> Path:
     directory.mkdir()
     for name, part in zip("cab", (ROWS[:500], ROWS[500:1100], ROWS[1100:]), strict=True):
         _file(directory / f"{name}.mcap", mcap(part))
-    return _metadata(directory, ["c.mcap", "a.mcap", "b.mcap"])
+    return write_metadata(directory, ["c.mcap", "a.mcap", "b.mcap"])
 
 
 def split_packed(path: Path) -> Path:
@@ -134,7 +135,7 @@ def split_packed(path: Path) -> Path:
     directory.mkdir()
     for name, part in zip("01", (ROWS[:500], ROWS[500:]), strict=True):
         _file(directory / f"ride_{name}.mcap.zstd", zstandard.compress(mcap(part)))
-    return _metadata(directory, ["ride_0.mcap.zstd", "ride_1.mcap.zstd"])
+    return write_metadata(directory, ["ride_0.mcap.zstd", "ride_1.mcap.zstd"])
 
 
 def no_metadata(path: Path) -> Path:
@@ -165,7 +166,11 @@ def sqlite(path: Path) -> Path:
 
 def sqlite_file(path: Path) -> Path:
     """The lone `.db3` of a bag of Foxy: a table of topics without quality of service, and no definitions."""
-    file = path / "old.db3"
+    return fill_sqlite(path / "old.db3", ROWS)
+
+
+def fill_sqlite(file: Path, rows: list[Row]) -> Path:
+    """Write a new `.db3` of these messages."""
     with sqlite3.connect(file) as database:
         database.executescript(
             "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT);"
@@ -178,7 +183,7 @@ def sqlite_file(path: Path) -> Path:
         )
         database.executemany(
             "INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)",
-            [(numbers[topic], time, data) for topic, time, data in ROWS],
+            [(numbers[topic], time, data) for topic, time, data in rows],
         )
     database.close()
     return file

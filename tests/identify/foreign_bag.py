@@ -6,6 +6,7 @@ from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
+ODOMETRY = "nav_msgs/msg/Odometry"
 ORIGIN = 1_760_000_000 * 10**9  # [ns]
 
 
@@ -30,17 +31,20 @@ def _twist(velocity, spin):
 
 def write_odometry(path, states, topic="/odom", storage=StoragePlugin.MCAP, child="base_link"):
     """Poses in `map`; the twist in the axes of the child, as the definition of Odometry says."""
-    kind = "nav_msgs/msg/Odometry"
     with Writer(path, version=9, storage_plugin=storage) as writer:
-        row = writer.add_connection(topic, kind, typestore=STORE)
-        for time, position, rotation, velocity, spin in zip(*states, strict=True):
-            pose = _type("geometry_msgs/msg/PoseWithCovariance")(_pose(position, rotation), numpy.zeros(36))
-            axes = numpy.eye(3) if child == "map" else rotation.T
-            twist = _type("geometry_msgs/msg/TwistWithCovariance")(
-                _twist(axes @ velocity, axes @ spin), numpy.zeros(36)
-            )
-            message = _type(kind)(_header(time, "map"), child, pose, twist)
-            writer.write(row, ORIGIN + round(time * 1e9), STORE.serialize_cdr(message, kind))
+        row = writer.add_connection(topic, ODOMETRY, typestore=STORE)
+        for _, time, data in odometry_rows(states, topic, child):
+            writer.write(row, time, data)
+
+
+def odometry_rows(states, topic="/odom", child="base_link"):
+    """Topic, time [ns] and CDR of each message."""
+    for time, position, rotation, velocity, spin in zip(*states, strict=True):
+        pose = _type("geometry_msgs/msg/PoseWithCovariance")(_pose(position, rotation), numpy.zeros(36))
+        axes = numpy.eye(3) if child == "map" else rotation.T
+        twist = _type("geometry_msgs/msg/TwistWithCovariance")(_twist(axes @ velocity, axes @ spin), numpy.zeros(36))
+        message = _type(ODOMETRY)(_header(time, "map"), child, pose, twist)
+        yield topic, ORIGIN + round(time * 1e9), bytes(STORE.serialize_cdr(message, ODOMETRY))
 
 
 def write_pose_and_twist(path, states, twist_frame="map", late=0.0, every=1, pushes=(), push_frame="map"):

@@ -92,15 +92,34 @@ def test_the_foxglove_layout_names_what_is_there(exported):
 
 
 def test_the_plotjuggler_layout_names_what_is_there(exported):
-    root = ElementTree.parse(CONFIG / "bench_plotjuggler.xml").getroot()
-    curves = [curve.get("name") for curve in root.iter("curve")]
+    """A layout of version 4: a curve is a topic and the field below it, as its reader of ROS messages flattens them."""
+    root = ElementTree.parse(CONFIG / "bench_plotjuggler.pj4.xml").getroot()
+    assert root.attrib == {"format": "PlotJuggler", "pj4_version": "4", "binding": "generic"}
+    curves = [(curve.get("topic"), curve.get("field")) for curve in root.iter("curve")]
     assert len(curves) > 10
-    joints = {
-        f"/view/joints/{name}/position" for name in exported.first["/view/joints"].name
-    }  # its own words for joints
-    for curve in curves:
-        topic = max((name for name in exported.types if curve.startswith(f"{name}/")), key=len, default="")
-        assert curve in joints or exported.holds(topic, curve.removeprefix(topic).strip("/").split("/")), curve
+    joints = {("/view/joints", f"/{name}/position") for name in exported.first["/view/joints"].name}  # a field a joint
+    assert [
+        curve for curve in curves if curve not in joints and not exported.holds(curve[0], curve[1].split("/")[1:])
+    ] == []
+    assert not [curve for curve in root.iter("curve") if "name" in curve.attrib]  # the key of one session's data
+
+
+def test_the_plotjuggler_layout_has_the_form_of_version_4():
+    """What its loader refuses: another number of containers or parts than stated, two things in one area."""
+    root = ElementTree.parse(CONFIG / "bench_plotjuggler.pj4.xml").getroot()
+    (tabs,) = root.findall("tabbed_widget")
+    assert tabs.find("Tab") is not None
+    for tab in tabs.findall("Tab"):
+        assert tab.get("tab_name")
+        assert [part.tag for part in tab] == ["Container"] * int(tab.get("containers"))
+        (splitter,) = tab.find("Container")
+        sizes = [float(each) for each in splitter.get("sizes").split(";")]
+        assert splitter.get("orientation") in "-|"
+        assert len(splitter) == int(splitter.get("count")) == len(sizes)
+        assert sum(sizes) == pytest.approx(1.0, abs=1e-6)
+        assert all(area.tag == "DockArea" and [part.tag for part in area] == ["plot"] for area in splitter)
+    named = [each.get("id") for each in root.iter() if "id" in each.attrib]
+    assert len(named) == len(set(named))
 
 
 def test_the_rviz_layout_names_what_is_there(exported):
@@ -136,7 +155,7 @@ def test_the_frames_of_all_messages_are_in_the_tree(exported):
 def test_the_documented_commands_name_the_shipped_files():
     text = (PACKAGE.parent / "docs" / "view.md").read_text()
     commands = "".join(re.findall(r"```bash\n(.*?)```", text, re.DOTALL)).splitlines()
-    for tool, name in (("rviz2", "rviz"), ("docker run", "foxglove.json"), ("plotjuggler", "plotjuggler.xml")):
+    for tool, name in (("rviz2", "rviz"), ("docker run", "foxglove.json"), ("plotjuggler", "plotjuggler.pj4.xml")):
         (file,) = CONFIG.glob(f"bench*{name}")
         assert len([line for line in commands if line.startswith(tool) and f"$CONFIG/{file.name}" in line]) == 1
 

@@ -1,4 +1,4 @@
-"""`bench report`: one HTML page on a bag, or on several bags of one rig side by side."""
+"""`bench report`: one HTML page on a bag, or on several bags of one rig side by side; one figure of it for print."""
 
 from __future__ import annotations
 
@@ -16,9 +16,18 @@ from contact_sim_pkg.cli.output.working import displayed_elsewhere
 @click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path(path_type=Path))
 @click.option(
     "--out",
+    "--output",
+    "out",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="The page; else report.html in the bag, or comparison.html here for several bags.",
+    help="The page; else report.html in the bag, or comparison.html here for several bags; the figure, else NAME.png.",
+)
+@click.option(
+    "--format",
+    "printed",
+    type=(click.Choice(["png", "svg"]), str),
+    metavar="png|svg NAME",
+    help="One figure of the page in place of it, for print: PNG of 300 dpi, or SVG; an unknown NAME lists them.",
 )
 @require_option
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
@@ -27,6 +36,7 @@ from contact_sim_pkg.cli.output.working import displayed_elsewhere
 def command(
     bags: tuple[Path, ...],
     out: Path | None,
+    printed: tuple[str, str] | None,
     wanted: tuple[str, ...],
     skip_bad: bool,
     across_versions: bool,
@@ -36,15 +46,19 @@ def command(
 
     Several bags of one rig are overlaid on one page, named by what differs between their scenes.
     """
+    _refuse_unused(len(bags), printed is not None, bool(wanted), across_versions)
     from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.bag.versions import differences_from, differences_of_bags, installed_versions
     from contact_sim_pkg.report.metrics.requirements import read_requirements
-    from contact_sim_pkg.report.place import free_place
+    from contact_sim_pkg.report.place import free_figure, free_place
     from contact_sim_pkg.run.bag_content import kernel_fingerprint
 
     requirements = read_requirements(wanted)
     recorded = [open_bag(bag, skip_bad=skip_bad) for bag in bags]
-    free_place(recorded, out, overwrite=overwrite)
+    if printed:
+        free_figure(recorded[0], *printed, out, overwrite=overwrite)
+    else:
+        free_place(recorded, out, overwrite=overwrite)
     if len(recorded) > 1:
         from contact_sim_pkg.report.reading import refuse_other_rigs, rig_of_bag
 
@@ -72,7 +86,14 @@ def command(
         from contact_sim_pkg.report.reading import scenes_fit
 
         with scenes_fit(recorded):
-            if len(recorded) == 1:
+            if printed:
+                from contact_sim_pkg.report.printed import write_figure
+
+                kind, name = printed
+                page = write_figure(
+                    recorded[0], kind, name, out, overwrite=overwrite, on_section=on_section, on_read=on_read
+                )
+            elif len(recorded) == 1:
                 from contact_sim_pkg.report.report import write_report
 
                 page = write_report(
@@ -88,3 +109,13 @@ def command(
 
                 page = write_comparison(recorded, out, overwrite=overwrite, requirements=requirements)
     say(f"report: {page}")
+
+
+def _refuse_unused(bags: int, printed: bool, wanted: bool, across_versions: bool) -> None:
+    """UsageError for an option that the number of bags, or another option, gives no meaning."""
+    if printed and bags > 1:
+        raise click.UsageError("--format prints a figure of one BAG.")
+    if printed and wanted:
+        raise click.UsageError("--require judges the tiles of a page; a figure of --format has none.")
+    if across_versions and bags == 1:
+        raise click.UsageError("--across-versions compares several BAGs.")

@@ -88,6 +88,8 @@ class Picture(NamedTuple):
     """what one sees, with its numbers"""
     name: str = ""
     """of the picture on its page"""
+    figure: Figure | None = None
+    """that it was made from; printed by `report.printed`"""
 
 
 class Margins(NamedTuple):
@@ -204,4 +206,4 @@ def picture(name: str, figure: Figure, description: str, caption: str) -> Pictur
         body = body.replace(colour, f"var({variable})")
     body = body.replace("<svg ", '<svg aria-hidden="true" focusable="false" ', 1)
     # Text in the figure went through matplotlib, which escapes it.
-    return Picture(Markup(body), description, caption, name)  # noqa: S704
+    return Picture(Markup(body), description, caption, name, figure)  # noqa: S704

@@ -11,7 +11,7 @@ from typing import IO
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.files import FileRefusedError, check_output, new_file, open_regular_file
 
-__all__ = ["free_place", "is_page", "new_page"]
+__all__ = ["free_figure", "free_place", "is_page", "new_figure_file", "new_page"]
 
 OF_ONE, OF_SEVERAL = "report.html", "comparison.html"
 TITLE = re.compile(rb"<title>[^<]* \xe2\x80\x93 Contact Bench (report|comparison)</title>")  # as in the templates
@@ -27,6 +27,25 @@ def free_place(bags: Sequence[Bag], out: Path | None = None, *, overwrite: bool 
     path = out or (bags[0].path.parent / OF_ONE if len(bags) == 1 else Path(OF_SEVERAL))
     check_output(path, _files(bags), overwrite=overwrite, ours=is_page)
     return path
+
+
+def free_figure(bag: Bag, kind: str, name: str, out: Path | None = None, *, overwrite: bool = False) -> Path:
+    """File of one figure of the page on a bag: `out`, which ends in `kind`, else NAME.KIND in the directory of the bag.
+
+    Raises FileRefusedError where it ends in anything else or may not be made there, as `free_place`.
+    """
+    path = out or bag.path.parent / f"{Path(name).name}.{kind}"
+    if path.suffix.lower() != f".{kind}":
+        raise FileRefusedError(path, f"is to be a picture of --format {kind}: its name ends in .{kind}")
+    check_output(path, _files([bag]), overwrite=overwrite)
+    return path
+
+
+@contextmanager
+def new_figure_file(path: Path, bag: Bag, *, overwrite: bool = False) -> Iterator[IO[bytes]]:
+    """The file to write a figure into; see `files.new_file`."""
+    with new_file(path, _files([bag]), overwrite=overwrite) as file:
+        yield file
 
 
 @contextmanager

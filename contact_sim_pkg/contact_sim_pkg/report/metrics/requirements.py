@@ -172,7 +172,7 @@ def places_of(metrics: Sequence[Metric], named: str, asked: str = "requirement o
         more = f"; of {len(known)} the nearest are" if len(known) > MOST_SHOWN else "; it has"
         listed = shown if len(known) > MOST_SHOWN else known
         raise BagError(
-            f"{asked} {named}: the list has no such metric{more} {', '.join(listed[:MOST_SHOWN])}; --all lists more"
+            f"{asked} {named}: the list has no such metric{more} {', '.join(listed[:MOST_SHOWN]) or 'none'}; --all lists more"
         )
     return places
 
