@@ -18,6 +18,7 @@ __getattr__ = on_use(
         "RunError": "contact_sim_pkg.run.errors:RunError",
         "SceneError": "contact_sim_pkg.scene.errors:SceneError",
         "compare": "contact_sim_pkg.library:compare",
+        "fit": "contact_sim_pkg.library:fit",
         "load_scene": "contact_sim_pkg.library:load_scene",
         "open_bag": "contact_sim_pkg.library:open_bag",
         "series": "contact_sim_pkg.library:series",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import weakref
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,9 +30,10 @@ if TYPE_CHECKING:
     from contact_sim_pkg.answers import Answers
     from contact_sim_pkg.compare.side_by_side import ComparedMetric
     from contact_sim_pkg.records.metric import Metric
+    from contact_sim_pkg.sweep.fit import Fit
     from contact_sim_pkg.sweep.table import SweepTable
 
-__all__ = ["Bag", "Series", "compare", "load_scene", "open_bag", "run", "series", "sweep"]
+__all__ = ["Bag", "Series", "compare", "fit", "load_scene", "open_bag", "run", "series", "sweep"]
 
 
 def load_scene(name: str | Path, *values: str) -> ResolvedScene:
@@ -122,6 +123,43 @@ def sweep(
     try_ends(str(scene), variations, values)
     with working(f"{len(values)} cases: starting") if progress else nullcontext():
         return run_cases(str(scene), values, Path(str(directory)), jobs=jobs, keep_bags=keep_bags, notify=doing)
+
+
+def fit(
+    scene: str | Path, to: str | Path, *free: str, directory: str | Path, metrics: Sequence[str] = (), series: str = "",
+    fixed: Sequence[str] = (), shift: float = 0.02, jobs: int | None = None, progress: bool = True,
+) -> Fit:  # fmt: skip
+    """Fit keys of a scene to what was measured, as `bench fit` does.
+
+    Args:
+        scene: a name or path.
+        to: a table of points with ``metrics``, a bag or a table over time with ``series``.
+        free: keys with their ranges, ``"tire.suspension_damping=500:4000:log"``.
+        directory: new, empty, or of this fit; ``fitted.yaml`` is written there.
+        metrics: columns of the points, metrics by their keys.
+        series: ``topic.column`` of a run that is compared over time.
+        fixed: set in every run, ``"duration=2"``.
+        shift: [s] most that a recording may be late or early; 0 holds it.
+        jobs: processes; None: as many as processors.
+        progress: whether it is shown on standard error.
+
+    Raises:
+        SweepError: it cannot be fitted so, or a run failed.
+        SceneError: a key or the end of a range is refused.
+    """
+    from contact_sim_pkg.sweep.fit import fit as fit_keys
+    from contact_sim_pkg.sweep.measured import read_points, read_series
+    from contact_sim_pkg.sweep.variation import SweepError, read_variation
+
+    if bool(metrics) == bool(series):
+        raise SweepError("give metrics for a table of points, or series for a recording")
+    found = [read_variation(each, "") for each in free]
+    measured = read_series(Path(str(to)), series) if series else read_points(Path(str(to)), [*metrics])
+    given = {key.strip(): value.strip() for key, _, value in (each.partition("=") for each in fixed)}
+    with working("fit: starting") if progress else nullcontext():
+        return fit_keys(
+            str(scene), measured, found, Path(str(directory)), fixed=given, jobs=jobs, most_shift=shift, notify=doing
+        )
 
 
 class Bag(reader.Bag):

@@ -27,6 +27,7 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("run", "out"): ["seat_ride", "--offline", "--out", "FILE"],
     ("sweep", "out"): ["seat_ride", "--vary", "seed=1,2", "--out", "FILE"],
     ("plan", "out"): ["tire_cleat_speeds", "--out", "FILE"],
+    ("fit", "out"): ["seat_ride", "--to", "RIDE", "--metric", "seat.SEAT", "--free", "seed=1:2", "--out", "FILE"],
     ("plan", "junit_file"): ["tire_cleat_speeds", "--out", "plans", "--junit", "FILE"],
     ("recover", "target"): ["BAG", "FILE"],
 }

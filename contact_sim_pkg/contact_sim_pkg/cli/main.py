@@ -27,6 +27,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "run": "run",
     "sweep": "sweep",
     "plan": "plan",
+    "fit": "fit",
     "replay": "replay",
     "metrics": "bags.metrics",
     "compare": "bags.compare",

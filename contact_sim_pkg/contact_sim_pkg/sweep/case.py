@@ -13,7 +13,10 @@ import time
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.files import RefusedError
+from contact_sim_pkg.report.export.table import table_of
 from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags
 from contact_sim_pkg.report.metrics.views import rows_of
 from contact_sim_pkg.run.errors import RunError
@@ -58,6 +61,8 @@ class Task(NamedTuple):
     keeps_bag: bool
     sources: str
     """hash of the bench's sources, see `sources_hash`"""
+    series: str = ""
+    """`topic.column` that the row is to have too, as `time` and `values`; empty: none"""
 
 
 def scene_of(scene: str, values: tuple[str, ...]) -> ResolvedScene:
@@ -91,11 +96,17 @@ def run_case(task: Task) -> Row:
     except SceneError as error:
         return failed(task, str(error), REFUSED)
     name = case_name(scene, task.sources)
-    kept, bag = Path(task.folder) / "cases" / f"{name}.json", Path(task.folder) / "bags" / name
+    ending = f"-{task.series.replace('/', '_')}" if task.series else ""
+    kept, bag = Path(task.folder) / "cases" / f"{name}{ending}.json", Path(task.folder) / "bags" / name
     found = _kept(kept)
     if found is not None and (bag.is_dir() or not task.keeps_bag):
         return {**found, "number": task.number, "again": True}
-    row = {"number": task.number, "case": name, "machine": _machine(), **_run(scene, bag if task.keeps_bag else None)}
+    row = {
+        "number": task.number,
+        "case": name,
+        "machine": _machine(),
+        **_run(scene, bag if task.keeps_bag else None, task.series),
+    }
     if row["outcome"] == FINISHED:
         _write(kept, row)
     return row
@@ -115,7 +126,7 @@ def failed(task: Task, sentence: str, outcome: str = FAILED) -> Row:
     return {"number": task.number, "case": "", "outcome": outcome, "sentence": sentence, "metrics": []}
 
 
-def _run(scene: ResolvedScene, bag: Path | None) -> Row:
+def _run(scene: ResolvedScene, bag: Path | None, series: str) -> Row:
     """Run and measure; the bag goes where it is not to be kept."""
     folder = Path(tempfile.mkdtemp(prefix="contact_bench_"))
     wall, cpu = time.perf_counter(), time.process_time()
@@ -127,13 +138,23 @@ def _run(scene: ResolvedScene, bag: Path | None) -> Row:
         outcome = run_offline(scene, path)
         if outcome.failure or outcome.loss:
             raise RunError(outcome.failure or outcome.loss)
-        found = rows_of(metrics_of_bags([path]).metrics)
+        found = {"metrics": rows_of(metrics_of_bags([path]).metrics)} | (_series_of(path, series) if series else {})
     except (RunError, RefusedError, OSError) as error:
         return {"outcome": FAILED, "sentence": str(error), "metrics": []}
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     spent = {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu}
-    return {"outcome": FINISHED, "sentence": "", "metrics": found, **spent}
+    return {"outcome": FINISHED, "sentence": "", **found, **spent}
+
+
+def _series_of(path: Path, series: str) -> Row:
+    """The column of a bag. Raises BagError where there is none."""
+    topic, _, column = series.rpartition(".")
+    time, *columns = table_of(open_bag(path), topic).columns
+    for each in columns:
+        if each.name == column:
+            return {"time": [*map(float, time.values)], "values": [*map(float, each.values)], "unit": each.unit}
+    raise BagError(f"{topic} has no column {column!r}; it has {', '.join(each.name for each in columns)}")
 
 
 def _machine() -> str:

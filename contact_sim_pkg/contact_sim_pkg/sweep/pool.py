@@ -15,7 +15,7 @@ from typing import Any
 
 from contact_sim_pkg.sweep.case import Row, Task, failed, run_case
 
-__all__ = ["run_all"]
+__all__ = ["Workers", "run_all"]
 
 ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")
 ALONE = 2
@@ -25,49 +25,73 @@ Work = Callable[[Task], Row]
 
 
 def run_all(tasks: Sequence[Task], jobs: int, work: Work = run_case) -> Iterator[Row]:
-    """The rows of cases as they end, of ``jobs`` processes with one thread each.
+    """The rows of cases as they end, of ``jobs`` processes that begin and end with them; see `Workers`."""
+    with Workers(jobs, work) as workers:
+        yield from workers.run(tasks)
+
+
+class Workers:
+    """Processes of one thread each that run cases, until the block of code ends.
 
     As many cases are in the processes as there are of them: where one ends, killed or out of memory, these are suspects.
     Each is tried alone, `ALONE` times, and is a row that failed then.
     """
-    waiting, deaths = deque(tasks), dict.fromkeys((task.number for task in tasks), 0)
-    suspects: deque[Task] = deque()
-    with _one_thread():
-        pool = _pool(jobs)
-        try:
-            flying: dict[Future[Row], Task] = {}
-            while waiting or suspects or flying:
-                # Suspects fly alone, after those that were in the air
-                while len(flying) < jobs and waiting and not suspects:
-                    task = waiting.popleft()
-                    flying[_submit(pool, work, task)] = task
-                if not flying and suspects:
-                    task = suspects.popleft()
-                    flying[_submit(pool, work, task)] = task
-                ended, _ = wait(flying, return_when=FIRST_COMPLETED)
-                lost = []
-                for future in ended:
-                    task = flying.pop(future)
-                    try:
-                        yield future.result()
-                    except BrokenProcessPool:
-                        lost.append(task)
-                if lost:
-                    lost += flying.values()  # the pool has gone, with all of them
-                    alone = len(lost) == 1
-                    flying.clear()
-                    pool.shutdown(wait=False)
-                    pool = _pool(jobs)
-                    for task in lost:
-                        deaths[task.number] += alone
-                        if deaths[task.number] >= ALONE:
-                            yield failed(task, f"its process was killed or ran out of memory, {ALONE} times alone")
-                        else:
-                            suspects.append(task)
-        finally:
-            for process in list((pool._processes or {}).values()):  # whatever they are at: finished cases are kept
+
+    def __init__(self, jobs: int, work: Work = run_case) -> None:
+        """So many processes, begun with the first case."""
+        self._jobs, self._work = jobs, work
+        self._pool: ProcessPoolExecutor | None = None
+
+    def __enter__(self) -> Workers:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        if self._pool is not None:
+            for process in list(
+                (self._pool._processes or {}).values()
+            ):  # whatever they are at: finished cases are kept
                 process.kill()
-            pool.shutdown(wait=False, cancel_futures=True)
+            self._pool.shutdown(wait=False, cancel_futures=True)
+            self._pool = None
+
+    def run(self, tasks: Sequence[Task]) -> Iterator[Row]:
+        """The rows of cases as they end."""
+        waiting, deaths = deque(tasks), dict.fromkeys((task.number for task in tasks), 0)
+        suspects: deque[Task] = deque()
+        flying: dict[Future[Row], Task] = {}
+        while waiting or suspects or flying:
+            # Suspects fly alone, after those that were in the air
+            while len(flying) < self._jobs and waiting and not suspects:
+                task = waiting.popleft()
+                flying[self._submit(task)] = task
+            if not flying and suspects:
+                task = suspects.popleft()
+                flying[self._submit(task)] = task
+            ended, _ = wait(flying, return_when=FIRST_COMPLETED)
+            lost = []
+            for future in ended:
+                task = flying.pop(future)
+                try:
+                    yield future.result()
+                except BrokenProcessPool:
+                    lost.append(task)
+            if lost:
+                lost += flying.values()  # the pool has gone, with all of them
+                alone = len(lost) == 1
+                flying.clear()
+                self.__exit__()
+                for task in lost:
+                    deaths[task.number] += alone
+                    if deaths[task.number] >= ALONE:
+                        yield failed(task, f"its process was killed or ran out of memory, {ALONE} times alone")
+                    else:
+                        suspects.append(task)
+
+    def _submit(self, task: Task) -> Future[Row]:
+        if self._pool is None:
+            self._pool = _pool(self._jobs)
+        with _one_thread(), _main_hidden():
+            return self._pool.submit(self._work, task)
 
 
 def _pool(jobs: int) -> ProcessPoolExecutor:
@@ -78,11 +102,6 @@ def _pool(jobs: int) -> ProcessPoolExecutor:
 def _ignore_interrupt() -> None:
     """Who interrupts means the process that waits for this one, which ends it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
-def _submit(pool: ProcessPoolExecutor, work: Work, task: Task) -> Future[Row]:
-    with _main_hidden():
-        return pool.submit(work, task)
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from contact_sim_pkg.sweep.pool import run_all
 from contact_sim_pkg.sweep.table import SweepTable
 from contact_sim_pkg.sweep.variation import Values, Variation
 
-__all__ = ["TABLE", "check_folder", "sweep", "try_ends"]
+__all__ = ["TABLE", "check_folder", "processors", "sweep", "try_ends"]
 
 TABLE, CASES = "table.csv", "cases"
 
@@ -58,7 +58,7 @@ def sweep(
     """
     check_folder(folder)
     (folder / CASES).mkdir(parents=True, exist_ok=True)
-    count = jobs or _processors()
+    count = jobs or processors()
     tasks = [
         Task(number, scene, _texts(each), str(folder.absolute()), keep_bags, sources_hash())
         for number, each in enumerate(values)
@@ -111,7 +111,7 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _processors() -> int:
+def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

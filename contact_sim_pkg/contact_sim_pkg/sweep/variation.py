@@ -75,40 +75,40 @@ class Variation(NamedTuple):
         return f"{value:.12g}"
 
 
-def read_variation(text: str) -> Variation:
+def read_variation(text: str, option: str = "--vary") -> Variation:
     """`KEY=low:high`, `KEY=low:high:count`, either with `:log`, or `KEY=a,b,c`, of which each may be a list or a mapping.
 
     Raises SweepError for what is none of them.
     """
     key, equals, value = (part.strip() for part in text.partition("="))
     if not equals or not key or not value:
-        raise SweepError(f"--vary {text}: is not of the form KEY=low:high:count or KEY=a,b,c")
+        raise SweepError(f"{option} {text}: is not of the form KEY=low:high:count or KEY=a,b,c")
     parts = value.split(":")
     if len(parts) > 1 and not set(value) & set(",{["):
-        return _range(text, key, parts)
+        return _range(f"{option} {text}", key, parts)
     listed = tuple(each.strip() for each in COMMA.split(value))
     if not all(listed):
-        raise SweepError(f"--vary {text}: a value of the list is empty")
+        raise SweepError(f"{option} {text}: a value of the list is empty")
     twice = sorted({each for each in listed if listed.count(each) > 1})
     if twice:
-        raise SweepError(f"--vary {text}: {twice[0]} is there twice")
+        raise SweepError(f"{option} {text}: {twice[0]} is there twice")
     return Variation(key, listed)
 
 
-def _range(text: str, key: str, parts: list[str]) -> Variation:
+def _range(given: str, key: str, parts: list[str]) -> Variation:
     is_logarithmic = parts[-1] == LOGARITHMIC
     numbers = parts[:-1] if is_logarithmic else parts
     try:
         low, high = float(numbers[0]), float(numbers[1])
         count = int(numbers[2]) if len(numbers) == 3 else 0
     except (ValueError, IndexError):
-        raise SweepError(f"--vary {text}: is not of the form KEY=low:high:count or KEY=a,b,c") from None
+        raise SweepError(f"{given}: is not of the form KEY=low:high:count or KEY=a,b,c") from None
     if len(numbers) > 3 or not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise SweepError(f"--vary {text}: a range is low:high:count with low below high")
+        raise SweepError(f"{given}: a range is low:high:count with low below high")
     if len(numbers) == 3 and not 1 <= count <= MOST_CASES:
-        raise SweepError(f"--vary {text}: {count} points; at least 1, at most {MOST_CASES}")
+        raise SweepError(f"{given}: {count} points; at least 1, at most {MOST_CASES}")
     if is_logarithmic and low <= 0.0:
-        raise SweepError(f"--vary {text}: a logarithmic range begins above 0")
+        raise SweepError(f"{given}: a logarithmic range begins above 0")
     return Variation(key, (), low, high, count, is_logarithmic)
 
 
