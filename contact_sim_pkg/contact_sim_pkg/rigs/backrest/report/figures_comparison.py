@@ -55,8 +55,8 @@ def domain_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
         unused.set_axis_off()
     for stage in (0, 1):
         _draw_stage(figure, panels[:, stage].ravel().tolist(), found, stage, window)
-    figure.supxlabel(AT_BACKREST.across, fontsize=9)
-    figure.supylabel(AT_BACKREST.along, fontsize=9)
+    figure.supxlabel(AT_BACKREST.across)
+    figure.supylabel(AT_BACKREST.along)
     return picture(
         f"{key}-domains", figure, f"Contact points on the contact domain of the {name} in every run", _caption(found)
     )
@@ -69,7 +69,7 @@ def _draw_stage(figure: Figure, places: list[Axes], found: list[_Domain], stage:
         shown = each.fields[stage]
         draw_domain(place, shown.field, each.points[stage], window, limits)
         called = f"{each.run.label}\n" if stage == 0 else ""
-        place.set_title(f"{called}{shown.time:.3f} s, {shown.load:.4g} N", fontsize=8.5)
+        place.set_title(f"{called}{shown.time:.3f} s, {shown.load:.4g} N")
     bar = figure.colorbar(ScalarMappable(limits, PRESSURE_COLOURS), ax=places, label="kPa", pad=0.01, aspect=14)
     bar.ax.spines["outline"].set_visible(False)
 
