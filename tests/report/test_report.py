@@ -48,7 +48,7 @@ def test_the_page_opens_with_a_verdict_and_the_conditions(car_text):
     answer = car_text[car_text.index('<p class="answer') : car_text.index("<nav")]
     assert "<b>Outside:</b>" in answer
     assert "SEAT" in answer
-    assert '<p class="conditions">ground · tire contact · seat contact</p>' in answer  # a scene without masses
+    assert '<p class="conditions">10 s · ground · tire contact · seat contact</p>' in answer  # a scene without masses
 
 
 def test_each_section_is_named_before_it_is_drawn(car, tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from itertools import zip_longest
@@ -36,7 +37,7 @@ def answer_of(recording: Recording, metrics: Sequence[Metric]) -> Answer:
         text for report in reports_of(recording) for phrase in report.answer if (text := _filled(phrase, report, found))
     ]
     tone, word, reason = _verdict(recording, metrics)
-    return Answer(tone, word, "; ".join([*([reason] if reason else []), *phrases, f"{recording.duration:.4g} s"]) + ".")
+    return Answer(tone, word, "; ".join([*([reason] if reason else []), *phrases]) + ".")
 
 
 def first_metrics(recording: Recording, metrics: Sequence[Metric]) -> list[Metric]:
@@ -57,7 +58,10 @@ def first_metrics(recording: Recording, metrics: Sequence[Metric]) -> list[Metri
         for metric in rank if metric is not None
     ]  # fmt: skip
     chosen = [*dict.fromkeys(metric.key for metric in (*own, *ranked))][:MOST_TILES]
-    return [metric for metric in metrics if metric.key in chosen][:MOST_TILES]
+    first = {metric.key for metric in own}
+    return sorted((metric for metric in metrics if metric.key in chosen), key=lambda metric: metric.key not in first)[
+        :MOST_TILES
+    ]
 
 
 def _verdict(recording: Recording, metrics: Sequence[Metric]) -> tuple[str, str, str]:
@@ -89,6 +93,7 @@ def _filled(phrase: str, report: ContactReport, metrics: dict[str, Metric]) -> s
 
     def text(found: re.Match[str]) -> str:
         metric = metrics[f"{report.contact}.{found[1]}"]
-        return metric.remark.partition(";")[0] if found[2] else value_text(metric)
+        # the tiles have what it is uncertain by
+        return metric.remark.partition(";")[0] if found[2] else value_text(metric._replace(spread=math.nan))
 
     return ANSWER_KEY.sub(text, phrase).rstrip(", :")

@@ -25,7 +25,7 @@ from contact_sim_pkg.report.place import free_place, new_page
 from contact_sim_pkg.report.reading import OnRead, read_recording
 from contact_sim_pkg.report.rows import scene_rows
 from contact_sim_pkg.report.series import Recording
-from contact_sim_pkg.report.sketch import conditions_of, drawing_of
+from contact_sim_pkg.report.sketch import Part, conditions_of, drawing_of
 from contact_sim_pkg.report.timeline import map_views, page_data
 from contact_sim_pkg.report.trust import commands_of, topic_table, trust_tables
 
@@ -81,12 +81,13 @@ def render(
         "published": [] if published is None else [published], TRUST: trust_tables(recording, metrics),
     })  # fmt: skip
     of_rig = rig_reports.parts_of(recording)
+    conditions = conditions_of([Part("", f"{recording.duration:.4g} s"), *of_rig])
     title = recording.scene.get("name") or recording.name
     numbers, scene = metric_table(metrics), scene_rows(recording.scene)
     # The template has the layout; every text is escaped there
     return rendered(TEMPLATE, {
         "title": title, "description": recording.scene.get("description") or "", "bag_name": recording.name,
-        "date": recording.date, "answer": answer_of(recording, metrics), "conditions": conditions_of(of_rig),
+        "date": recording.date, "answer": answer_of(recording, metrics), "conditions": conditions,
         "drawing": drawing_of(of_rig, str(title)), "warnings": [*facts.warnings(recording), *doubts_of(metrics)],
         "tiles": tiles_of(first_metrics(recording, metrics)), "numbers": numbers, "maps": map_views(recording), "lead": lead,
         "drawn": parts, "contents": [Entry("result", "Result"), Entry("time", "Time and maps"),

@@ -84,7 +84,7 @@
       width: view.clientWidth, height, scales: {x: {time: false}}, legend: {live: true},
       cursor: {sync: {key: "bench"}, drag: {x: true, y: false}},
       axes: [drawn, {...drawn, size: 56, label: group.label, labelFont: "12px system-ui", labelSize: 18}],
-      series: [{label: "", value: (_, value) => (value == null ? "" : value.toPrecision(5))}, ...series],
+      series: [{label: "at", value: (_, value) => (value == null ? "" : value.toPrecision(5))}, ...series],
       hooks: {setCursor: [plot => { if (plot.cursor.idx != null) show(time[plot.cursor.idx], plot); }]},
     }, [axis, ...group.series.map(each => each.values)], view);
     return plot;

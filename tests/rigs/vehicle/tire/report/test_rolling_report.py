@@ -114,7 +114,7 @@ def test_the_shown_segment_holds_the_largest_load_and_what_comes_after(recording
 
 
 def test_the_page_names_the_conditions_and_draws_the_rig(text):
-    assert "road cleat · tire wheel 40 kg · load 3.34 kN" in text
+    assert "· road cleat · tire wheel 40 kg · load 3.34 kN" in text
     drawing = text[text.index('class="sketch"') :].split("</svg>")[0]
     assert [each for each in ("road", "tire", "suspension", "body", "300 kg") if f">{each}</text>" not in drawing] == []
 

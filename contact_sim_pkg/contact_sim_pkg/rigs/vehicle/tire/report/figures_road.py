@@ -84,7 +84,7 @@ def along_the_road(key: str, name: str, rolling: Rolling, section: RoadSection) 
     """
     ratios = [3.0, *([1.6] if rolling.axle is not None else []), *([2.2] if rolling.field is not None else []), 2.0]
     figure, axes = new_figure(
-        0.5 + 0.7 * sum(ratios), len(ratios), margins=Margins(right=0.8), sharex=True, height_ratios=ratios
+        0.5 + 0.7 * sum(ratios), len(ratios), margins=Margins(left=1.0, right=0.8), sharex=True, height_ratios=ratios
     )
     band = _draw_force(axes[0], rolling, section)
     if rolling.axle is not None:
@@ -104,9 +104,10 @@ def along_the_road(key: str, name: str, rolling: Rolling, section: RoadSection) 
 
 def force_over_road(key: str, name: str, rolling: Rolling, section: RoadSection) -> Picture:
     """Normal force raw and filtered over the distance, and the road below."""
-    figure, axes = new_figure(3.0, 2, sharex=True, height_ratios=[3.0, 2.0])
+    figure, axes = new_figure(2.5, 2, sharex=True, height_ratios=[3.0, 2.0])
     band = _draw_force(axes[0], rolling, section)
     _draw_road(axes[1], rolling, section)
+    axes[0].set_ylabel("force, kN")
     axes[1].set_xlim(section.start, section.end)
     axes[1].set_xlabel("distance travelled, m")
     figure.align_ylabels(axes)
