@@ -3,6 +3,7 @@
 import pytest
 from tests.report.browser import BROWSER, browser
 
+from contact_sim_pkg.report.comparison.runs import write_comparison
 from contact_sim_pkg.report.report import write_report
 
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no chromium or chrome on the PATH")
@@ -69,6 +70,16 @@ def test_the_scripts_run_under_the_policy_and_ask_for_nothing(shown):
     assert found["console"] == []
     assert found["requests"] == []
     assert found["ready"] > 0
+
+
+@pytest.mark.parametrize("width", [WIDE, NARROW])
+@pytest.mark.parametrize("name", ["car", "backrest"])
+def test_a_comparison_is_short_and_legible(tab, request, tmp_path, name, width):
+    bag = request.getfixturevalue(name)
+    found = tab.measured(write_comparison([bag, bag], tmp_path / "pair.html"), width)
+    assert found["height"] <= 6000
+    assert found["content"] <= found["window"]
+    assert [found[fault] for fault in ("smallest", "cut", "overlap", "console", "requests")] == [[]] * 5
 
 
 def test_the_slider_moves_the_map_and_the_cursor(page, tab):

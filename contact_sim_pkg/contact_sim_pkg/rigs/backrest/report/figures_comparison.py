@@ -48,7 +48,9 @@ def domain_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
     columns = min(COLUMNS, len(found))
     rows = 2 * -(-len(found) // columns)
     height = float(np.clip(0.35 + window.aspect * 0.8 * WIDTH / columns, 1.2, 3.2))
-    figure, axes = new_figure(rows * height + 0.5, rows, columns, MULTIPLES, sharex=True, sharey=True)
+    figure, axes = new_figure(
+        rows * height + 0.7, rows, columns, MULTIPLES._replace(top=0.52), sharex=True, sharey=True
+    )
     # Rows in pairs: first touch above largest force, for each run.
     panels = np.array(axes, dtype=object).reshape(rows // 2, 2, columns)
     for unused in panels.transpose(0, 2, 1).reshape(-1, 2)[len(found) :].flat:
