@@ -18,7 +18,7 @@ from contact_sim_pkg.report.series import Recording
 
 __all__ = ["MOST_TILES", "Answer", "answer_of", "first_metrics"]
 
-MOST_TILES = 8
+LEAST_TILES, MOST_TILES = 6, 8
 
 
 class Answer(NamedTuple):
@@ -41,27 +41,23 @@ def answer_of(recording: Recording, metrics: Sequence[Metric]) -> Answer:
 
 
 def first_metrics(recording: Recording, metrics: Sequence[Metric]) -> list[Metric]:
-    """At most `MOST_TILES` metrics in their order: limits of one's own and what lies outside, then those that the
-    answer names, then the first ones of each contact in turn.
+    """At most `MOST_TILES` metrics: limits of one's own and what lies outside, then in their order what the answer
+    names and the first ones of each contact in turn; self-checks only where there are fewer than `LEAST_TILES`.
     """
     named = answered(recording)
-    own = [
-        each for each in metrics if each.verdict in (OUTSIDE, UNDECIDED) or (each.band and each.band.kind == REQUIRED)
-    ]
-    by_contact: dict[str, list[Metric]] = {}
+    own = {
+        each.key for each in metrics
+        if each.verdict in (OUTSIDE, UNDECIDED) or (each.band is not None and each.band.kind == REQUIRED)
+    }  # fmt: skip
+    checks = {each.key for each in metrics if each.basis == SELF_CHECK} - named - own
+    by_contact: dict[str, list[str]] = {}
     for metric in metrics:
-        if metric.basis == SELF_CHECK and metric.key not in named:
-            continue  # the run beside itself stands under Trust
-        by_contact.setdefault(metric.key.partition(".")[0], []).append(metric)
-    ranked = [
-        metric for rank in zip_longest(*(sorted(each, key=lambda one: one.key not in named) for each in by_contact.values()))
-        for metric in rank if metric is not None
-    ]  # fmt: skip
-    chosen = [*dict.fromkeys(metric.key for metric in (*own, *ranked))][:MOST_TILES]
-    first = {metric.key for metric in own}
-    return sorted((metric for metric in metrics if metric.key in chosen), key=lambda metric: metric.key not in first)[
-        :MOST_TILES
-    ]
+        by_contact.setdefault(metric.key.partition(".")[0], []).append(metric.key)
+    ranks = zip_longest(*(sorted(keys, key=lambda key: key not in named) for keys in by_contact.values()))
+    ranked = sorted((key for rank in ranks for key in rank if key is not None), key=lambda key: key not in own)
+    most = max(LEAST_TILES, min(MOST_TILES, len(ranked) - len(checks)))
+    chosen = sorted(ranked, key=lambda key: key in checks)[:most]
+    return sorted((each for each in metrics if each.key in chosen), key=lambda each: each.key not in own)
 
 
 def _verdict(recording: Recording, metrics: Sequence[Metric]) -> tuple[str, str, str]:
