@@ -37,7 +37,7 @@ setup(
     author="Contact Bench maintainers",
     maintainer="Contact Bench maintainers",
     license="Apache-2.0",
-    license_files=["LICENSE"],
+    license_files=["LICENSE", "THIRD_PARTY.md"],
     python_requires=">=3.11,<3.15",
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
     package_data={

@@ -7,9 +7,17 @@ import numpy as np
 import pytest
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.compare.side_by_side import Compared, Curve, misses, read_tolerances, side_by_side, undecided
+from contact_sim_pkg.compare.side_by_side import (
+    Compared,
+    ComparedMetric,
+    Curve,
+    misses,
+    read_tolerances,
+    side_by_side,
+    undecided,
+)
 from contact_sim_pkg.files import FileRefusedError
-from contact_sim_pkg.records.metric import Metric
+from contact_sim_pkg.records.metric import LIMIT, Band, Metric
 from contact_sim_pkg.report.comparison.rows import junit_text_of, rows_of, table_rows
 
 
@@ -102,3 +110,21 @@ def test_a_tolerance_of_nothing_is_refused_with_what_there_is(tolerances, tmp_pa
         misses([run("A", a=1.0), run("B", a=1.0)], tolerances("q: {absolute: 1}"))
     with pytest.raises(FileRefusedError, match="No such file"):
         read_tolerances(tmp_path / "absent.yaml")
+
+
+@pytest.mark.parametrize(
+    ("values", "spread", "limit", "expected"),
+    [
+        ((60.0, 50.0), 1.0, Band(-math.inf, 100.0, LIMIT, "s"), "better"),
+        ((60.0, 70.0), 1.0, Band(-math.inf, 100.0, LIMIT, "s"), "worse"),
+        ((60.0, 70.0), 1.0, Band(1.0, math.inf, LIMIT, "s"), "better"),
+        ((60.0, 64.0), 3.0, Band(-math.inf, 100.0, LIMIT, "s"), "no difference beyond ±"),  # 4 below sqrt(18)
+        ((60.0, 64.5), 3.0, Band(-math.inf, 100.0, LIMIT, "s"), "worse"),
+        ((60.0, 70.0), 1.0, None, ""),
+        ((60.0, 60.0), math.nan, None, "the same"),
+        ((60.0, math.nan), 1.0, None, ""),
+    ],
+)
+def test_a_change_is_judged_by_its_limit_and_its_uncertainty(values, spread, limit, expected):
+    side = ComparedMetric("a", "a", "", values, ("good", "good"), (), spreads=(spread, spread), limit=limit)
+    assert side.comparison == expected

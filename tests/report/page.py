@@ -14,6 +14,7 @@ class Page(HTMLParser):
         self.tags: list[str] = []
         self.attributes: list[tuple[str, str, str]] = []
         self.texts: list[str] = []
+        self._of: list[tuple[str, str]] = []
         self.feed(text)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
@@ -24,28 +25,19 @@ class Page(HTMLParser):
     def handle_data(self, data: str) -> None:
         """Keep the text."""
         self.texts.append(data.strip())
+        if data.strip():
+            self._of.append((self.tags[-1], data.strip()))
 
     @property
     def headings(self) -> list[str]:
-        """Titles of the sections that have pictures or facts."""
-        return [text for text in self.texts if text in HEADINGS]
+        """Titles of the parts of the page."""
+        return [text for tag, text in self._of if tag == "h2"]
+
+    @property
+    def folds(self) -> list[str]:
+        """What unfolds."""
+        return [text for tag, text in self._of if tag == "summary"]
 
     def values(self, name: str) -> list[str]:
         """Values of an attribute, wherever it occurs."""
         return [value for _, attribute, value in self.attributes if attribute == name]
-
-
-HEADINGS = (
-    "Result",
-    "What was run",
-    "Tire contact",
-    "Seat contact",
-    "Rolling tire",
-    "Backrest contact",
-    "Contact domain",
-    "Slaps",
-    "Seat vibration",
-    "Energy",
-    "Cost",
-    "Recording",
-)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
-from contact_sim_pkg.records.metric import OUTSIDE, Metric
+from contact_sim_pkg.records.metric import LIMIT, OUTSIDE, REQUIRED, SELF_CHECK, Band, Metric
 
 __all__ = [
     "Compared",
@@ -48,6 +48,30 @@ class ComparedMetric(NamedTuple):
     """numerical error in each run, in `unit`; nan where it is not known"""
     spreads: tuple[float, ...] = ()
     """half the 95 % interval in each run, in `unit`; nan where it is not known"""
+    limit: Band | None = None
+    """limit of the first run that has one: which way is better"""
+
+    @property
+    def uncertainty(self) -> float:
+        """Of the change of two runs, in `unit`: root of the sum of the squares of all spreads and errors; nan where none
+        is known.
+        """
+        known = [each for each in (*self.errors, *self.spreads) if math.isfinite(each)]
+        return math.hypot(*known) if known else math.nan
+
+    @property
+    def comparison(self) -> str:
+        """Of two runs: whether the last is better or worse than the first by a limit with one end, or differs by no more
+        than the uncertainty; empty where neither can be said.
+        """
+        if not math.isfinite(self.change):
+            return ""
+        if self.change == 0.0 or abs(self.change) <= self.uncertainty:
+            return "no difference beyond ±" if self.change else "the same"
+        ends = (-math.inf, math.inf) if self.limit is None else (self.limit.low, self.limit.high)
+        if math.isinf(ends[0]) == math.isinf(ends[1]):
+            return ""
+        return "better" if (self.change < 0.0) == math.isinf(ends[0]) else "worse"
 
     @property
     def change(self) -> float:
@@ -119,11 +143,11 @@ class Miss(NamedTuple):
 
 
 def side_by_side(runs: Sequence[Compared]) -> list[ComparedMetric]:
-    """Every metric that some run has, what moved most first."""
+    """Every metric that some run has, what moved most first; self-checks behind."""
     keys = dict.fromkeys(each.key for run in runs for each in run.metrics)
     by_run = [{each.key: each for each in run.metrics} for run in runs]
     found = [_side([metrics.get(key) for metrics in by_run]) for key in keys]
-    return sorted(found, key=lambda each: -each.moved)
+    return sorted(found, key=lambda each: (each.basis == SELF_CHECK, -each.moved))
 
 
 def _side(runs: Sequence[Metric | None]) -> ComparedMetric:
@@ -134,6 +158,7 @@ def _side(runs: Sequence[Metric | None]) -> ComparedMetric:
         tuple("absent" if each is None else each.verdict for each in runs), tuple(broken), first.basis,
         tuple(math.nan if each is None else each.error for each in runs),
         tuple(math.nan if each is None else each.spread for each in runs),
+        next((each.band for each in runs if each and each.band and each.band.kind in (LIMIT, REQUIRED)), None),
     )  # fmt: skip
 
 

@@ -52,8 +52,11 @@ class ContactReport:
         warnings: (recording) -> sentences that stand before the numbers.
         ledger: (recording) -> `LedgerScope` of its energy ledger, where that is not of the whole rig.
         drive_period: (scene) -> period [s] of a drive that is not the vibration, or None.
-        lead: beginnings of the names of its pictures that stand below the key numbers; `{contact}` is the key of
+        lead: beginnings of the names of its pictures that stand on the first screen; `{contact}` is the key of
             its general section.
+        parts: (scene) -> `report.sketch.Part`s of its drawing, from the ground upwards.
+        answer: what the page says first, a phrase each: `SEAT {factor}` with a metric's key in braces, `{factor:remark}`
+            for what is remarked of it; a phrase without its metric is left out.
         curves: (recording) -> `compare.side_by_side.Curve` by name, for tolerances.
         comparison: (key, contact, runs) -> pictures that compare several runs.
         weighted: (recording, weighting) -> metrics of what shakes a person, by that weighting.
@@ -69,6 +72,8 @@ class ContactReport:
     ledger: str = ""
     drive_period: str = ""
     lead: tuple[str, ...] = ()
+    parts: str = ""
+    answer: tuple[str, ...] = ()
     curves: str = ""
     comparison: str = ""
     weighted: str = ""

@@ -17,9 +17,11 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatterSciNotation
 from numpy.typing import NDArray
 
 from contact_sim_pkg.files import FileRefusedError, check_output, new_file
+from contact_sim_pkg.report.rows import SUPERSCRIPT
 from contact_sim_pkg.report.signal.decimate import BANDS, bands
 
 # Each colour stands for a variable of the page's style sheet; the value is what is seen where that
@@ -38,8 +40,11 @@ SHEAR_COLOURS = "inferno"
 WIDTH = 7.4
 """[inch] of a picture across the page's column"""
 
+LEAST_FONT = 9.2
+"""[pt] of every text: 11 px where a picture is 640 px wide, the least on a page"""
+
 STYLE = {
-    "font.size": 9.0,
+    "font.size": LEAST_FONT,
     "font.family": "DejaVu Sans",  # comes with matplotlib; the page replaces it by its own
     "axes.edgecolor": MUTED,
     "axes.labelcolor": INK,
@@ -62,7 +67,7 @@ STYLE = {
     "lines.linewidth": 1.1,
     "lines.solid_joinstyle": "round",
     "legend.frameon": False,
-    "legend.fontsize": 8.5,
+    "legend.fontsize": LEAST_FONT,
     "figure.facecolor": "none",
     "axes.facecolor": "none",
     "savefig.facecolor": "none",
@@ -71,6 +76,8 @@ STYLE = {
     "path.simplify": True,
 }
 
+_STYLE_ELEMENT = re.compile(r"<style[^>]*>.*?</style>", re.DOTALL)  # the page's style sheet has it
+_SIX_DECIMALS = re.compile(r"(\.\d\d)\d{4}\b")  # of coordinates: a hundredth of a point is less than a pixel
 _IMAGE_NUMBER = re.compile(r' id="image[0-9a-f]+"')  # of its content: the same colour bar twice would have one twice
 _IDENTIFIER = re.compile(r'(\bid="|url\(#|href="#)')
 
@@ -181,6 +188,20 @@ def save_picture(figure: Figure, path: str | Path, *, overwrite: bool = False, *
     return Path(path)
 
 
+class _PlainPowers(LogFormatterSciNotation):
+    """Labels of a logarithmic axis in plain text: an exponent set small would be the one text that nobody can read."""
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        """`0.01`, `10⁻⁵`, `2·10⁻⁵`; empty where matplotlib labels nothing."""
+        if not super().__call__(x, pos):
+            return ""
+        if 1e-3 <= x < 1e5:
+            return f"{x:g}"
+        mantissa, exponent = f"{x:.0e}".split("e")
+        power = f"10{str(int(exponent)).translate(SUPERSCRIPT)}"
+        return power if mantissa == "1" else f"{mantissa}·{power}"
+
+
 def _format(path: Path) -> str:
     return path.suffix.removeprefix(".").lower()
 
@@ -196,11 +217,16 @@ def picture(name: str, figure: Figure, description: str, caption: str) -> Pictur
     """
     FigureCanvasSVG(figure)
     buffer = io.StringIO()
+    for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+        if isinstance(axis.get_major_formatter(), LogFormatterSciNotation):
+            axis.set_major_formatter(_PlainPowers())
+            axis.set_minor_formatter(_PlainPowers())
     figure.savefig(buffer, format="svg", dpi=150, metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
     body = text[text.index("<svg") :]
     body = re.sub(r"<metadata>.*?</metadata>", "", body, flags=re.DOTALL)
-    body = _IMAGE_NUMBER.sub("", body)
+    body = _IMAGE_NUMBER.sub("", _STYLE_ELEMENT.sub("", body))
+    body = _SIX_DECIMALS.sub(r"\1", body)
     body = _IDENTIFIER.sub(rf"\g<1>{name}-", body)
     for colour, variable in VARIABLES.items():
         body = body.replace(colour, f"var({variable})")

@@ -76,10 +76,10 @@ def warnings(recording: Recording) -> list[str]:
 
 def warnings_of(recording: Recording) -> list[str]:
     """What every view names first: how a run ended early, and excitation that is not its scene's."""
-    return [*_ended_early(recording), *_strange_sources(recording)]
+    return [*ended_early(recording), *_strange_sources(recording)]
 
 
-def _ended_early(recording: Recording) -> list[str]:
+def ended_early(recording: Recording) -> list[str]:
     """That the run failed or was stopped, and why; empty where it went to its end."""
     found = []
     ended = recording.metadata.get("ended", "finished")

@@ -13,6 +13,7 @@ import numpy as np
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.pressure.field.extent import extent
+from contact_sim_pkg.report.film import FilmReader
 from contact_sim_pkg.report.series import FieldSeries, FloatArray, PressureMap, Snapshot
 from contact_sim_pkg.report.signal.thinning import ThinnedRows
 
@@ -43,6 +44,7 @@ class FieldReader:
         self._highest_time = 0.0
         self._history_time, self._history = ThinnedRows(HISTORY_ROWS), ThinnedRows(HISTORY_ROWS)
         self._event = _LargestLoad()
+        self._film = FilmReader()
         self._first: tuple[float, Any] | None = None
         self._touch: tuple[float, Any] | None = None
 
@@ -71,6 +73,7 @@ class FieldReader:
         self._history_time.add(np.array([[time]]))
         self._history.add(line)
         self._event.add(time, message)
+        self._film.add(time, message)
         if self._highest is None or message.peak > self._highest.peak:
             self._highest, self._highest_time = message, time
 
@@ -108,6 +111,7 @@ class FieldReader:
             highest_time=self._highest_time,
             average=pressure_map(self._widest, self._total / time.size),
             event=self._event.finish(),
+            film=self._film.finish(self._widest, _place),
             history_time=self._history_time.finish()[:, 0],
             history=self._history.finish(),
             history_group=self._history.group,

@@ -1,30 +1,68 @@
-"""What the pages have in common: sections, and the templates they are made from."""
+"""What the pages have in common: sections, and the shell of style, scripts and policy that they are made in."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+import base64
+import hashlib
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
+from typing import Any, NamedTuple
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
 
 from contact_sim_pkg.report.drawing import Picture
 from contact_sim_pkg.report.tables import Table
 
+__all__ = ["CONTACT", "FREQUENCY", "TRUST", "Section", "rendered"]
+
+FREQUENCY, CONTACT, TRUST = "frequency", "contact", "trust"
+"""Parts of the page that pictures stand in."""
+STYLES = ("page.css", "uplot/uPlot.min.css")
+SCRIPTS = ("uplot/uPlot.iife.min.js", "page.js")
+
 
 class Section(NamedTuple):
-    """One section of the page."""
+    """Pictures and tables of one thing."""
 
     key: str
     title: str
     pictures: list[Picture]
     tables: Sequence[Table] = ()
+    part: str = CONTACT
+    """of the page that they stand in"""
 
 
-def environment() -> Environment:
-    """Templates of the pages. Pictures are the one thing marked as safe markup; all else is
-    escaped.
-    """
-    return Environment(
+class Shell(NamedTuple):
+    """Style and scripts of a page, and the policy that allows these alone, by their hashes."""
+
+    style: Markup
+    scripts: list[Markup]
+    policy: str
+
+
+def rendered(template: str, content: Mapping[str, Any], *, scripts: bool = False) -> str:
+    """A page. Our own drawings, style and scripts are marked as safe markup; all else is escaped."""
+    environment = Environment(
         loader=PackageLoader(__package__, "templates"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True,
     )  # fmt: skip
+    return environment.get_template(template).render(content, shell=_shell(scripts=scripts))
+
+
+def _shell(*, scripts: bool) -> Shell:
+    style = "\n".join(map(_text, STYLES))
+    code = [_text(each) for each in SCRIPTS] if scripts else []
+    # matplotlib writes the style of its shapes as attributes
+    policy = f"default-src 'none'; style-src {_hash(style)}; style-src-attr 'unsafe-inline'; img-src data:"
+    if code:
+        policy += f"; script-src {' '.join(map(_hash, code))}"
+    return Shell(Markup(style), [Markup(each) for each in code], policy)  # noqa: S704 - files of this package
+
+
+def _text(name: str) -> str:
+    return (files(__package__) / "templates" / name).read_text(encoding="utf-8")
+
+
+def _hash(text: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"

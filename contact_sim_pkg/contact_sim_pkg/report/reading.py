@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from datetime import date
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -102,6 +103,7 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
         estimates=estimates,
         block_errors=of_blocks,
         unknown={name: each.describe() for name, each in unknown.items()},
+        date=date.fromtimestamp(bag.path.stat().st_mtime).isoformat(),
     )
 
 

@@ -1,6 +1,4 @@
-"""The report of a bag: one HTML page with every picture inside, without scripts and without
-anything to load.
-"""
+"""The report of a bag: one HTML page with every picture, its style and its scripts inside, which loads nothing."""
 
 from __future__ import annotations
 
@@ -8,21 +6,28 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
+from markupsafe import Markup
+
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report import facts, rig_reports
-from contact_sim_pkg.report.drawing import Picture, style
+from contact_sim_pkg.report.answer import answer_of, first_metrics
+from contact_sim_pkg.report.arrangement import Entry, arranged, folds_of, leading
+from contact_sim_pkg.report.drawing import style
 from contact_sim_pkg.report.figures.bench import energy_balance, real_time_factor
 from contact_sim_pkg.report.figures.contact import contact_section
 from contact_sim_pkg.report.metrics.listing import metrics_of
 from contact_sim_pkg.report.metrics.requirements import Requirement, required
-from contact_sim_pkg.report.metrics.tiles import doubts_of, sources_of, tiles_of
-from contact_sim_pkg.report.page import Section, environment
+from contact_sim_pkg.report.metrics.tiles import doubts_of, metric_table, published_table, tiles_of
+from contact_sim_pkg.report.page import TRUST, Section, rendered
 from contact_sim_pkg.report.place import free_place, new_page
 from contact_sim_pkg.report.reading import OnRead, read_recording
 from contact_sim_pkg.report.rows import scene_rows
 from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.report.sketch import Part, conditions_of, drawing_of
+from contact_sim_pkg.report.timeline import map_views, page_data
+from contact_sim_pkg.report.trust import commands_of, topic_table, trust_tables
 
 TEMPLATE = "report.html.j2"
 
@@ -70,29 +75,31 @@ def render(
     """The page as text. Everything that comes from the bag is escaped."""
     metrics = required(metrics_of(recording), requirements)
     drawn = sections(recording, on_section)
-    page: str = (
-        environment()
-        .get_template(TEMPLATE)
-        # The template has the layout; every text is escaped there
-        .render(
-            title=recording.scene.get("name") or recording.name,
-            description=recording.scene.get("description") or "",
-            bag_name=recording.name,
-            warnings=[*facts.warnings(recording), *doubts_of(metrics)],
-            tiles=tiles_of(metrics),
-            sources=sources_of(metrics),
-            lead=lead_of(recording, drawn),
-            run=facts.run_rows(recording),
-            effects=facts.effect_rows(recording),
-            excitations=facts.excitation_facts(recording),
-            versions=facts.version_rows(recording),
-            scene=scene_rows(recording.scene),
-            sections=drawn,
-            topics=recording.topics,
-            duration=recording.duration,
-        )
-    )
-    return page
+    lead = leading(_lead_names(recording), drawn)
+    published = published_table(metrics)
+    parts = arranged(drawn, len(lead), {
+        "published": [] if published is None else [published], TRUST: trust_tables(recording, metrics),
+    })  # fmt: skip
+    of_rig = rig_reports.parts_of(recording)
+    conditions = conditions_of([Part("", f"{recording.duration:.4g} s"), *of_rig])
+    title = recording.scene.get("name") or recording.name
+    numbers, scene = metric_table(metrics), scene_rows(recording.scene)
+    # The template has the layout; every text is escaped there
+    return rendered(TEMPLATE, {
+        "title": title, "description": recording.scene.get("description") or "", "bag_name": recording.name,
+        "date": recording.date, "answer": answer_of(recording, metrics), "conditions": conditions,
+        "drawing": drawing_of(of_rig, str(title)), "warnings": [*facts.warnings(recording), *doubts_of(metrics)],
+        "tiles": tiles_of(first_metrics(recording, metrics)), "numbers": numbers, "maps": map_views(recording), "lead": lead,
+        "drawn": parts, "contents": [Entry("result", "Result"), Entry("time", "Time and maps"),
+                                     *(Entry(each.key, each.title) for each in parts),
+                                     Entry("setup", "Set-up"), Entry("files", "Files")],
+        "folds": [Entry("fold-metrics", "All metrics"), *folds_of(parts), Entry("fold-scene", "Scene, effects and software"),
+                  *([Entry("fold-resolved", "The whole resolved scene")] if scene else []),
+                  Entry("fold-topics", "Topics of the bag")],
+        "run": facts.run_rows(recording), "effects": facts.effect_rows(recording),
+        "excitations": facts.excitation_facts(recording), "versions": facts.version_rows(recording), "scene": scene,
+        "topics": topic_table(recording), "commands": commands_of(recording), "data": Markup(page_data(recording)),  # noqa: S704
+    }, scripts=True)  # fmt: skip
 
 
 def sections(recording: Recording, on_section: OnSection = lambda *_: None) -> list[Section]:
@@ -106,9 +113,9 @@ def sections(recording: Recording, on_section: OnSection = lambda *_: None) -> l
     ledger, cost = recording.ledger, recording.cost
     if ledger is not None:
         scope = rig_reports.ledger_scope(recording)
-        drawn.append(("energy", lambda: [Section("energy", "Energy", [energy_balance(ledger, scope)])]))
+        drawn.append(("energy", lambda: [Section("energy", "Energy", [energy_balance(ledger, scope)], part=TRUST)]))
     if cost is not None:
-        drawn.append(("cost", lambda: [Section("cost", "Cost", [real_time_factor(cost)])]))
+        drawn.append(("cost", lambda: [Section("cost", "Cost", [real_time_factor(cost)], part=TRUST)]))
     found: list[Section] = []
     with style():
         for number, (name, draw) in enumerate(drawn):
@@ -117,24 +124,15 @@ def sections(recording: Recording, on_section: OnSection = lambda *_: None) -> l
     return [section for section in found if section.pictures]
 
 
-def lead_of(recording: Recording, drawn: list[Section]) -> list[Picture]:
-    """The pictures that stand below the tiles, taken out of their sections: those of `ContactReport.lead`."""
-    found = []
+def _lead_names(recording: Recording) -> list[str]:
+    """Beginnings of the names of the pictures on the first screen: those of `ContactReport.lead`."""
     number = {name: f"contact-{place}" for place, name in enumerate(recording.contacts)}
     names = [
         name.format(contact=number.get(each.contact, ""))
         for each in rig_reports.reports_of(recording)
         for name in each.lead
     ]
-    for name in dict.fromkeys(names):
-        for section in drawn:
-            chosen = [each for each in section.pictures if each.name.startswith(name)][:1]
-            found += chosen
-            section.pictures[:] = [each for each in section.pictures if each not in chosen]
-            if chosen:
-                break
-    drawn[:] = [section for section in drawn if section.pictures or section.tables]
-    return found
+    return list(dict.fromkeys(names))
 
 
 def _contact_sections(number: int, name: str, recording: Recording) -> list[Section]:

@@ -4,11 +4,17 @@ pictures.
 
 from __future__ import annotations
 
+import re
+
 from contact_sim_pkg.records.registry import contact_reports, rigs
 from contact_sim_pkg.records.report import ContactReport, LedgerScope, SeriesReader
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.report.signal.loops import vibration_period
+from contact_sim_pkg.report.sketch import Part, parts_of_scene
+
+ANSWER_KEY = re.compile(r"{(\w+)(:remark)?}")
+"""A metric in a phrase of `ContactReport.answer`."""
 
 
 def series_readers() -> dict[str, SeriesReader]:
@@ -32,6 +38,22 @@ def reports_of(recording: Recording) -> list[ContactReport]:
 def rig_warnings(recording: Recording) -> list[str]:
     """Sentences of the rigs that stand before the numbers."""
     return [text for each in reports_of(recording) if each.warnings for text in load(each.warnings)(recording)]
+
+
+def answered(recording: Recording) -> set[str]:
+    """Keys of the metrics that the rigs' answers name: what a reader looks for first."""
+    return {
+        f"{report.contact}.{key}" for report in reports_of(recording) for phrase in report.answer
+        for key, _remark in ANSWER_KEY.findall(phrase)
+    }  # fmt: skip
+
+
+def parts_of(recording: Recording) -> list[Part]:
+    """Parts of the rig's drawing, from the ground upwards; of a rig that lists none what its scene shows."""
+    scene = recording.scene
+    named = [each.parts for each in reports_of(recording) if each.parts and each.contact in scene]
+    found = [part for name in named for part in load(name)(scene)]
+    return found or parts_of_scene(scene)
 
 
 def ledger_scope(recording: Recording) -> LedgerScope | None:

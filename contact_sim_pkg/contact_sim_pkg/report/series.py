@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_sim_pkg.records.messages import ContactEpisodes
+from contact_sim_pkg.report.film import Film
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.run.outputs import Estimate
 
@@ -111,6 +112,8 @@ class FieldSeries(NamedTuple):
     centre_x: FloatArray
     centre_y: FloatArray
     """[m] centre of pressure, forward and left; 0 without contact"""
+    film: Film
+    """frames of the whole run"""
 
     @property
     def heaviest(self) -> Snapshot:
@@ -214,3 +217,5 @@ class Recording(NamedTuple):
     """the same of each block, by column, in its unit"""
     unknown: Mapping[str, str] = MappingProxyType({})
     """what is no number in the messages of a topic such as `seat/force`; a topic without is absent"""
+    date: str = ""
+    """when the bag's file was written, `2026-11-27`"""

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 from contact_sim_pkg.records.metric import Band, Metric, judged
-from contact_sim_pkg.report.metrics.tiles import doubts_of, sources_of, tiles_of
+from contact_sim_pkg.report.metrics.tiles import doubts_of, metric_table, published_table, tiles_of
 from contact_sim_pkg.report.metrics.views import csv_of, junit_of, lines_of, metric_of, row_of, rows_of, verdict_line
 
 LIMIT = Band(-math.inf, 100.0, "limit", "a standard")
@@ -96,11 +96,23 @@ def test_a_run_that_failed_is_the_first_case_of_junit():
 def test_tiles_say_the_same():
     tiles = tiles_of(METRICS)
     assert [(tile.value, tile.verdict) for tile in tiles[:2]] == [("57.2", "good"), ("131", "OUTSIDE")]
-    assert [tile.footnote for tile in tiles] == [1, 1, 0, 1, 1]
-    assert sources_of(METRICS) == ["a standard"]
     assert doubts_of(METRICS) == ["too short: 3 s, 34 s needed (doubtful)"]
-    assert tiles[3].doubtful
-    assert tiles[0].rests == "stationary, error 0.125"
+    assert tiles[3].tone == "doubt"
+    assert tiles[0].spread.replace("\N{NO-BREAK SPACE}", " ") == "± 0.125 numerical, ± 2.1 random"
+
+
+def test_a_bar_has_its_band_and_the_value_on_one_scale():
+    """Of at most 100 the scale begins at 0 and reaches a third beyond, or to a value further out."""
+    good, bad = tiles_of(METRICS)[:2]
+    assert good.bar == pytest.approx((0.0, 75.0, 100.0 * 57.25 / (400.0 / 3.0)), abs=0.06)
+    assert good.bar.mark < good.bar.width < bad.bar.mark
+
+
+def test_tables_have_what_the_tiles_leave_out():
+    rows = {row[0]: row for row in metric_table(METRICS).rows}
+    assert len(rows) == len(METRICS)
+    assert rows["good"][-1] == "said"
+    assert {row[-1] for row in published_table(METRICS).rows} == {"a standard"}
 
 
 @pytest.mark.parametrize(

@@ -110,7 +110,7 @@ def loop_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture
         place.axhline(0.0, color=MUTED, linewidth=0.7)
     legend(figure, axes[0], title)
     caption = (
-        "Forces over the displacements they work on; positive approach is compression, friction that on the seat back. "
+        "Forces over the displacements they work on; positive approach is compression. "
         f"{_loop_part(runs)}{_loop_works(name, runs, friction=panels[-1][0].startswith('friction'))}"
     )
     return picture(f"{key}-loops", figure, f"Force loops of the {name} contact in every run", caption)

@@ -52,20 +52,20 @@ def figure_of_maps(
     limits = Normalize(0.0, top)
     for place, label, grid, values in zip(axes, labels, maps, shown, strict=False):
         draw_map(place, grid, np.where(values > 0.0, values, np.nan), PRESSURE_COLOURS, limits)
-        place.set_title(label, fontsize=8.5)
+        place.set_title(label)
         set_window(place, window)
     text = ""
     if difference is not None:
         kilo = difference * 1e-3
         signed = Normalize(-top, top)
         draw_map(axes[-1], maps[0], np.where(kilo != 0.0, kilo, np.nan), DIFFERENCE_COLOURS, signed)
-        axes[-1].set_title("B − A", fontsize=8.5)
+        axes[-1].set_title("B − A")
         set_window(axes[-1], window)
         figure.colorbar(ScalarMappable(signed, DIFFERENCE_COLOURS), cax=axes[-1].inset_axes((1.06, 0.0, 0.06, 0.47)))
         text = f" B − A from {kilo.min():.3g} to {kilo.max():.3g} kPa, red where B presses more."
     bar = axes[-1].inset_axes((1.06, 0.53 if pair else 0.0, 0.06, 0.47 if pair else 1.0))
     figure.colorbar(ScalarMappable(limits, PRESSURE_COLOURS), cax=bar, label="kPa")
-    figure.supxlabel("← left, y, mm", fontsize=9)
+    figure.supxlabel("← left, y, mm")
     axes[0].set_ylabel("forward, x, mm →")
     return figure, text
 

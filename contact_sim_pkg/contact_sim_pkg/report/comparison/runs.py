@@ -24,7 +24,7 @@ from contact_sim_pkg.report.comparison.scene_differences import differences
 from contact_sim_pkg.report.comparison.tables import difference_table, metric_table
 from contact_sim_pkg.report.drawing import Picture, style
 from contact_sim_pkg.report.metrics.requirements import Requirement
-from contact_sim_pkg.report.page import Section, environment
+from contact_sim_pkg.report.page import Section, rendered
 from contact_sim_pkg.report.place import free_place, new_page
 from contact_sim_pkg.report.reading import read_recording, refuse_other_rigs, rig_of_bag, rig_of_recording
 from contact_sim_pkg.report.series import Recording
@@ -66,19 +66,11 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
     runs = make_runs(names, recordings)
     sides = side_by_side([compared(name, each, requirements) for name, each in zip(names, recordings, strict=True)])
     title = " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings))
-    page: str = (
-        environment()
-        .get_template(TEMPLATE)
-        .render(
-            title=title,
-            warnings=[f"{each.name}: {text}" for each in recordings for text in facts.warnings(each)],
-            count=len(recordings),
-            differences=difference_table(names, differences([each.scene for each in recordings])),
-            numbers=metric_table(names, sides),
-            sections=_sections(runs, "run"),
-        )
-    )
-    return page
+    return rendered(TEMPLATE, {
+        "title": title, "warnings": [f"{each.name}: {text}" for each in recordings for text in facts.warnings(each)],
+        "count": len(recordings), "differences": difference_table(names, differences([each.scene for each in recordings])),
+        "numbers": metric_table(names, sides), "sections": _sections(runs, "run"),
+    })  # fmt: skip
 
 
 def distinct_names(recordings: Sequence[Recording]) -> list[str]:

@@ -22,7 +22,7 @@ def difference_table(names: Sequence[str], found: Sequence[Difference]) -> Table
 
 def metric_table(names: Sequence[str], sides: Sequence[ComparedMetric]) -> Table:
     """One row a metric, one column a run; of two runs their difference too."""
-    header = ("", *names, *(("Δ", "Δ %") if len(names) == 2 else ("range, %",)), "rests on", "verdict")
+    header = ("", *names, *(("Δ", "Δ %", "B is") if len(names) == 2 else ("range, %",)), "rests on", "verdict")
     caption = "What moved most first."
     broken = dict.fromkeys(text for side in sides for text in side.broken)
     if broken:
@@ -39,7 +39,7 @@ def row_of(side: ComparedMetric) -> tuple[str, ...]:
         for value, spread in zip(side.values, spreads, strict=True)
     )
     if len(side.values) == 2:
-        moved: tuple[str, ...] = (_signed(side.change), _signed(100.0 * side.relative))
+        moved: tuple[str, ...] = (_signed(side.change), _signed(100.0 * side.relative), side.comparison)
     else:
         moved = (NONE if side.moved < 0.0 else number(100.0 * side.moved),)
     return (label, *values, *moved, _rests_on(side), side.verdict)

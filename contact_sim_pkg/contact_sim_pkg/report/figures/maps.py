@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
+from matplotlib.ticker import MaxNLocator
 
 from contact_sim_pkg.report.drawing import INK, MUTED, WIDTH
 from contact_sim_pkg.report.series import FloatArray, PressureMap
@@ -126,7 +127,8 @@ def draw_map(
 
 
 def set_window(axes: Axes, window: Window) -> None:
-    """Show this part, left on the left."""
+    """Show this part, left on the left; no tick stands where the next map's may."""
+    axes.xaxis.set_major_locator(MaxNLocator(4, prune="both"))
     axes.set_xlim(window.high_y, window.low_y)
     axes.set_ylim(window.low_x, window.high_x)
 
@@ -154,7 +156,7 @@ def surface_and_map(field: PressureMap, quantity: Quantity, window: Window, outl
     """
     limits = Normalize(min(0.0, float(np.nanmin(quantity.values))), float(np.nanmax(quantity.values)))
     figure = Figure(figsize=(WIDTH, 3.3))
-    surface: Any = figure.add_axes((-0.03, 0.03, 0.47, 1.03), projection="3d")
+    surface: Any = figure.add_axes((0.0, 0.03, 0.45, 1.03), projection="3d")
     _draw_surface(surface, field, quantity, window, limits)
     axes = figure.add_axes((0.572, 0.15, 0.312, 0.74))
     shown = np.where(field.pressure > 0.0, quantity.values, np.nan) if not outline else quantity.values
@@ -184,12 +186,12 @@ def _draw_surface(axes: Any, field: PressureMap, quantity: Quantity, window: Win
     axes.view_init(elev=32, azim=-55)
     width, length = window.high_y - window.low_y, window.high_x - window.low_x
     largest = max(width, length)
-    axes.set_box_aspect((max(length / largest, 0.45), max(width / largest, 0.45), 0.55), zoom=0.95)
+    axes.set_box_aspect((max(length / largest, 0.45), max(width / largest, 0.45), 0.55), zoom=0.9)
     axes.set_xlabel("x, mm", labelpad=1)
     axes.set_ylabel("y, mm", labelpad=1)
     axes.set_zlabel(quantity.label, labelpad=2)
-    axes.tick_params(pad=-1, labelsize=8)
-    axes.locator_params(nbins=5)
+    axes.tick_params(pad=-1)
+    axes.locator_params(nbins=4)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_pane_color((0.0, 0.0, 0.0, 0.0))
         axis.line.set_color(MUTED)

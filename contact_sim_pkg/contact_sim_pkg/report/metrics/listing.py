@@ -13,7 +13,7 @@ from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.energy import throughput
 from contact_sim_pkg.report.metrics.maker import ENERGY, Maker, energy_residual
 from contact_sim_pkg.report.metrics.mat import LOADED, mat_metrics
-from contact_sim_pkg.report.rig_reports import reports_of
+from contact_sim_pkg.report.rig_reports import answered, reports_of
 from contact_sim_pkg.report.series import ContactSeries, Recording
 from contact_sim_pkg.report.signal.confidence import spread_of_mean
 
@@ -25,16 +25,18 @@ MOST = 14
 
 
 def metrics_of(recording: Recording) -> list[Metric]:
-    """The list of a run, the most important first; where several contacts share it, the first ones of
-    each in turn. Of fields alone, as of a mat, their whole lists. Those of plug-ins come last, and take no place
-    of ours.
+    """The list of a run, the most important first; where several contacts share it, of each in turn what
+    its answer names, then the first ones. Of fields alone, as of a mat, their whole lists. Those of plug-ins come last,
+    and take no place of ours.
     """
     if not recording.contacts and recording.motion is None:
         return all_metrics(recording)
     lists, others = _named(_lists(recording)), _of_plugins(recording)
     if sum(map(len, lists)) <= MOST:
         return [metric for each in (*lists, others) for metric in each]
-    chosen = [metric for rank in zip_longest(*lists) for metric in rank if metric is not None][:MOST]
+    named = answered(recording)
+    ranked = (sorted(each, key=lambda metric: metric.key not in named) for each in lists)
+    chosen = [metric for rank in zip_longest(*ranked) for metric in rank if metric is not None][:MOST]
     return [*(metric for each in lists for metric in each if metric in chosen), *others]
 
 

@@ -1,4 +1,4 @@
-"""The list of metrics as the tiles of the page."""
+"""The list of metrics as the tiles of the page, and as its table."""
 
 from __future__ import annotations
 
@@ -6,9 +6,20 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from contact_sim_pkg.records.metric import Metric
-from contact_sim_pkg.report.metrics.views import rests_on, verdict_text
+from contact_sim_pkg.records.metric import CLOSED_FORM, REQUIRED, Metric
+from contact_sim_pkg.report.metrics.views import verdict_text
 from contact_sim_pkg.report.rows import SUPERSCRIPT, number
+from contact_sim_pkg.report.tables import Table
+
+__all__ = ["Tile", "doubts_of", "metric_table", "published_table", "tiles_of"]
+
+
+class Bar(NamedTuple):
+    """A band and the value on one scale, in per cent of its length."""
+
+    start: float
+    width: float
+    mark: float
 
 
 class Tile(NamedTuple):
@@ -18,22 +29,13 @@ class Tile(NamedTuple):
     value: str
     unit: str
     spread: str
+    """± numerical, ± random"""
     verdict: str
     tone: str
     """class of its colour"""
-    rests: str
-    """what it is a number of, and its numerical error"""
     band: str
-    remark: str
-    doubtful: bool
-    """whether an assumption does not hold, which stands above the tiles"""
-    footnote: int
-    """number of the source of its band, from 1; 0: none"""
-
-
-def sources_of(metrics: Sequence[Metric]) -> list[str]:
-    """Sources of the bands, each once: the footnotes of the tiles."""
-    return list(dict.fromkeys(each.band.source for each in metrics if each.band is not None))
+    bar: Bar | None
+    """None without a band, and where the value is not defined"""
 
 
 def doubts_of(metrics: Sequence[Metric]) -> list[str]:
@@ -47,20 +49,66 @@ def doubts_of(metrics: Sequence[Metric]) -> list[str]:
 
 def tiles_of(metrics: Sequence[Metric]) -> list[Tile]:
     """A tile a metric."""
-    sources = sources_of(metrics)
-    return [_tile(each, 0 if each.band is None else sources.index(each.band.source) + 1) for each in metrics]
+    return [_tile(each) for each in metrics]
 
 
-def _tile(metric: Metric, footnote: int) -> Tile:
+def metric_table(metrics: Sequence[Metric]) -> Table:
+    """A row a metric: all that its tile leaves out."""
+    rows = [
+        (
+            metric.name, _text(metric.value), _printed(metric.unit), _text(metric.error), _text(metric.spread),
+            verdict_text(metric), "" if metric.band is None else metric.band.text, metric.basis, metric.remark,
+        )
+        for metric in metrics
+    ]  # fmt: skip
+    header = ("metric", "value", "unit", "± numerical", "± random", "verdict", "band", "rests on", "remark")
+    return Table("± random: half of the 95 % interval.", header, rows)
+
+
+def published_table(metrics: Sequence[Metric]) -> Table | None:
+    """Values beside the bands of their sources; None where no band applies to this run."""
+    rows = [
+        (metric.name, f"{_text(metric.value)} {_printed(metric.unit)}".rstrip(), metric.band.text, verdict_text(metric),
+         metric.band.conditions or "always", metric.band.source)
+        for metric in metrics if metric.band is not None and metric.band.kind not in (CLOSED_FORM, REQUIRED)
+    ]  # fmt: skip
+    header = ("metric", "this run", "band", "verdict", "holds for", "source")
+    return Table("", header, rows) if rows else None
+
+
+def _tile(metric: Metric) -> Tile:
     band = metric.band
     defined = math.isfinite(metric.value)
+    spreads = {"numerical": metric.error, "random": metric.spread}
+    space = "\N{NO-BREAK SPACE}"
+    given = [f"±{space}{number(value)}{space}{name}" for name, value in spreads.items() if math.isfinite(value)]
     return Tile(
         label=metric.name, value=number(metric.value) if defined else "–", unit=_printed(metric.unit) if defined else "",
-        spread=number(metric.spread) if math.isfinite(metric.spread) else "",
-        verdict=verdict_text(metric), tone=metric.verdict.replace(" ", "-"), rests=rests_on(metric),
-        band="" if band is None else f"{band.text} {_printed(metric.unit)}".rstrip(), remark=metric.remark,
-        doubtful=bool(metric.broken), footnote=footnote,
+        spread=", ".join(given) if defined else "", verdict=verdict_text(metric),
+        tone="doubt" if metric.broken else metric.verdict.replace(" ", "-"),
+        band="" if band is None else band.text, bar=_bar(metric),
     )  # fmt: skip
+
+
+def _bar(metric: Metric) -> Bar | None:
+    """The scale reaches a third beyond the band, or to the value; an open band begins or ends with it."""
+    band, value = metric.band, metric.value
+    if band is None or not math.isfinite(value):
+        return None
+    low, high = band.low, band.high
+    if math.isinf(low):
+        low = min(0.0, value, high)
+    if math.isinf(high):
+        high = 2.0 * max(abs(low), abs(value), 1e-30)
+    room = (high - low) / 3.0 or max(abs(high), 1.0) / 3.0
+    start = min(low if math.isinf(band.low) else low - room, value)
+    end = max(high if math.isinf(band.high) else high + room, value)
+    scale = 100.0 / ((end - start) or 1.0)
+    return Bar(round(scale * (low - start), 1), round(scale * (high - low), 1), round(scale * (value - start), 1))
+
+
+def _text(value: float) -> str:
+    return number(value) if math.isfinite(value) else ""
 
 
 def _printed(unit: str) -> str:

@@ -11,5 +11,13 @@ BACKREST_REPORT = ContactReport(
     drive_period=f"{__name__}.numbers:drive_period",
     comparison=f"{__name__}.figures_comparison:comparison_pictures",
     metrics=f"{__name__}.metrics:backrest_metrics",
-    lead=("domain-map", "backrest-loops"),
+    lead=("backrest-loops",),
+    parts=f"{__name__}.drawing:backrest_parts",
+    answer=(
+        "{slaps} slaps",
+        "off the seat back {lift_off} of the time",
+        "restitution {restitution}",
+        "load on the seat back {load}",
+        "{peak_pressure} {peak_pressure:remark}",
+    ),
 )

@@ -48,15 +48,17 @@ def domain_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
     columns = min(COLUMNS, len(found))
     rows = 2 * -(-len(found) // columns)
     height = float(np.clip(0.35 + window.aspect * 0.8 * WIDTH / columns, 1.2, 3.2))
-    figure, axes = new_figure(rows * height + 0.5, rows, columns, MULTIPLES, sharex=True, sharey=True)
+    figure, axes = new_figure(
+        rows * height + 0.7, rows, columns, MULTIPLES._replace(top=0.52), sharex=True, sharey=True
+    )
     # Rows in pairs: first touch above largest force, for each run.
     panels = np.array(axes, dtype=object).reshape(rows // 2, 2, columns)
     for unused in panels.transpose(0, 2, 1).reshape(-1, 2)[len(found) :].flat:
         unused.set_axis_off()
     for stage in (0, 1):
         _draw_stage(figure, panels[:, stage].ravel().tolist(), found, stage, window)
-    figure.supxlabel(AT_BACKREST.across, fontsize=9)
-    figure.supylabel(AT_BACKREST.along, fontsize=9)
+    figure.supxlabel(AT_BACKREST.across)
+    figure.supylabel(AT_BACKREST.along)
     return picture(
         f"{key}-domains", figure, f"Contact points on the contact domain of the {name} in every run", _caption(found)
     )
@@ -69,7 +71,7 @@ def _draw_stage(figure: Figure, places: list[Axes], found: list[_Domain], stage:
         shown = each.fields[stage]
         draw_domain(place, shown.field, each.points[stage], window, limits)
         called = f"{each.run.label}\n" if stage == 0 else ""
-        place.set_title(f"{called}{shown.time:.3f} s, {shown.load:.4g} N", fontsize=8.5)
+        place.set_title(f"{called}{shown.time:.3f} s, {shown.load:.4g} N")
     bar = figure.colorbar(ScalarMappable(limits, PRESSURE_COLOURS), ax=places, label="kPa", pad=0.01, aspect=14)
     bar.ax.spines["outline"].set_visible(False)
 

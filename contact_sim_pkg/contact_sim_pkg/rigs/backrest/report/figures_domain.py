@@ -161,14 +161,14 @@ def slap_stages(key: str, name: str, field: FieldSeries) -> Picture:
     for place, each in zip(axes, stages, strict=False):
         pressure = each.field.pressure * 1e-3
         draw_map(place, each.field, np.where(pressure > 0.0, pressure, np.nan), PRESSURE_COLOURS, limits)
-        place.set_title(f"{each.time:.3f} s, {each.load:.4g} N", fontsize=8.5)
+        place.set_title(f"{each.time:.3f} s, {each.load:.4g} N")
         set_window(place, window)
     for place in axes[len(stages) :]:
         place.set_axis_off()
     bar = figure.colorbar(ScalarMappable(limits, PRESSURE_COLOURS), ax=axes, label="pressure, kPa", pad=0.01, aspect=30)
     bar.ax.spines["outline"].set_visible(False)
-    figure.supxlabel(AT_BACKREST.across, fontsize=9)
-    figure.supylabel(AT_BACKREST.along, fontsize=9)
+    figure.supxlabel(AT_BACKREST.across)
+    figure.supylabel(AT_BACKREST.along)
     caption = (
         f"Pressure of the {name} while it touches around its largest force, {field.heaviest.load:.4g} N at "
         f"{field.heaviest.time:.3f} s; cells without pressure are blank, one colour scale for all. {AT_BACKREST.seen}"

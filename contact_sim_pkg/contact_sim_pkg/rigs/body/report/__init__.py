@@ -9,4 +9,6 @@ BLOCK_REPORT = ContactReport(
     sections=f"{__name__}.section:block_sections",
     metrics=f"{__name__}.metrics:block_metrics",
     lead=("block-way",),
+    parts=f"{__name__}.drawing:block_parts",
+    answer=("at rest from {rest}", "{contacts} contacts", "largest impulse {impulse_largest}", "{loss} lost"),
 )

@@ -17,7 +17,7 @@ from contact_sim_pkg.rigs.body.report.pose import BlockPoses, FloatArray, chosen
 
 OTHER, THIRD = "#e08a2e", "#5b9a4b"
 COLOURS = (ACCENT, OTHER, THIRD)
-WIDEST, TALLEST = 7.0, 6.5  # [inch] of the picture of the way
+WIDEST, TALLEST = 7.0, 4.6  # [inch] of the picture of the way
 NARROW = 0.3  # of a way's height: narrower is drawn beside time
 
 
@@ -81,7 +81,7 @@ def motion(poses: BlockPoses) -> Picture:
                     *envelope(poses.time, values[:, column]),
                     color=COLOURS[column],
                     linewidth=0.9,
-                    label=f"{letter}$_{name}$",
+                    label=f"{letter} {name}",
                 )
         if axis.get_legend_handles_labels()[0]:
             axis.legend(loc="upper right", ncols=3)

@@ -20,4 +20,6 @@ IMPACT_REPORT = ContactReport(
     warnings=f"{__name__}.series:impact_warnings",
     metrics=f"{__name__}.metrics:impact_metrics",
     lead=("impact-indentation",),
+    parts=f"{__name__}.drawing:impact_parts",
+    answer=("restitution {restitution}", "contact of {duration}", "peak force {force}", "peak stress {stress}"),
 )

@@ -66,7 +66,7 @@ def force_over_time(impacts: ImpactSeries) -> Picture | None:
     left.axhline(0.0, color=MUTED, linewidth=0.7)
     left.set_xlabel("time from the touch, ms")
     left.set_ylabel("force, N")
-    left.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=7.5)
+    left.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     for number, each in enumerate(impacts.courses):
         force = each.elastic_force + each.viscous_force
         shade = 1.0 - 0.75 * number / max(len(impacts.courses), 1)
@@ -157,7 +157,7 @@ def position_over_time(impacts: ImpactSeries) -> Picture | None:
     if course is not None:
         left.plot(course.time * 1e3, course.depth * 1e3, color=MUTED, linestyle="--", label="approach x")
     left.set_ylabel("depth, mm")
-    left.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=7.5)
+    left.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     columns: list[tuple[FloatArray, str, str]] = [
         (position.volume, ACCENT, "deformed V_x1"), (position.compression_volume, INK, "compressed V_c1"),
         (position.heating_volume, VISCOUS, "by heating ΔV_T"),
@@ -165,7 +165,7 @@ def position_over_time(impacts: ImpactSeries) -> Picture | None:
     for values, colour, label in columns:
         right.plot(time, values * 1e9, color=colour, label=label)
     right.set_ylabel("volume, mm³")
-    right.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=7.5)
+    right.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, handlelength=1.2, columnspacing=1.0)
     for place in (left, right):
         place.set_xlabel("time from the touch, ms")
     caption = (

@@ -20,6 +20,8 @@ ROLLER_REPORT = ContactReport(
     warnings=f"{__name__}.warnings:roller_warnings",
     metrics=f"{__name__}.metrics:roller_metrics",
     lead=("roller-contact",),
+    parts=f"{__name__}.drawing:roller_parts",
+    answer=("p₀ up to {pressure}", "dangerous volume {volume}, {volume:remark}", "{cycles} cycles", "waves of {range}"),
     curves=f"{__name__}.comparison:roller_curves",
     comparison=f"{__name__}.comparison:roller_comparison",
 )

@@ -24,10 +24,10 @@ SPECTRUM_PARTS = 60
 def contact_over_time(roller: RollerSeries) -> Picture:
     """Semi-axes, area, pressure, approach and load over time: the paper's figure 10."""
     c, time = roller.contact, roller.time
-    figure, axes = new_figure(6.2, 5, sharex=True)
+    figure, axes = new_figure(4.8, 5, sharex=True)
     for values, colour, label in ((c.along_x, ACCENT, "nearer to x"), (c.along_y, OTHER, "nearer to y")):
         axes[0].plot(*envelope(time, values * 1e3), color=colour, label=label, linewidth=0.9)
-    axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=7.5, frameon=False)
+    axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False)
     axes[0].set_ylabel("semi-axes, mm")
     area = np.pi * c.along_x * c.along_y
     rows = (

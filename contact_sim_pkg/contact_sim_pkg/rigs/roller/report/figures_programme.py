@@ -35,7 +35,7 @@ def programme_over_time(roller: RollerSeries, scene: dict[str, Any]) -> Picture 
             # A straight side has no radius.
             if (curvature > 0.0).all():
                 axes[0].plot(times, 1e3 / curvature, color=colour, label=name)
-        axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, fontsize=7.5)
+        axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4)
         axes[0].set_ylabel("radius, mm")
     axes[rows - 1 - bends].plot(times, programme.loads(times), color=ACCENT)
     axes[rows - 1 - bends].set_ylabel("F_N, N")

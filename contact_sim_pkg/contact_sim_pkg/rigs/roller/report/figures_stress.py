@@ -75,7 +75,7 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
             if title == OVER:
                 tones = {"cmap": COLOURS, "vmin": -0.5, "vmax": len(TONES) - 0.5}
             image = ax.pcolormesh(across * 1e3, along * 1e3, values.reshape(CELLS, CELLS), rasterized=True, **tones)
-            ax.set_title(f"{title}, {name}", fontsize=7.5)
+            ax.set_title(f"{title}, {name}")
             ax.set_xlabel("x, mm")
             ax.set_ylabel(label)
             ax.set_aspect("equal")
@@ -83,7 +83,7 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
                 ax.invert_yaxis()
             bar = figure.colorbar(image, ax=ax, shrink=0.7)
             if title == OVER:
-                bar.set_ticks(range(len(TONES)), labels=TONES, fontsize=6.5)
+                bar.set_ticks(range(len(TONES)), labels=TONES)
     largest = _largest_shear(contact, model, a)
     caption = (
         f"At {found.time:.4g} s: p₀ = {found.peak_pressure * 1e-6:.5g} MPa, largest |σ_xz| in the plane y = 0 {largest * 1e-6:.4g} "

@@ -48,7 +48,7 @@ def _track_over_cycles(body: str, tracks: list[RollerTrack]) -> Picture:
     right.locator_params(axis="x", nbins=4)
     right.set_xlabel("cycles")
     right.set_ylabel("µm")
-    right.legend(loc="lower left", bbox_to_anchor=(-0.12, 1.0), ncols=2, fontsize=7.5, handlelength=1.2)
+    right.legend(loc="lower left", bbox_to_anchor=(-0.12, 1.0), ncols=2, handlelength=1.2)
     last = tracks[-1]
     # The strongest wave round the track, without its mean.
     strength = np.abs(np.fft.rfft(last.height))
@@ -71,10 +71,10 @@ def _axial_over_cycles(body: str, tracks: list[RollerTrack]) -> Picture:
     figure, (left, right) = new_figure(3.2, 1, 2)
     image = left.pcolormesh(round_it, cycles, places, cmap="viridis", rasterized=True)
     figure.colorbar(image, ax=left)
-    left.set_title("x_c, µm", fontsize=8.5)
+    left.set_title("x_c, µm")
     left.set_ylabel("cycles")
     right.plot(round_it, places[-1], color=ACCENT)
-    right.set_title("x_c of the last turn, µm", fontsize=8.5)
+    right.set_title("x_c of the last turn, µm")
     for axes in (left, right):
         axes.set_xlabel("along the circumference, mm")
     first, last = (float(np.ptp(each)) for each in (places[0], places[-1]))
@@ -113,7 +113,7 @@ def _acceleration_error(checked: list[RollerTrack]) -> Picture:
     cycles, errors = [each.cycles for each in checked], [each.check_error for each in checked]
     axes.semilogy(cycles, errors, color=ACCENT, marker="o", markersize=4, linewidth=0.9)
     axes.axhline(LARGEST_ERROR, color=MUTED, linestyle=(0, (4, 3)), linewidth=0.8, label="warned beyond")
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7.5)
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
     axes.set_xlabel("cycles")
     axes.set_ylabel("error of the change")
     finite = [error for error in errors if np.isfinite(error)]

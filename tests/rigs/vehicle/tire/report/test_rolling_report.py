@@ -15,7 +15,7 @@ from contact_sim_pkg.report.signal.lift_off import lifted_intervals
 from contact_sim_pkg.report.signal.peaks import filtered_signals, peak_rows
 from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import tire_reference
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_footprint import STAGES, chosen_stages
-from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, road_sections
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, near_largest_load, whole_way
 from contact_sim_pkg.rigs.vehicle.tire.report.metrics import tire_metrics
 from contact_sim_pkg.rigs.vehicle.tire.report.tables import footprint_table
 
@@ -103,12 +103,20 @@ def test_peaks_stand_raw_and_filtered_side_by_side(recording):
 def test_the_shown_segment_holds_the_largest_load_and_what_comes_after(recording, reference):
     field = recording.fields["tire"]
 
-    near, whole = road_sections(Rolling(recording.contacts["tire"], field, recording.series["road"], reference))
+    rolling = Rolling(recording.contacts["tire"], field, recording.series["road"], reference)
+    whole = whole_way(rolling)
+    near = near_largest_load(rolling, whole)
 
     place = HEAVY_TIME * known.SPEED
     assert near.start == pytest.approx(place - 1.0)
     assert near.end == pytest.approx(place + 3.0)
     assert (whole.start, whole.end) == pytest.approx((0.0, 9.99))
+
+
+def test_the_page_names_the_conditions_and_draws_the_rig(text):
+    assert "· road cleat · tire wheel 40 kg · load 3.34 kN" in text
+    drawing = text[text.index('class="sketch"') :].split("</svg>")[0]
+    assert [each for each in ("road", "tire", "suspension", "body", "300 kg") if f">{each}</text>" not in drawing] == []
 
 
 def test_the_stages_surround_the_largest_load(recording):
@@ -161,7 +169,7 @@ def test_a_tire_that_never_touches_still_gives_a_page(tmp_path, monkeypatch):
 
     text = write_report(known.rolling_bag(tmp_path / "air", 30)).read_text(encoding="utf-8")
 
-    assert "Rolling tire" in text
+    assert "Footprint of the tire at several instants" in text
     assert "Displacement of the tread" not in text
 
 

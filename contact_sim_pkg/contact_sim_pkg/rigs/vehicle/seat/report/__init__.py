@@ -11,7 +11,17 @@ SEAT_REPORT = ContactReport(
     metrics=f"{__name__}.metrics:seat_metrics",
     weighted=f"{__name__}.metrics:weighted_metrics",
     tables={"third-octaves": f"{__name__}.tables:band_table", "impedance": f"{__name__}.tables:impedance_table"},
-    lead=("{contact}-map", "ride-transmissibility"),
+    lead=("ride-transmissibility",),
+    parts=f"{__name__}.drawing:seat_parts",
+    answer=(
+        "SEAT {factor}: the seat {factor:remark}",
+        "T(f) peaks at {peak} at {peak_frequency}",
+        "a_w {a_w}, {a_w:remark}",
+        "eight hours {a_8:remark}",
+        "seat {seat_peak} over a floor of {floor_peak}",
+        "off the seat for {off_the_seat}",
+        "without load {lift_off} of the time",
+    ),
     curves=f"{__name__}.comparison:seat_curves",
     comparison=f"{__name__}.comparison:seat_comparison",
 )

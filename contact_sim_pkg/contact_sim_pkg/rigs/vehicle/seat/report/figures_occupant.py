@@ -62,7 +62,7 @@ def _picture(
     line = " Thin line: the linear model in closed form." if signals.alone else ""
     caption = (
         f"{meaning}, {signals.name} ({signals.model.source}), mean of {result.segments} segments; blue where the "
-        f"coherence is at least {TRUSTED_COHERENCE} (dashed) and the seat moves enough. {peak_sentence(result, trusted)}{line}"
+        f"coherence γ² is at least {TRUSTED_COHERENCE} (dashed) and the seat moves enough. {peak_sentence(result, trusted)}{line}"
     )
     return picture(key, figure, title, caption)
 

@@ -73,17 +73,17 @@ def response_figure(result: Transmissibility, trusted: NDArray[np.bool_], label:
     ``trusted`` [frequencies].
     """
     shown = band(result.frequency) & np.isfinite(result.magnitude)
-    figure, axes = new_figure(4.6, 3, sharex=True, height_ratios=[2, 1, 1])
+    figure, axes = new_figure(2.9, 3, sharex=True, height_ratios=[2, 1, 1])
     frequency = result.frequency[shown]
     for place, values in ((axes[0], result.magnitude), (axes[1], np.degrees(result.phase))):
         place.semilogx(frequency, values[shown], color=MUTED, linewidth=0.6, alpha=0.6)
         place.semilogx(frequency, np.where(trusted, values, np.nan)[shown], color=ACCENT, marker=".", markersize=3.5)
     axes[0].set_ylabel(label)
     axes[1].set_ylabel("phase, °")
-    axes[1].set_yticks([-180, -90, 0, 90, 180])
+    axes[1].set_yticks([-180, 0, 180])
     axes[2].semilogx(frequency, result.coherence[shown], color=INK, linewidth=0.9)
     axes[2].axhline(TRUSTED_COHERENCE, color=MUTED, linewidth=0.7, linestyle=(0, (4, 3)))
-    axes[2].set_ylabel("coherence")
+    axes[2].set_ylabel("γ²")
     axes[2].set_ylim(0.0, 1.05)
     axes[2].set_xlabel("frequency, Hz")
     frequency_axis(axes[2], result.frequency)
@@ -91,13 +91,12 @@ def response_figure(result: Transmissibility, trusted: NDArray[np.bool_], label:
 
 
 def _transmissibility_caption(result: Transmissibility, trusted: NDArray[np.bool_]) -> str:
-    text = f"Seat over floor, mean of {result.segments} segments. "
+    text = f"Seat over floor, {result.segments} segments. "
     if not trusted.any():
         return text + "Nowhere is it coherent with enough excitation: no resonance can be read from this record."
     return text + (
-        f"Blue where the coherence is at least {TRUSTED_COHERENCE} (dashed) and the floor moves enough. "
-        f"{peak_sentence(result, trusted)} Where it is grey, neither magnitude nor "
-        "phase should be read: little excitation, noise, or a non-linear seat."
+        f"{peak_sentence(result, trusted)} Blue: coherence γ² at least {TRUSTED_COHERENCE} (dashed) and a floor that moves "
+        "enough; not to be read where grey."
     )
 
 

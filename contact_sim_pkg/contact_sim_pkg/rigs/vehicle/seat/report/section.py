@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contact_sim_pkg.report.page import Section
+from contact_sim_pkg.report.page import FREQUENCY, Section
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.rigs.vehicle.seat.report.figures_occupant import occupant_pictures
 from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import seat_spectrum, seat_transmissibility
@@ -16,6 +16,10 @@ def ride_sections(recording: Recording) -> list[Section]:
     if signals is None:
         return []
     pictures = [seat_spectrum(signals), seat_transmissibility(signals)]
-    sections = [Section("ride", "Seat vibration", [each for each in pictures if each is not None])]
+    sections = [Section("ride", "Seat vibration", [each for each in pictures if each is not None], part=FREQUENCY)]
     occupant = occupant_signals(recording)
-    return sections if occupant is None else [*sections, Section("occupant", "Occupant", occupant_pictures(occupant))]
+    return (
+        sections
+        if occupant is None
+        else [*sections, Section("occupant", "Occupant", occupant_pictures(occupant), part=FREQUENCY)]
+    )

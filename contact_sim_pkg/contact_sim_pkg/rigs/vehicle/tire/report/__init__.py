@@ -34,5 +34,13 @@ TIRE_REPORT = ContactReport(
     sections=f"{__name__}.section:tire_sections",
     ledger=f"{__name__}.numbers:ledger_scope",
     metrics=f"{__name__}.metrics:tire_metrics",
-    lead=("{contact}-map", "rolling-road"),
+    lead=("rolling-way",),
+    parts=f"{__name__}.drawing:tire_parts",
+    answer=(
+        "load {load}, {load:remark}",
+        "dynamic load coefficient {dlc}",
+        "off the road {lift_off} of the time",
+        "off the road for {off_the_road}",
+        "peak pressure {peak_pressure}",
+    ),
 )

@@ -53,8 +53,8 @@ def footprint_stages(key: str, name: str, field: FieldSeries, travel: WheelTrave
     scale = ScalarMappable(limits, PRESSURE_COLOURS)
     bar = figure.colorbar(scale, ax=axes, label="pressure, kPa", pad=0.01, aspect=30, extend=arrow)
     bar.ax.spines["outline"].set_visible(False)
-    figure.supxlabel("← left, y, mm", fontsize=9)
-    figure.supylabel("forward, x, mm →", fontsize=9)
+    figure.supxlabel("← left, y, mm")
+    figure.supylabel("forward, x, mm →")
     cut = f" One cell in 50 lies above the scale, at most {pressures.max():.4g} kPa." if arrow == "max" else ""
     caption = (
         f"Footprint of the {name} before and after its largest load, {field.heaviest.load:.5g} N at "
@@ -67,7 +67,7 @@ def footprint_stages(key: str, name: str, field: FieldSeries, travel: WheelTrave
 def _draw_stage(axes: Axes, stage: Snapshot, travel: WheelTravel | None, limits: Normalize) -> None:
     pressure = stage.field.pressure
     draw_map(axes, stage.field, np.where(pressure > 0.0, pressure * 1e-3, np.nan), PRESSURE_COLOURS, limits)
-    axes.set_title(_stage_title(stage, travel), fontsize=8.5)
+    axes.set_title(_stage_title(stage, travel))
     if stage.load <= 0.0:
         axes.text(0.5, 0.5, "no contact", transform=axes.transAxes, ha="center", va="center", color=MUTED)
 

@@ -56,23 +56,19 @@ class Rolling(NamedTuple):
     axle: AxleSeries | None = None
 
 
-def road_sections(rolling: Rolling) -> list[RoadSection]:
-    """The section around the largest load (of a field, where there are any), then the whole way
-    where that is longer.
+def whole_way(rolling: Rolling) -> RoadSection | None:
+    """All of the way; None where the wheel stands."""
+    start, end = (float(end) for end in rolling.road.travel.at(rolling.contact.time[[0, -1]]))
+    return RoadSection(start, end) if end - start >= LEAST_WAY else None
 
-    None where the wheel stands.
-    """
-    travel, contact = rolling.road.travel, rolling.contact
-    whole = RoadSection(*(float(end) for end in travel.at(contact.time[[0, -1]])))
-    if whole.end - whole.start < LEAST_WAY:
-        return []
+
+def near_largest_load(rolling: Rolling, whole: RoadSection) -> RoadSection:
+    """The section around the largest load (of a field, where there are any); the whole way where that is not much longer."""
     time = _focus(rolling)
-    way, behind, ahead = travel.at(np.array([time, time - BEFORE[1], time + AFTER[1]]))
+    way, behind, ahead = rolling.road.travel.at(np.array([time, time - BEFORE[1], time + AFTER[1]]))
     start, end = min(way - BEFORE[0], behind), max(way + AFTER[0], ahead)
     near = RoadSection(max(float(start), whole.start), min(float(end), whole.end))
-    if near.end - near.start > 0.6 * (whole.end - whole.start):
-        return [whole]
-    return [near, whole]
+    return whole if near.end - near.start > 0.6 * (whole.end - whole.start) else near
 
 
 def _focus(rolling: Rolling) -> float:
@@ -88,7 +84,7 @@ def along_the_road(key: str, name: str, rolling: Rolling, section: RoadSection) 
     """
     ratios = [3.0, *([1.6] if rolling.axle is not None else []), *([2.2] if rolling.field is not None else []), 2.0]
     figure, axes = new_figure(
-        0.5 + 0.7 * sum(ratios), len(ratios), margins=Margins(right=0.8), sharex=True, height_ratios=ratios
+        0.5 + 0.7 * sum(ratios), len(ratios), margins=Margins(left=1.0, right=0.8), sharex=True, height_ratios=ratios
     )
     band = _draw_force(axes[0], rolling, section)
     if rolling.axle is not None:
@@ -104,6 +100,23 @@ def along_the_road(key: str, name: str, rolling: Rolling, section: RoadSection) 
         f"Force, footprint and road of the {name} from {section.start:.2f} to {section.end:.2f} m",
         _caption(rolling, section) + band,
     )  # fmt: skip
+
+
+def force_over_road(key: str, name: str, rolling: Rolling, section: RoadSection) -> Picture:
+    """Normal force raw and filtered over the distance, and the road below."""
+    figure, axes = new_figure(2.5, 2, sharex=True, height_ratios=[3.0, 2.0])
+    band = _draw_force(axes[0], rolling, section)
+    _draw_road(axes[1], rolling, section)
+    axes[0].set_ylabel("force, kN")
+    axes[1].set_xlim(section.start, section.end)
+    axes[1].set_xlabel("distance travelled, m")
+    figure.align_ylabels(axes)
+    return picture(
+        f"{key}-way",
+        figure,
+        f"Force and road of the {name} over the whole way",
+        _force_sentence(rolling, section) + band,
+    )
 
 
 def _draw_force(axes: Axes, rolling: Rolling, section: RoadSection) -> str:
@@ -201,17 +214,21 @@ def _draw_road(axes: Axes, rolling: Rolling, section: RoadSection) -> None:
     axes.set_ylim(low_end, high_end + 0.25 * (high_end - low_end))
 
 
-def _caption(rolling: Rolling, section: RoadSection) -> str:
+def _force_sentence(rolling: Rolling, section: RoadSection) -> str:
+    """Largest force, and whether the contact opens."""
     contact, travel = rolling.contact, rolling.road.travel
     distance = travel.at(contact.time)
     inside = _inside(distance, section)
     place = int(np.flatnonzero(inside)[contact.normal[inside].argmax()])
     lifted = float((contact.normal[inside] <= 0.0).mean())
-    text = (
-        f"Normal force over distance, grey as sampled, blue through the 100 Hz filter (zero phase). Largest here: "
-        f"{contact.normal[place]:.5g} N at {distance[place]:.3f} m. "
+    text = f"Grey as sampled, blue through the 100 Hz filter. Largest: {contact.normal[place]:.5g} N at {distance[place]:.3f} m. "
+    return text + (
+        f"Without load (shaded) for {lifted:.2%} of the time." if lifted else "The contact never opens here."
     )
-    text += f"Without load (shaded) for {lifted:.2%} of the time. " if lifted else "The contact never opens here. "
+
+
+def _caption(rolling: Rolling, section: RoadSection) -> str:
+    text, travel = f"{_force_sentence(rolling, section)} ", rolling.road.travel
     if rolling.axle is not None:
         along = rolling.axle.longitudinal[_inside(travel.at(rolling.axle.time), section)]
         text += f"Below it: force of the road along the travel, forward positive, from {along.min():.4g} to {along.max():.4g} N. "

@@ -16,7 +16,13 @@ from contact_sim_pkg.rigs.vehicle.tire.report.figures_field import (
     stress_picture,
 )
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_footprint import footprint_stages
-from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, along_the_road, road_sections
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import (
+    Rolling,
+    along_the_road,
+    force_over_road,
+    near_largest_load,
+    whole_way,
+)
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_shear import friction_over_slip, friction_over_time, shear_maps
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
@@ -44,7 +50,10 @@ def _rolling_section(recording: Recording) -> Section:
     pictures: list[Picture] = []
     if road is not None:
         rolling = Rolling(contact, field, road, reference, axle_of(recording))
-        pictures += [along_the_road(KEY, TIRE, rolling, section) for section in road_sections(rolling)]
+        whole = whole_way(rolling)
+        if whole is not None:
+            pictures.append(force_over_road(KEY, TIRE, rolling, whole))
+            pictures.append(along_the_road(KEY, TIRE, rolling, near_largest_load(rolling, whole)))
     if signals:
         pictures.append(peak_curves(KEY, TIRE, signals))
     if field is not None:

@@ -1,0 +1,114 @@
+// The maps over time, and the series of the run on one axis: all of it from the JSON in the page.
+(() => {
+  "use strict";
+  const source = document.getElementById("data");
+  if (!source) return;
+  const data = JSON.parse(source.textContent);
+  const bytes = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
+  const floats = text => new Float32Array(bytes(text).buffer);
+  const time = floats(data.time), distance = data.distance ? floats(data.distance) : null;
+  const colours = bytes(data.colours);
+  const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+  // number of the last of the ascending values that is not above a value
+  const before = (values, value) => {
+    let low = 0, high = values.length;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (values[middle] <= value + 1e-6) low = middle; else high = middle;
+    }
+    return low;
+  };
+
+  // a canvas in place of each picture, with the same cells
+  const films = data.films.map((film, number) => {
+    const picture = document.querySelector(`[data-film="${number}"]`), canvas = document.createElement("canvas");
+    canvas.width = film.cols;
+    canvas.height = film.rows;
+    const context = canvas.getContext("2d");
+    const image = context.createImageData(film.cols, film.rows);
+    picture.replaceWith(canvas);
+    const text = canvas.closest("figure").querySelector("output");
+    const all = {time: floats(film.time), load: floats(film.load), peak: floats(film.peak), frames: bytes(film.frames)};
+    let shown = -1;
+    const show = at => {
+      const frame = before(all.time, at), cells = film.rows * film.cols;
+      if (frame === shown) return;
+      shown = frame;
+      // forward is up and left on the left: the last cell comes first
+      for (let cell = 0; cell < cells; cell++) {
+        const value = 4 * all.frames[frame * cells + cells - 1 - cell];
+        image.data.set(colours.subarray(value, value + 4), 4 * cell);
+      }
+      context.putImageData(image, 0, 0);
+      text.textContent = `${all.time[frame].toFixed(3)} s · ${all.load[frame].toFixed(0)} N · peak ${all.peak[frame].toFixed(0)} kPa`;
+    };
+    return {show, time: all.time, load: all.load};
+  });
+  const slider = document.querySelector(".slider input");
+  const steps = films.reduce((most, film) => (film.time.length > most.length ? film.time : most), new Float32Array(0));
+
+  // one time for maps, slider and curves
+  let plots = [], axis = time, moving = false;
+  const show = (at, from) => {
+    if (moving) return;
+    moving = true;
+    for (const film of films) film.show(at);
+    if (slider && from !== slider) slider.value = before(steps, at);
+    if (from === slider) {
+      const place = axis[before(time, at)];
+      for (const plot of plots) plot.setCursor({left: plot.valToPos(place, "x"), top: 10}, false);
+    }
+    moving = false;
+  };
+  if (slider && steps.length) {
+    const first = films[0], heaviest = first.load.indexOf(first.load.reduce((most, load) => Math.max(most, load)));
+    slider.max = steps.length - 1;
+    slider.disabled = false;
+    slider.addEventListener("input", () => show(steps[slider.value], slider));
+    show(first.time[heaviest]);
+  }
+
+  const view = document.getElementById("view");
+  // a narrow page begins with every picture folded
+  if (matchMedia("(max-width: 640px)").matches) for (const fold of document.querySelectorAll(".pictures > details")) fold.open = false;
+  const names = ["--accent", "--second", "--third", "--fourth", "--fifth", "--ink"];
+  const height = view.clientWidth < 640 ? 120 : 150;
+  const draw = group => {
+    const drawn = {stroke: () => colour("--muted"), grid: {stroke: () => colour("--rule"), width: 1}, font: "12px system-ui"};
+    const series = group.series.map(({name}, number) => ({
+      label: name, width: 1, stroke: () => colour(names[number % names.length]), points: {show: false},
+      value: (_, value) => (value == null ? "–" : value.toPrecision(4)),
+    }));
+    const plot = new uPlot({
+      width: view.clientWidth, height, scales: {x: {time: false}}, legend: {live: true},
+      cursor: {sync: {key: "bench"}, drag: {x: true, y: false}},
+      axes: [drawn, {...drawn, size: 56, label: group.label, labelFont: "12px system-ui", labelSize: 18}],
+      series: [{label: "at", value: (_, value) => (value == null ? "" : value.toPrecision(5))}, ...series],
+      hooks: {setCursor: [plot => { if (plot.cursor.idx != null) show(time[plot.cursor.idx], plot); }]},
+    }, [axis, ...group.series.map(each => each.values)], view);
+    return plot;
+  };
+  for (const group of data.groups) for (const each of group.series) each.values = floats(each.values);
+  if (distance) {
+    const choice = document.createElement("div");
+    choice.className = "switch";
+    for (const [label, values] of [["over time, s", time], ["over distance, m", distance]]) {
+      const button = document.createElement("input"), text = document.createElement("label");
+      button.type = "radio";
+      button.name = "axis";
+      button.checked = values === time;
+      button.addEventListener("change", () => {
+        axis = values;
+        plots.forEach((plot, number) => plot.setData([axis, ...data.groups[number].series.map(each => each.values)]));
+      });
+      text.append(button, ` ${label}`);
+      choice.append(text);
+    }
+    view.append(choice);
+  }
+  plots = data.groups.map(draw);
+  new ResizeObserver(() => plots.forEach(plot => plot.setSize({width: view.clientWidth, height}))).observe(view);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plots.forEach(plot => plot.redraw()));
+  document.documentElement.dataset.ready = performance.now().toFixed(0);
+})();

@@ -1,0 +1,162 @@
+"""The series of a run for the page's interactive view, on one axis of time, and the films that its cursor moves."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib import colormaps
+from numpy.typing import ArrayLike, NDArray
+
+from contact_sim_pkg.report.drawing import PRESSURE_COLOURS
+from contact_sim_pkg.report.film import Film, png_of
+from contact_sim_pkg.report.rows import number
+from contact_sim_pkg.report.series import FieldSeries, FloatArray, Recording
+
+__all__ = ["MapView", "map_views", "page_data"]
+
+INTERVALS = 1000
+"""Intervals of the view; each shows the smallest and the largest value in it."""
+
+
+class MapView(NamedTuple):
+    """A film as the page shows it before its script runs: the frame with the largest load."""
+
+    name: str
+    picture: str
+    """PNG as base64"""
+    rows: int
+    cols: int
+    aspect: float
+    """width over height"""
+    text: str
+    largest: str
+    """[kPa] at the upper end of the colours"""
+    size: str
+    """[mm] length and width of what is shown"""
+
+
+def map_views(recording: Recording) -> list[MapView]:
+    """A view a contact with a pressure field that carries a load."""
+    colours = _colours()
+    return [_map_view(name, field.film, colours) for name, field in _films(recording)]
+
+
+def _map_view(name: str, film: Film, colours: NDArray[np.uint8]) -> MapView:
+    place = film.heaviest
+    _, rows, cols = film.frames.shape
+    length, width = 1e3 * rows * film.cell_x, 1e3 * cols * film.cell_y
+    said = frame_text(film.time[place], film.load[place], film.peak[place])
+    picture = base64.b64encode(png_of(film.frames[place], colours)).decode()
+    return MapView(
+        name, picture, rows, cols, width / length, said, number(1e-3 * film.largest), f"{length:.0f} × {width:.0f} mm"
+    )
+
+
+def frame_text(time: float, load: float, peak: float) -> str:
+    """`0.570 s · 4200 N · peak 450 kPa`, as the script writes it too."""
+    return f"{time:.3f} s · {load:.0f} N · peak {1e-3 * peak:.0f} kPa"
+
+
+def page_data(recording: Recording) -> str:
+    """What the script of the page draws, as JSON that is safe inside an element of a page.
+
+    Numbers are base64 of little-endian 32-bit floats, frames of bytes.
+    """
+    groups = _groups(recording)
+    start, end = _span(groups)
+    edges = np.linspace(start, end, INTERVALS + 1)
+    times = np.repeat(edges[:-1], 2)
+    times[1::2] += 0.5 * (edges[1] - edges[0])
+    road = recording.series.get("road")
+    data: dict[str, Any] = {
+        "time": _floats(times),
+        "distance": _floats(road.travel.at(times)) if road is not None and np.ptp(road.travel.distance) > 0.01 else None,
+        "groups": [
+            {"label": label, "series": [{"name": name, "values": _floats(_on(edges, times, time, values))}
+                                        for name, time, values in series]}
+            for label, series in groups
+        ],
+        "films": [_film_data(name, field.film) for name, field in _films(recording)],
+        "colours": base64.b64encode(_colours().tobytes()).decode(),
+    }  # fmt: skip
+    # inside <script> only "<" could end the element
+    return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+
+
+Series = tuple[str, FloatArray, FloatArray]
+
+
+def _groups(recording: Recording) -> list[tuple[str, list[Series]]]:
+    """Series that share an axis, by its label."""
+    contacts, fields, motion = recording.contacts, recording.fields, recording.motion
+    forces: list[Series] = []
+    for name, contact in contacts.items():
+        forces.append((name, contact.time, contact.normal))
+        if np.any(contact.tangential):
+            forces.append((f"{name}, along", contact.time, contact.tangential))
+    found: list[tuple[str, list[Series]]] = [
+        ("force, N", forces),
+        (
+            "peak pressure, kPa",
+            [(name, each.time, 1e-3 * each.peak) for name, each in fields.items() if each.time.size > 1],
+        ),
+        ("approach, mm", [(name, each.time, 1e3 * each.approach) for name, each in contacts.items()]),
+    ]
+    if motion is not None:
+        bodies = [(name.replace("_", " "), motion.time, values) for name, values in motion.acceleration.items()]
+        found.insert(1, ("acceleration, m/s²", [each for each in bodies if np.any(each[2])]))
+    return [(label, series) for label, series in found if series]
+
+
+def _films(recording: Recording) -> list[tuple[str, FieldSeries]]:
+    return [(name, field) for name, field in recording.fields.items() if field.film.largest > 0.0]
+
+
+def _film_data(name: str, film: Film) -> dict[str, Any]:
+    return {
+        "name": name, "rows": film.frames.shape[1], "cols": film.frames.shape[2], "time": _floats(film.time),
+        "load": _floats(film.load), "peak": _floats(1e-3 * film.peak),
+        "frames": base64.b64encode(film.frames.tobytes()).decode(),
+    }  # fmt: skip
+
+
+def _span(groups: Sequence[tuple[str, list[Series]]]) -> tuple[float, float]:
+    """[s] from the first to the last sample."""
+    times = [time for _, series in groups for _, time, _ in series if time.size]
+    if not times:
+        return 0.0, 1.0
+    start, end = min(float(time[0]) for time in times), max(float(time[-1]) for time in times)
+    return start, max(end, start + 1e-6)
+
+
+def _on(edges: FloatArray, times: FloatArray, time: FloatArray, values: FloatArray) -> FloatArray:
+    """Two values an interval, the smallest and the largest in the order in which they came, so that no peak is lost;
+    a series with fewer samples is interpolated at ``times``.
+    """
+    values = np.nan_to_num(values)
+    if time.size <= 2 * edges.size:
+        return np.interp(times, time, values)
+    starts = np.clip(np.searchsorted(time, edges[:-1]), 0, time.size - 1)
+    if np.any(np.diff(starts) == 0):
+        return np.interp(times, time, values)
+    low, high = np.minimum.reduceat(values, starts), np.maximum.reduceat(values, starts)
+    rising = values[starts] <= values[np.append(starts[1:], time.size) - 1]
+    found = np.empty(2 * low.size)
+    found[0::2], found[1::2] = np.where(rising, low, high), np.where(rising, high, low)
+    return found
+
+
+def _floats(values: ArrayLike) -> str:
+    return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode()
+
+
+def _colours() -> NDArray[np.uint8]:
+    """[256, 4] of the bytes of a frame; 0 is blank."""
+    found: NDArray[np.uint8] = colormaps[PRESSURE_COLOURS](np.linspace(0.0, 1.0, 256), bytes=True)
+    found = np.array(found)
+    found[0] = 0
+    return found

@@ -1,0 +1,25 @@
+"""Parts of a seat for the drawing of its rig."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from contact_sim_pkg.report.sketch import Part, at, floor_part, foam, leaning, listed, sitter
+
+
+def seat_parts(scene: Mapping[str, Any]) -> list[Part]:
+    """Floor, cushion and occupant of a scene."""
+    occupant = (scene.get("seat") or {}).get("occupant") or {}
+    masses = [
+        float(occupant.get("frame_mass") or 0.0),
+        *(occupant.get("masses") or ()),
+        float(occupant.get("mass") or 0.0),
+    ]
+    model = str(occupant.get("model", "")).replace("_", " ")
+    return [
+        *floor_part(scene),
+        Part("foam", at(scene, "effects.seat.cushion.thickness", "{:.0f} mm", 1e3), foam),
+        Part("occupant", listed(f"{sum(masses):.3g} kg" if any(masses) else "", model),
+             leaning if "backrest" in scene else sitter),
+    ]  # fmt: skip
