@@ -76,6 +76,7 @@ setup(
         "daq": ["asammdf>=8", "h5py>=3.10", "npTDMS>=1.9", "pyuff>=2.4"],
         "fatigue": ["rainflow>=3"],
         "parquet": ["pyarrow>=15"],
+        "view": ["websockets>=13,<18"],
         "test": ["hypothesis>=6.150", "mcap-ros2-support>=0.5", "packaging>=24", "pytest>=9", "pytest-xdist>=3.6"],
     },
     entry_points={

@@ -25,6 +25,7 @@ ROS = (
     "rclpy",
     "_rclpy_pybind11",
     "contact_msgs_defs",
+    "lifecycle_msgs",
     "rcl_interfaces",
     "std_msgs",
     "std_srvs",

@@ -49,13 +49,13 @@ class Browser:
                 return result
             self._events.append(message)
 
-    def open(self, page: Path, width: int, height: int, *, dark: bool = False, media: str = "screen") -> None:
-        """Show a page in a window of ``width`` by ``height`` [px]."""
+    def open(self, page: Path | str, width: int, height: int, *, dark: bool = False, media: str = "screen") -> None:
+        """Show a page, a file or an address, in a window of ``width`` by ``height`` [px]."""
         self._events.clear()
         scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
         self.call("Emulation.setEmulatedMedia", media=media, features=scheme)
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        self.call("Page.navigate", url=page.resolve().as_uri())
+        self.call("Page.navigate", url=page if isinstance(page, str) else page.resolve().as_uri())
         while not any(event["method"] == "Page.loadEventFired" for event in self._events):
             self._events.append(self._next())
 
@@ -69,8 +69,12 @@ class Browser:
         """Sizes and texts of a page, and `console`: what the browser said of it."""
         self.open(page, width, height, dark=dark)
         numbers: dict[str, Any] = self.value(PROBE)
+        return numbers | {"console": self.said()}
+
+    def said(self) -> list[dict[str, Any]]:
+        """What the browser said of the page that is open."""
         said = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
-        return numbers | {"console": [event["params"] for event in self._events if event["method"] in said]}
+        return [event["params"] for event in self._events if event["method"] in said]
 
     def picture(self, file: Path, *, whole: bool = False) -> None:
         """What is shown, or the whole page, as PNG."""

@@ -204,8 +204,8 @@ def _messages() -> Iterator[str]:
 def _nodes(parameters: str) -> Iterator[str]:
     yield "## Nodes"
     for node in PUBLISHED:
-        if node == "bench_run":
-            continue  # the supervisor: it has no parameters and publishes nothing
+        if node in ("bench_run", "live_view"):
+            continue  # the supervisor, and the command of the live page: they publish nothing
         kind = "lifecycle node" if node in LIFECYCLE else "plain node"
         services = "".join(f"; service `{name}`" for name in OWN_SERVICES.get(node, ()))
         rows = [(f"`{name}`", value, meaning) for name, value, meaning in _parameters_of(node, parameters)]

@@ -29,6 +29,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "plan": "plan",
     "fit": "fit",
     "replay": "replay",
+    "view": "view",
     "metrics": "bags.metrics",
     "compare": "bags.compare",
     "table": "bags.table",
@@ -49,7 +50,7 @@ LABORATORY = {  # the same, in contact_sim_lab.cli
     "growth": "goals:growth_command",
     "paper": "paper",
 }
-DISPLAY_THEMSELVES = ("run", "replay")  # from their first second to their last
+DISPLAY_THEMSELVES = ("run", "replay", "view")  # from their first second to their last
 ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share the cores; the same bits without nodes
 
 

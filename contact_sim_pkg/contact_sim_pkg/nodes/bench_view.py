@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import struct
 import sys
 import time
 from collections import Counter
@@ -21,7 +20,7 @@ from contact_sim_pkg.nodes.parameters import declare
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.nodes.protocol.endpoints import message_type, profile_of, viewing_subscription
 from contact_sim_pkg.nodes.protocol.pacing import RateLimit
-from contact_sim_pkg.nodes.protocol.states import NodeError
+from contact_sim_pkg.nodes.protocol.states import MALFORMED, NodeError
 from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.standard.convert import Converter, record_type
 from contact_sim_pkg.standard.messages import encoded
@@ -30,8 +29,6 @@ from contact_sim_pkg.standard.topics import RATE, SCENE, StandardTopic, standard
 LOOK_SECONDS = 1.0  # between two looks at the graph for topics of a run
 LONGEST_GATHER = 0.05  # [s]; signals are looked at as often
 RATE_TEXT = "Messages of a topic a second of the steady clock, at most."
-MALFORMED = (BagError, ArithmeticError, LookupError, TypeError, ValueError, struct.error)
-"""What decoding and converting raise where the bytes or values of a message are none that the bench sends."""
 
 
 class BenchViewNode(LifecycleBenchNode):

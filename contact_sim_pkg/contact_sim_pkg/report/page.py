@@ -14,12 +14,13 @@ from markupsafe import Markup
 from contact_sim_pkg.report.drawing import Picture
 from contact_sim_pkg.report.tables import Table
 
-__all__ = ["CONTACT", "FREQUENCY", "TRUST", "Section", "rendered"]
+__all__ = ["CONTACT", "FREQUENCY", "LIVE_SCRIPTS", "SCRIPTS", "TRUST", "Section", "Shell", "rendered", "shell_of"]
 
 FREQUENCY, CONTACT, TRUST = "frequency", "contact", "trust"
 """Parts of the page that pictures stand in."""
 STYLES = ("page.css", "uplot/uPlot.min.css")
-SCRIPTS = ("uplot/uPlot.iife.min.js", "page.js")
+SCRIPTS = ("uplot/uPlot.iife.min.js", "plots.js", "page.js")
+LIVE_SCRIPTS = (*SCRIPTS[:-1], "live.js")
 
 
 class Section(NamedTuple):
@@ -41,23 +42,27 @@ class Shell(NamedTuple):
     policy: str
 
 
-def rendered(template: str, content: Mapping[str, Any], *, scripts: bool = False) -> str:
-    """A page. Our own drawings, style and scripts are marked as safe markup; all else is escaped."""
+def rendered(template: str, content: Mapping[str, Any], *, scripts: bool = False, shell: Shell | None = None) -> str:
+    """A page, with the scripts of a report or in a ``shell`` of its own.
+
+    Our own drawings, style and scripts are marked as safe markup; all else is escaped.
+    """
     environment = Environment(
         loader=PackageLoader(__package__, "templates"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True,
     )  # fmt: skip
-    return environment.get_template(template).render(content, shell=_shell(scripts=scripts))
+    return environment.get_template(template).render(content, shell=shell or shell_of(SCRIPTS if scripts else ()))
 
 
-def _shell(*, scripts: bool) -> Shell:
+def shell_of(scripts: Sequence[str], more: str = "") -> Shell:
+    """Of a page with these scripts of the templates; ``more``: directives that its policy has beside the hashes."""
     style = "\n".join(map(_text, STYLES))
-    code = [_text(each) for each in SCRIPTS] if scripts else []
+    code = [_text(each) for each in scripts]
     # matplotlib writes the style of its shapes as attributes
     policy = f"default-src 'none'; style-src {_hash(style)}; style-src-attr 'unsafe-inline'; img-src data:"
     if code:
         policy += f"; script-src {' '.join(map(_hash, code))}"
-    return Shell(Markup(style), [Markup(each) for each in code], policy)  # noqa: S704 - files of this package
+    return Shell(Markup(style), [Markup(each) for each in code], policy + more)  # noqa: S704 - files of this package
 
 
 def _text(name: str) -> str:

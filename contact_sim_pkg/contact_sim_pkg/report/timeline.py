@@ -16,7 +16,7 @@ from contact_sim_pkg.report.film import Film, png_of
 from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.report.series import FieldSeries, FloatArray, Recording
 
-__all__ = ["MapView", "map_views", "page_data"]
+__all__ = ["MapView", "colours_as_text", "map_views", "page_data"]
 
 INTERVALS = 1000
 """Intervals of the view; each shows the smallest and the largest value in it."""
@@ -81,7 +81,7 @@ def page_data(recording: Recording) -> str:
             for label, series in groups
         ],
         "films": [_film_data(name, field.film) for name, field in _films(recording)],
-        "colours": base64.b64encode(_colours().tobytes()).decode(),
+        "colours": colours_as_text(),
     }  # fmt: skip
     # inside <script> only "<" could end the element
     return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
@@ -152,6 +152,11 @@ def _on(edges: FloatArray, times: FloatArray, time: FloatArray, values: FloatArr
 
 def _floats(values: ArrayLike) -> str:
     return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode()
+
+
+def colours_as_text() -> str:
+    """Four bytes a byte of a frame, as base64."""
+    return base64.b64encode(_colours().tobytes()).decode()
 
 
 def _colours() -> NDArray[np.uint8]:

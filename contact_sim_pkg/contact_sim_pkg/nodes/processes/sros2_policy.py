@@ -12,8 +12,9 @@ from xml.etree import ElementTree
 
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.standard.topics import standard_topics
+from contact_sim_pkg.view.scope import SHOWN
 
-LIFECYCLE = ("contact_simulator", "bag_logger", "bag_replay", "bench_view")
+LIFECYCLE = ("contact_simulator", "bag_logger", "bag_replay", "bench_view", "live_view")
 _VIEW = standard_topics([name for name, topic in TOPICS.items() if topic.recorded])
 PUBLISHED = {
     "road_profile": ("road/patch",),
@@ -24,6 +25,7 @@ PUBLISHED = {
     "bag_logger": ("bench/recorded",),
     "bag_replay": tuple(name for name, topic in TOPICS.items() if topic.recorded or topic.kind == "clock"),
     "bench_view": tuple(_VIEW),
+    "live_view": (),
     "bench_run": (),
 }
 SUBSCRIBED = {
@@ -33,6 +35,7 @@ SUBSCRIBED = {
     "bag_logger": (*(name for name, topic in TOPICS.items() if topic.recorded), "bench/progress"),
     "bag_replay": (),
     "bench_view": tuple(dict.fromkeys(source for topic in _VIEW.values() for source in topic.sources)),
+    "live_view": SHOWN,
     "bench_run": ("bench/progress", "bench/recorded"),
 }
 PARAMETER_SERVICES = (
@@ -44,6 +47,7 @@ PARAMETER_SERVICES = (
     "~/set_parameters_atomically",
 )
 OWN_SERVICES = {"bag_replay": ("~/pause",)}
+REQUESTED = {"live_view": ("bag_replay/pause", "contact_simulator/change_state")}
 LIFECYCLE_SERVICES = (
     "~/change_state",
     "~/get_available_states",
@@ -67,6 +71,7 @@ def policy() -> str:
         services = (*LIFECYCLE_SERVICES, *OWN_SERVICES.get(node, ())) if node in LIFECYCLE else ()
         parameters = () if node == "bench_run" else PARAMETER_SERVICES
         _allow(profile, "services", "reply", (*parameters, *services, "~/get_type_description"))
+        _allow(profile, "services", "request", REQUESTED.get(node, ()))
     ElementTree.indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
 

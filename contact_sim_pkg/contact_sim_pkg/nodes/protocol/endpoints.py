@@ -93,13 +93,13 @@ def informed_subscription(
     return _subscribe(node, name, receive, least_depth)
 
 
-def viewing_subscription(node: Node, name: str, callback: Callable[[bytes], None]) -> Subscription:
-    """As `subscription`, of the newest message alone, which no publisher keeps or repeats for it; a latched topic as
-    it is.
+def viewing_subscription(node: Node, name: str, callback: Callable[[bytes], None], depth: int = 1) -> Subscription:
+    """As `subscription`, of the ``depth`` newest messages alone, which no publisher keeps or repeats for it; a latched
+    topic as it is.
     """
     topic = topic_of(name)
     if topic.durability != "transient_local":
-        topic = topic._replace(reliability="best_effort", depth=1)
+        topic = topic._replace(reliability="best_effort", depth=depth)
     return node.create_subscription(
         message_type(topic.type), name, partial(_call, node, callback), profile_of(topic), raw=True
     )

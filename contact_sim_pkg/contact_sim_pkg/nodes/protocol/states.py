@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import struct
 from enum import IntEnum
 
+from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.nodes.protocol.window import AHEAD
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
@@ -45,6 +47,8 @@ class RunState(IntEnum):
         return int(RunState.RUNNING if self is RunState.PAUSED else self)
 
 
+MALFORMED = (BagError, ArithmeticError, LookupError, TypeError, ValueError, struct.error)
+"""What decoding and converting raise where the bytes or values of a message are none that the bench sends."""
 STOPPED_BY_USER = "stopped by the user"  # message of whoever ends a run; of the logger also a request to the simulator
 REFUSED, LOSS, FAULT, DONE = 2, 3, 1, 0  # exit statuses
 

@@ -8,7 +8,6 @@
   const floats = text => new Float32Array(bytes(text).buffer);
   const time = floats(data.time), distance = data.distance ? floats(data.distance) : null;
   const colours = bytes(data.colours);
-  const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // number of the last of the ascending values that is not above a value
   const before = (values, value) => {
@@ -23,10 +22,7 @@
   // a canvas in place of each picture, with the same cells
   const films = data.films.map((film, number) => {
     const picture = document.querySelector(`[data-film="${number}"]`), canvas = document.createElement("canvas");
-    canvas.width = film.cols;
-    canvas.height = film.rows;
-    const context = canvas.getContext("2d");
-    const image = context.createImageData(film.cols, film.rows);
+    const paint = bench.painter(canvas, film.rows, film.cols, colours);
     picture.replaceWith(canvas);
     const text = canvas.closest("figure").querySelector("output");
     const all = {time: floats(film.time), load: floats(film.load), peak: floats(film.peak), frames: bytes(film.frames)};
@@ -35,12 +31,7 @@
       const frame = before(all.time, at), cells = film.rows * film.cols;
       if (frame === shown) return;
       shown = frame;
-      // forward is up and left on the left: the last cell comes first
-      for (let cell = 0; cell < cells; cell++) {
-        const value = 4 * all.frames[frame * cells + cells - 1 - cell];
-        image.data.set(colours.subarray(value, value + 4), 4 * cell);
-      }
-      context.putImageData(image, 0, 0);
+      paint(all.frames, frame * cells);
       text.textContent = `${all.time[frame].toFixed(3)} s · ${all.load[frame].toFixed(0)} N · peak ${all.peak[frame].toFixed(0)} kPa`;
     };
     return {show, time: all.time, load: all.load};
@@ -72,23 +63,11 @@
   const view = document.getElementById("view");
   // a narrow page begins with every picture folded
   if (matchMedia("(max-width: 640px)").matches) for (const fold of document.querySelectorAll(".pictures > details")) fold.open = false;
-  const names = ["--accent", "--second", "--third", "--fourth", "--fifth", "--ink"];
   const height = view.clientWidth < 640 ? 120 : 150;
-  const draw = group => {
-    const drawn = {stroke: () => colour("--muted"), grid: {stroke: () => colour("--rule"), width: 1}, font: "12px system-ui"};
-    const series = group.series.map(({name}, number) => ({
-      label: name, width: 1, stroke: () => colour(names[number % names.length]), points: {show: false},
-      value: (_, value) => (value == null ? "–" : value.toPrecision(4)),
-    }));
-    const plot = new uPlot({
-      width: view.clientWidth, height, scales: {x: {time: false}}, legend: {live: true},
-      cursor: {sync: {key: "bench"}, drag: {x: true, y: false}},
-      axes: [drawn, {...drawn, size: 56, label: group.label, labelFont: "12px system-ui", labelSize: 18}],
-      series: [{label: "at", value: (_, value) => (value == null ? "" : value.toPrecision(5))}, ...series],
-      hooks: {setCursor: [plot => { if (plot.cursor.idx != null) show(time[plot.cursor.idx], plot); }]},
-    }, [axis, ...group.series.map(each => each.values)], view);
-    return plot;
-  };
+  const draw = group => bench.plot(
+    view, height, group.label, group.series.map(each => each.name), [axis, ...group.series.map(each => each.values)],
+    {hooks: {setCursor: [plot => { if (plot.cursor.idx != null) show(time[plot.cursor.idx], plot); }]}},
+  );
   for (const group of data.groups) for (const each of group.series) each.values = floats(each.values);
   if (distance) {
     const choice = document.createElement("div");
@@ -108,7 +87,6 @@
     view.append(choice);
   }
   plots = data.groups.map(draw);
-  new ResizeObserver(() => plots.forEach(plot => plot.setSize({width: view.clientWidth, height}))).observe(view);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plots.forEach(plot => plot.redraw()));
+  bench.keep(view, height, () => plots);
   document.documentElement.dataset.ready = performance.now().toFixed(0);
 })();
