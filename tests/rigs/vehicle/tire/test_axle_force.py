@@ -11,7 +11,7 @@ from contact_sim_pkg.records.messages import AxleForce, BodyMotion, ContactForce
 from contact_sim_pkg.report.drawing import style
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import axle_of
-from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, along_the_road, road_sections
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, along_the_road, near_largest_load, whole_way
 from contact_sim_pkg.run.offline import run_offline
 
 WEIGHT = 340.0 * 9.81
@@ -107,6 +107,8 @@ def test_the_report_draws_it_over_the_road(tmp_path):
     assert numpy.array_equal(axle.longitudinal, numpy.concatenate(recorded))
     assert axle.time[[0, -1]] == pytest.approx([0.0, 0.599])
     rolling = Rolling(recording.contacts["tire"], None, recording.series["road"], None, axle)
+    whole = whole_way(rolling)
+    assert whole is not None
     with style():
-        drawn = along_the_road("rolling", "tire", rolling, road_sections(rolling)[0])
+        drawn = along_the_road("rolling", "tire", rolling, near_largest_load(rolling, whole))
     assert "force of the road along the travel" in drawn.caption
