@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import time
 import webbrowser
 from importlib import import_module
@@ -56,6 +57,8 @@ def _play(bag: Path, port: int, opened: bool) -> None:
     for note in recorded.notes:
         say(note, err=True)
     source = RecordedSource(recorded, scope)
+    for each in (signal.SIGINT, signal.SIGTERM):  # one that a script began in the background ignores the first
+        signal.signal(each, signal.default_int_handler)
     with ViewServer(scope, bag.name, port) as server:
         _announce(server, opened)
         source.go(time.monotonic())
