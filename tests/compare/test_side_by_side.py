@@ -17,7 +17,7 @@ from contact_sim_pkg.compare.side_by_side import (
     undecided,
 )
 from contact_sim_pkg.files import FileRefusedError
-from contact_sim_pkg.records.metric import LIMIT, Band, Metric
+from contact_sim_pkg.records.metric import EVENT, LIMIT, STATIONARY, Band, Metric
 from contact_sim_pkg.report.comparison.rows import junit_text_of, rows_of, table_rows
 
 
@@ -127,4 +127,11 @@ def test_a_tolerance_of_nothing_is_refused_with_what_there_is(tolerances, tmp_pa
 )
 def test_a_change_is_judged_by_its_limit_and_its_uncertainty(values, spread, limit, expected):
     side = ComparedMetric("a", "a", "", values, ("good", "good"), (), spreads=(spread, spread), limit=limit)
+    assert side.comparison == expected
+
+
+@pytest.mark.parametrize(("basis", "expected"), [(STATIONARY, "spread not known"), (EVENT, "better")])
+def test_a_stationary_number_whose_spread_nobody_knows_is_not_called_better(basis, expected):
+    band = Band(-math.inf, 100.0, LIMIT, "s")
+    side = ComparedMetric("a", "a", "", (60.0, 50.0), ("good", "good"), (), basis, (0.1, 0.1), (1.0, math.nan), band)
     assert side.comparison == expected

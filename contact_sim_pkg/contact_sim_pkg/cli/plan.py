@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from contact_sim_pkg.cli.output.say import say
-from contact_sim_pkg.cli.output.tables import overwrite_option, print_json, show_rows
+from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_rows
 from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 )
 @click.option("--junit", "junit_file", type=click.Path(path_type=Path), default=None, metavar="FILE", help="JUnit XML.")
 @overwrite_option
-@click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output, and nothing else.")
+@json_option
 def command(
     plan: str | None, out: Path | None, jobs: int | None, junit_file: Path | None, overwrite: bool, as_json: bool
 ) -> int:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
-from contact_sim_pkg.records.metric import LIMIT, OUTSIDE, REQUIRED, SELF_CHECK, Band, Metric
+from contact_sim_pkg.records.metric import LIMIT, OUTSIDE, REQUIRED, SELF_CHECK, STATIONARY, Band, Metric
 
 __all__ = [
     "Compared",
@@ -62,7 +62,7 @@ class ComparedMetric(NamedTuple):
     @property
     def comparison(self) -> str:
         """Of two runs: whether the last is better or worse than the first by a limit with one end, or differs by no more
-        than the uncertainty; empty where neither can be said.
+        than the uncertainty; empty where neither can be said, and what keeps it from being said where that is known.
         """
         if not math.isfinite(self.change):
             return ""
@@ -71,6 +71,8 @@ class ComparedMetric(NamedTuple):
         ends = (-math.inf, math.inf) if self.limit is None else (self.limit.low, self.limit.high)
         if math.isinf(ends[0]) == math.isinf(ends[1]):
             return ""
+        if self.basis == STATIONARY and not (self.spreads and all(map(math.isfinite, self.spreads))):
+            return "spread not known"
         return "better" if (self.change < 0.0) == math.isinf(ends[0]) else "worse"
 
     @property

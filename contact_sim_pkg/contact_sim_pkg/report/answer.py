@@ -25,7 +25,7 @@ class Answer(NamedTuple):
     """The first line of the page."""
 
     tone: str
-    """class of its colour: good, usual, doubt or outside"""
+    """class of its colour: good, usual, doubtful or outside"""
     word: str
     text: str
 
@@ -72,9 +72,9 @@ def _verdict(recording: Recording, metrics: Sequence[Metric]) -> tuple[str, str,
         return "outside", "Outside" if outside else "Not as expected", ", ".join([*outside, *missed])
     undecided = [f"{each.name} {value_text(each)}" for each in metrics if each.verdict == UNDECIDED]
     if undecided:
-        return "doubt", "Undecided", ", ".join(undecided)
-    if doubts := dict.fromkeys(text for each in metrics for text in each.broken):
-        return "doubt", "Doubtful", ", ".join(doubts)
+        return "doubtful", "Undecided", ", ".join(undecided)
+    if broken := dict.fromkeys(text for each in metrics for text in each.broken):
+        return "doubtful", "Doubtful", ", ".join(broken)
     judged = [each.verdict for each in metrics if each.verdict in (GOOD, USUAL, MET)]
     if GOOD in judged:
         return "good", "Good", "nothing outside its band"

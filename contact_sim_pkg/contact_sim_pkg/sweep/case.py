@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
-import os
 import platform
 import shutil
 import tempfile
@@ -15,7 +14,7 @@ from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.files import RefusedError
+from contact_sim_pkg.files import RefusedError, new_file
 from contact_sim_pkg.report.export.table import table_of
 from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags
 from contact_sim_pkg.report.metrics.views import rows_of
@@ -108,7 +107,8 @@ def run_case(task: Task) -> Row:
         **_run(scene, bag if task.keeps_bag else None, task.series),
     }
     if row["outcome"] == FINISHED:
-        _write(kept, row)
+        with new_file(kept, overwrite=True) as file:
+            file.write(json.dumps(row).encode())
     return row
 
 
@@ -139,8 +139,8 @@ def _run(scene: ResolvedScene, bag: Path | None, series: str) -> Row:
         if outcome.failure or outcome.loss:
             raise RunError(outcome.failure or outcome.loss)
         found = {"metrics": rows_of(metrics_of_bags([path]).metrics)} | (_series_of(path, series) if series else {})
-    except (RunError, RefusedError, OSError) as error:
-        return {"outcome": FAILED, "sentence": str(error), "metrics": []}
+    except (RunError, RefusedError, OSError, MemoryError) as error:
+        return {"outcome": FAILED, "sentence": str(error) or "memory ran out", "metrics": []}
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     spent = {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu}
@@ -167,10 +167,3 @@ def _processor() -> str:
     import llvmlite.binding
 
     return str(llvmlite.binding.get_host_cpu_name())
-
-
-def _write(path: Path, row: Row) -> None:
-    """Write a row that appears whole or not at all."""
-    partial = path.with_suffix(f".{os.getpid()}.partial")
-    partial.write_text(json.dumps(row), encoding="utf-8")
-    partial.replace(path)

@@ -15,7 +15,7 @@ Sources: Seber and Wild, Nonlinear Regression (1989), sections 5.1 and 6.4; Ljun
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -26,7 +26,7 @@ from scipy import optimize, signal, stats
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.measured import Points, Series
 from contact_sim_pkg.sweep.pool import Workers
-from contact_sim_pkg.sweep.sweep import CASES, Notify, check_folder, processors
+from contact_sim_pkg.sweep.sweep import CASES, Notify, check_folder, processors, texts_of
 from contact_sim_pkg.sweep.variation import SweepError, Values, Variation, samples_of
 
 __all__ = ["Fit", "Fitted", "fit"]
@@ -133,7 +133,7 @@ def fit(
     cases: list[Values] = [{**(fixed or {}), **each} for each in (to.values if isinstance(to, Points) else [{}])]
     for each in free:
         for end in each.ends:
-            scene_of(scene, _texts({**cases[0], **{other.key: other.at(0.5) for other in free}, each.key: end}))
+            scene_of(scene, texts_of({**cases[0], **{other.key: other.at(0.5) for other in free}, each.key: end}))
     (folder / CASES).mkdir(parents=True, exist_ok=True)
     with Workers(jobs or processors()) as workers:
         runs = _Runs(scene, to, cases, free, folder, workers, notify)
@@ -158,7 +158,7 @@ class _Runs:
         cases = self._cases
         series = self._to.name if isinstance(self._to, Series) else ""
         tasks = [
-            Task(len(cases) * i + j, self._scene, _texts({**case, **self.values_at(place)}), str(self._folder.absolute()),
+            Task(len(cases) * i + j, self._scene, texts_of({**case, **self.values_at(place)}), str(self._folder.absolute()),
                  False, sources_hash(), series)
             for i, place in enumerate(places) for j, case in enumerate(cases)
         ]  # fmt: skip
@@ -207,12 +207,12 @@ def _fitted_points(runs: _Runs, to: Points) -> Fit:
             raise SweepError("a metric has no value in a case where it was measured; narrow the ranges of --free")
         return numpy.asarray(found)
 
-    place, left, slope, doubt = _minimum(runs, residual)
+    place, left, slope, disagreement = _minimum(runs, residual)
     freedom = left.size - place.size
     square = float(left @ left)
     probability = math.nan if to.scatter is None or freedom == 0 else float(stats.chi2.sf(square, freedom))
     scatter = 1.0 if to.scatter is not None else math.sqrt(square / freedom) if freedom else math.nan
-    parameters = _parameters(runs, place, slope, doubt, scatter, freedom if to.scatter is None else math.inf)
+    parameters = _parameters(runs, place, slope, disagreement, scatter, freedom if to.scatter is None else math.inf)
     unit = "of its scatter" if to.scatter is not None else "of the mean size"
     misfit = math.sqrt(square / left.size)
     return Fit(parameters, misfit, unit, probability, 0.0, runs.count, runs.values_at(place))
@@ -246,7 +246,7 @@ def _fitted_series(runs: _Runs, to: Series, most_shift: float) -> Fit:
 
     place: Field | None = None
     for number in range(1, MOST_ROUNDS + 1):
-        place, left, slope, doubt = _minimum(runs, lambda given: residual_at(given, best_shift(given)), place)
+        place, left, slope, disagreement = _minimum(runs, lambda given: residual_at(given, best_shift(given)), place)
         given = runs([place])[0]
         shift, used = best_shift(given), filters
         filters = numpy.array([1.0])
@@ -264,7 +264,7 @@ def _fitted_series(runs: _Runs, to: Series, most_shift: float) -> Fit:
     misfit = float(numpy.std(numpy.interp(time - shift, *given) - measured))
     probability = math.nan if misfit < EXACT * float(measured.std()) else _ljung_box(left)
     scatter = math.sqrt(float(left @ left) / freedom)
-    parameters = _parameters(runs, place, slope, doubt, scatter, freedom)
+    parameters = _parameters(runs, place, slope, disagreement, scatter, freedom)
     return Fit(parameters, misfit, "", probability, shift, runs.count, runs.values_at(place))
 
 
@@ -325,9 +325,11 @@ def _ljung_box(left: Field) -> float:
     return float(stats.chi2.sf(statistic, LAGS - ORDER))
 
 
-def _parameters(runs: _Runs, place: Field, slope: Field, doubt: Field, scatter: float, freedom: float) -> list[Fitted]:
+def _parameters(
+    runs: _Runs, place: Field, slope: Field, disagreement: Field, scatter: float, freedom: float
+) -> list[Fitted]:
     """Values with their intervals, and what is not identifiable."""
-    blind = _unidentified(slope, doubt, scatter)
+    blind = _unidentified(slope, disagreement, scatter)
     half = numpy.full(place.size, math.nan)
     if not blind.any() and math.isfinite(scatter):
         half = (
@@ -351,14 +353,14 @@ def _parameters(runs: _Runs, place: Field, slope: Field, doubt: Field, scatter: 
     return found
 
 
-def _unidentified(slope: Field, doubt: Field, scatter: float) -> NDArray[numpy.bool_]:
+def _unidentified(slope: Field, disagreement: Field, scatter: float) -> NDArray[numpy.bool_]:
     """Of each parameter, whether it lies in a direction in which nothing is seen: differences of two steps disagree by
     as much as they are, or the interval is wider than the range.
     """
     _left, sizes, directions = numpy.linalg.svd(slope, full_matrices=False)
     blind = numpy.zeros(slope.shape[1], dtype=bool)
     for size, direction in zip(sizes, directions, strict=True):
-        unsure = UNSEEN * float(numpy.linalg.norm(doubt @ direction))
+        unsure = UNSEEN * float(numpy.linalg.norm(disagreement @ direction))
         if size <= unsure or (math.isfinite(scatter) and 2.0 * scatter > size):
             blind |= abs(direction) > 0.3
     return blind
@@ -376,10 +378,6 @@ def _require_enough(count: int, runs: _Runs) -> None:
         raise SweepError(f"{count} measured values for {len(runs.free)} free keys: measure more, or free less")
 
 
-def _texts(values: Mapping[str, str]) -> tuple[str, ...]:
-    return tuple(f"{key}={value}" for key, value in values.items())
-
-
 def _text_of(scene: str, found: Fit) -> str:
     """The fitted scene, resolved, with what each value is known to."""
     said = [
@@ -387,4 +385,4 @@ def _text_of(scene: str, found: Fit) -> str:
         if math.isfinite(each.low) else f"# {each.key}: {each.value:.6g}, {each.remark or 'no interval'}"
         for each in found.parameters
     ]  # fmt: skip
-    return "\n".join([f"# {scene}, fitted", *said, scene_of(scene, _texts(found.values)).to_yaml()])
+    return "\n".join([f"# {scene}, fitted", *said, scene_of(scene, texts_of(found.values)).to_yaml()])

@@ -6,13 +6,13 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from contact_sim_pkg.files import FileRefusedError, wrong_name
+from contact_sim_pkg.files import FileRefusedError, new_file, wrong_name
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.pool import run_all
 from contact_sim_pkg.sweep.table import SweepTable
 from contact_sim_pkg.sweep.variation import Values, Variation
 
-__all__ = ["TABLE", "check_folder", "processors", "sweep", "try_ends"]
+__all__ = ["TABLE", "check_folder", "processors", "sweep", "texts_of", "try_ends"]
 
 TABLE, CASES = "table.csv", "cases"
 
@@ -26,11 +26,11 @@ def try_ends(scene: str, variations: Sequence[Variation], values: Sequence[Value
 
     Raises SceneError, which names the option.
     """
-    scene_of(scene, _texts(values[0]))
+    scene_of(scene, texts_of(values[0]))
     usual = values[0]
     tried = {(each.key, end) for each in variations for end in each.ends} - {*usual.items()}
     for key, end in sorted(tried):
-        scene_of(scene, _texts({**usual, key: end}))
+        scene_of(scene, texts_of({**usual, key: end}))
 
 
 def sweep(
@@ -60,7 +60,7 @@ def sweep(
     (folder / CASES).mkdir(parents=True, exist_ok=True)
     count = jobs or processors()
     tasks = [
-        Task(number, scene, _texts(each), str(folder.absolute()), keep_bags, sources_hash())
+        Task(number, scene, texts_of(each), str(folder.absolute()), keep_bags, sources_hash())
         for number, each in enumerate(values)
     ]
     rows: list[Row] = []
@@ -70,9 +70,8 @@ def sweep(
             notify(_progress(rows, len(tasks)), len(rows) / len(tasks))
     finally:  # interrupted as well: what has ended is there
         table = SweepTable(values, rows)
-        partial = folder / f"{TABLE}.partial"
-        partial.write_text(table.csv(), encoding="utf-8")
-        partial.replace(folder / TABLE)
+        with new_file(folder / TABLE, overwrite=True) as file:
+            file.write(table.csv().encode())
     return table
 
 
@@ -99,7 +98,8 @@ def check_folder(folder: Path) -> None:
         raise FileRefusedError(folder, "exists already and holds something else than a sweep; give another name")
 
 
-def _texts(values: Values) -> tuple[str, ...]:
+def texts_of(values: Values) -> tuple[str, ...]:
+    """What a case sets, as `--set` takes it."""
     return tuple(f"{key}={value}" for key, value in values.items())
 
 
@@ -112,6 +112,7 @@ def _is_number(text: str) -> bool:
 
 
 def processors() -> int:
+    """Number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

@@ -97,7 +97,7 @@ def test_tiles_say_the_same():
     tiles = tiles_of(METRICS)
     assert [(tile.value, tile.verdict) for tile in tiles[:2]] == [("57.2", "good"), ("131", "OUTSIDE")]
     assert doubts_of(METRICS) == ["too short: 3 s, 34 s needed (doubtful)"]
-    assert tiles[3].tone == "doubt"
+    assert tiles[3].tone == "doubtful"
     assert tiles[0].spread.replace("\N{NO-BREAK SPACE}", " ") == "± 0.125 numerical, ± 2.1 random"
 
 

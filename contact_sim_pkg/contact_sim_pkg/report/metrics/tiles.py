@@ -85,7 +85,7 @@ def _tile(metric: Metric) -> Tile:
     return Tile(
         label=metric.name, value=number(metric.value) if defined else "–", unit=_printed(metric.unit) if defined else "",
         spread=", ".join(given) if defined else "", verdict=verdict_text(metric),
-        tone="doubt" if metric.broken else metric.verdict.replace(" ", "-"),
+        tone="doubtful" if metric.broken else metric.verdict.replace(" ", "-"),
         band="" if band is None else band.text, bar=_bar(metric),
     )  # fmt: skip
 
