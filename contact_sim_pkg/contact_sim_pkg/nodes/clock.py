@@ -13,6 +13,7 @@ from contact_sim_pkg.records.messages import Clock, Time
 
 CLOCK = "/clock"
 LOOK_SECONDS = 0.5  # between two looks at the graph
+CLAIM_SECONDS = 0.3  # for two simulators to hear of each other's publisher before the first time is sent
 NAME_SECONDS = 3.0  # for the graph to learn the name of who else publishes
 
 
@@ -31,15 +32,26 @@ class SimulatedClock:
     """
 
     def __init__(self, node: Node, *, wanted: bool) -> None:
-        """Nothing is published before `start`."""
+        """Nothing is published before `start`, and nothing announced before `claim`."""
         self._node = node
         self._publisher: Publisher | None = None
         self._undecided = wanted  # until the warning about another clock
         self._looked = self._began = 0.0
 
+    def claim(self, now: float) -> bool:
+        """Announce a publisher, unless somebody publishes a clock already; whether `start` may follow at `now` of the
+        steady clock, [s].
+
+        Where another simulator is in the graph it may not at once: two that begin at the same moment first hear of each
+        other's publisher.
+        """
+        if not self._began:
+            self._began = now
+            self._look(now)
+        return not self._undecided or now - self._began >= CLAIM_SECONDS or not self._other_simulators()
+
     def start(self, now: float) -> None:
-        """Begin, unless somebody publishes a clock already; `now` is the steady clock, [s]."""
-        self._began = now
+        """Begin, or give way; `now` is the steady clock, [s]."""
         self._look(now)
 
     def publish(self, now: float, time_ns: int) -> None:
@@ -65,6 +77,10 @@ class SimulatedClock:
             self._publisher = None
         if self._publisher is None and (named or (others and now - self._began > NAME_SECONDS)):
             self._warn(others)
+
+    def _other_simulators(self) -> bool:
+        name, own = self._node.get_name(), self._node.get_namespace()
+        return any(entry[0] == name and entry[1] != own for entry in self._node.get_node_names_and_namespaces())
 
     def _is_own(self, info: TopicEndpointInfo) -> bool:
         return (info.node_name, info.node_namespace) == (self._node.get_name(), self._node.get_namespace())

@@ -84,9 +84,10 @@ class ContactSimulatorNode(LifecycleBenchNode):
         if not self.active:
             return 1.0
         if run.state is RunState.STARTING:
-            if self._peers.complete(now):
+            if self._out.clock.claim(now) and self._peers.complete(now):
+                self._out.progress.settle()  # matched on this side only, a follower could hear of a later block first
                 self._out.clock.start(now)
-                run.start(now)
+                run.start(time.monotonic())
                 self.announce("ready")
             return PEERS_SECONDS
         if self._peers.alone(now):
