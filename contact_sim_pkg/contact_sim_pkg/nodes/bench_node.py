@@ -4,6 +4,7 @@ itself unless `autostart` is false.
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
@@ -18,6 +19,7 @@ from contact_sim_pkg.run.errors import RunError
 
 NAMES = {1: "configure", 2: "cleanup", 3: "activate", 4: "deactivate", 5: "shutdown", 6: "shutdown", 7: "shutdown"}
 """Transitions of `lifecycle_msgs/Transition` by number; shutdown has one for each state that it begins in."""
+ANSWER_SECONDS = 0.3  # for the answer to a request to arrive: of a service the middleware does not tell
 SUPERVISOR_TEXT = "Process number of the supervisor that started this node; the node ends when it is gone. 0: none."
 
 
@@ -42,6 +44,7 @@ class LifecycleBenchNode(LifecycleNode):
         self.supervisor = declare(self, "supervisor", 0, SUPERVISOR_TEXT)
         self._autostart = declare(self, "autostart", True, "Configure and activate at the start of the process.")
         self.active = False
+        self._answered = float("-inf")  # steady clock, [s]
         self._endpoints_before: list[Publisher | Subscription] = []
         self._change_state = self._service_change_state.callback
         self._service_change_state.callback = self._on_change_state  # that of rclpy raises for what does not exist now
@@ -63,6 +66,7 @@ class LifecycleBenchNode(LifecycleNode):
 
     def _on_change_state(self, request: Any, response: Any) -> Any:
         """Answer a request for a transition, by its label or else its number."""
+        self._answered = time.monotonic()
         possible = {label: number for number, label, *_ in self._state_machine.available_transitions}
         names = {number: label for label, number in possible.items()}
         wanted = request.transition.label or names.get(request.transition.id, "")
@@ -143,8 +147,10 @@ class LifecycleBenchNode(LifecycleNode):
         """Destroy the node and the state machine, which rclpy leaves to the garbage collector.
 
         It would hold the middleware until the libraries are taken down at the end of the process,
-        while threads of the middleware are still at work: a segmentation fault, rarely.
+        while threads of the middleware are still at work: a segmentation fault, rarely. Whoever asked for the end first
+        gets an answer: a process that leaves at once takes it along.
         """
+        time.sleep(max(0.0, self._answered + ANSWER_SECONDS - time.monotonic()))
         super().destroy_node()
         self._state_machine.destroy_when_not_in_use()
 

@@ -12,7 +12,7 @@ from contact_sim_pkg.records.messages import BenchProgress
 
 PERIOD_SECONDS = 1.0
 WARN_SECONDS = 5.0  # that a warning shows for
-SETTLE_SECONDS = 0.2
+SETTLE_SECONDS = 0.5
 NOTHING = "none"
 
 
