@@ -36,6 +36,8 @@ from contact_sim_pkg.report.signal.episodes import episode_series
 from contact_sim_pkg.run.outputs import Estimate
 from contact_sim_pkg.scene.errors import SceneError
 
+MOST_RUNS = 6
+"""of one comparison"""
 FORCE = "contact_msgs_defs/msg/ContactForce"
 PATCH = "contact_msgs_defs/msg/ContactPatch"
 MOTION = "contact_msgs_defs/msg/BodyMotion"
@@ -154,9 +156,13 @@ def rig_of_recording(recording: Recording) -> RigOf:
 
 
 def refuse_other_rigs(runs: Sequence[RigOf]) -> None:
-    """Raises BagError where the runs are not of one rig, or fewer than two."""
+    """Raises BagError where the runs are not of one rig, fewer than two, or more than `MOST_RUNS`."""
     if len(runs) < 2:
         raise BagError(f"a comparison needs at least two bags, {len(runs)} given")
+    if len(runs) > MOST_RUNS:
+        raise BagError(
+            f"a comparison takes at most {MOST_RUNS} bags, {len(runs)} given; `bench sweep` puts many cases into one table"
+        )
     first, *others = runs
     for each in others:
         if each.rig != first.rig or {*each.contacts} != {*first.contacts}:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from string import ascii_uppercase
+
+from markupsafe import Markup
 
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.compare.side_by_side import side_by_side
 from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
-from contact_sim_pkg.report import facts
+from contact_sim_pkg.report.arrangement import Entry, arranged, folds_of
+from contact_sim_pkg.report.arrangement import leading as leading_pictures
 from contact_sim_pkg.report.comparison.curves import compared
 from contact_sim_pkg.report.comparison.figures import (
     Run,
@@ -19,14 +23,18 @@ from contact_sim_pkg.report.comparison.figures import (
     make_runs,
     slap_comparison,
 )
+from contact_sim_pkg.report.comparison.films import data_of_runs, films_of_runs
 from contact_sim_pkg.report.comparison.maps import map_comparison
 from contact_sim_pkg.report.comparison.scene_differences import differences
 from contact_sim_pkg.report.comparison.tables import difference_table, metric_table
+from contact_sim_pkg.report.comparison.verdict import answer_of_runs, letters_of, moved_tiles
 from contact_sim_pkg.report.drawing import Picture, style
+from contact_sim_pkg.report.facts import ended_early, warnings
 from contact_sim_pkg.report.metrics.requirements import Requirement
 from contact_sim_pkg.report.page import Section, rendered
 from contact_sim_pkg.report.place import free_place, new_page
 from contact_sim_pkg.report.reading import read_recording, refuse_other_rigs, rig_of_bag, rig_of_recording
+from contact_sim_pkg.report.rig_reports import answered
 from contact_sim_pkg.report.series import Recording
 
 TEMPLATE = "comparison.html.j2"
@@ -63,22 +71,47 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
     """The page as text. Raises BagError for runs of different rigs, or fewer than two."""
     refuse_other_rigs([rig_of_recording(each) for each in recordings])
     names = distinct_names(recordings)
-    runs = make_runs(names, recordings)
-    sides = side_by_side([compared(name, each, requirements) for name, each in zip(names, recordings, strict=True)])
-    title = " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings))
+    letters = letters_of(names)
+    sides = [compared(name, each, requirements) for name, each in zip(names, recordings, strict=True)]
+    moved, leading = side_by_side(sides), {key for each in sides for key in each.leading}
+    drawn = _sections(make_runs(names, recordings), "run")
+    lead = leading_pictures((), drawn)
+    parts = arranged(drawn, len(lead), {})
+    films = films_of_runs(letters, recordings)
+    unfinished = [
+        f"{letter}: {text}" for letter, each in zip(letters, recordings, strict=True) for text in ended_early(each)
+    ]
+    numbers = metric_table(names, moved)
     return rendered(TEMPLATE, {
-        "title": title, "warnings": [f"{each.name}: {text}" for each in recordings for text in facts.warnings(each)],
-        "count": len(recordings), "differences": difference_table(names, differences([each.scene for each in recordings])),
-        "numbers": metric_table(names, sides), "sections": _sections(runs, "run"),
-    })  # fmt: skip
+        "title": " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings)),
+        "count": len(recordings), "answer": answer_of_runs(names, moved, answered(recordings[0]), unfinished),
+        "conditions": ", ".join(f"{name} of {each.duration:.4g} s" for name, each in zip(names, recordings, strict=True)),
+        "warnings": [f"{each.name}: {text}" for each in recordings for text in warnings(each)],
+        "tiles": moved_tiles(names, moved, leading), "numbers": numbers,
+        "differences": difference_table(names, differences([each.scene for each in recordings])),
+        "maps": films.views, "notes": films.notes, "lead": lead, "drawn": parts,
+        "contents": [Entry("result", "Result"), Entry("time", "Time and maps"),
+                     *(Entry(each.key, each.title) for each in parts), Entry("files", "Files")],
+        "folds": [Entry("fold-metrics", "All metrics"), *folds_of(parts)],
+        "commands": _commands([each.name for each in recordings]),
+        "data": Markup(data_of_runs(letters, recordings, films)),  # noqa: S704 - made by json
+    }, scripts=True)  # fmt: skip
+
+
+def _commands(names: Sequence[str]) -> list[tuple[str, str]]:
+    """Command and what it does, to be called beside the bags."""
+    bags = " ".join(names)
+    return [
+        (f"bench report {bags}", "makes this page"),
+        (f"bench compare {bags} --csv", "prints the metrics"),
+        (f"bench compare {bags} --tolerances FILE", "judges what moved; exit code 1 beyond a tolerance"),
+        (f"bench report {names[0]}", "makes the page of one run"),
+    ]
 
 
 def distinct_names(recordings: Sequence[Recording]) -> list[str]:
-    """Names of the bags, of two runs with A and B before them; equal names with their number."""
-    names = [each.name for each in recordings]
-    if len(set(names)) < len(names):
-        names = [f"{name} ({place})" for place, name in enumerate(names, start=1)]
-    return [f"{letter}: {name}" for letter, name in zip("AB", names, strict=True)] if len(names) == 2 else names
+    """Names of the bags with A, B and so on before them."""
+    return [f"{letter}: {each.name}" for letter, each in zip(ascii_uppercase, recordings, strict=False)]
 
 
 def _sections(runs: list[Run], title: str) -> list[Section]:
@@ -87,9 +120,9 @@ def _sections(runs: list[Run], title: str) -> list[Section]:
         for number, name in enumerate(runs[0].recording.contacts):
             key = f"contact-{number}"
             made: list[Picture | None] = [
+                *_rig_pictures(key, name, runs),
                 force_comparison(key, name, runs, title),
                 map_comparison(key, name, runs),
-                *_rig_pictures(key, name, runs),
                 loop_comparison(key, name, runs, title),
             ]
             made += [area_comparison(key, name, runs, title), slap_comparison(key, name, runs, title)]
