@@ -22,8 +22,11 @@ __all__ = ["RunFilms", "data_of_runs", "films_of_runs"]
 UNMOVED = Alignment(0.0, 0.0, 0.0, 1.0, None)
 MIDDLE = 128
 """byte of no difference; 1: that of `Difference.largest` less, 255: so much more, 0: nothing presses"""
-LEAST_SCALE = 4.0
-"""bytes of the films at the end of the colours of a difference: one is lost by rounding"""
+LEAST_SCALE = 16.0
+"""bytes of the films at the end of the colours of a difference: one of them is rounding"""
+
+ROUNDING = 1e-6
+"""cells"""
 
 PlaceArray = NDArray[np.uint32]
 
@@ -122,7 +125,10 @@ def _difference(films: tuple[Film, Film], moved: int, by: Alignment) -> Differen
     axes = []
     for axis, (cell, origin) in enumerate(((fixed.cell_x, fixed.origin_x), (fixed.cell_y, fixed.origin_y))):
         ends = (reached[:, axis] - origin) / cell
-        low, high = min(0, math.floor(ends.min())), max(fixed.frames.shape[1 + axis] - 1, math.ceil(ends.max()))
+        low, high = (
+            min(0, math.floor(ends.min() + ROUNDING)),
+            max(fixed.frames.shape[1 + axis] - 1, math.ceil(ends.max() - ROUNDING)),
+        )
         axes.append(origin + cell * np.arange(low, high + 1))
     x, y = np.meshgrid(*axes, indexing="ij")
     across, along = x - by.shift_x, y - by.shift_y
@@ -150,8 +156,8 @@ def _view(name: str, difference: Difference, films: tuple[Film, Film]) -> MapVie
     least, most = (kilo * float(choose(np.append(frame, 0.0))) for choose in (np.nanmin, np.nanmax))
     length, width = 1e3 * difference.rows * difference.cell_x, 1e3 * difference.cols * difference.cell_y
     return MapView(
-        name, picture, difference.rows, difference.cols, width / length, f"{time:.3f} s · {least:.0f} to {most:.0f} kPa", end,
-        f"{length:.0f} × {width:.0f} mm", f"−{end}",
+        name, picture, difference.rows, difference.cols, width / length, f"{time:.3f} s · {least:.3g} to {most:.3g} kPa", end,
+        f"{length:.0f} × {width:.0f} mm", f"-{end}",
     )  # fmt: skip
 
 

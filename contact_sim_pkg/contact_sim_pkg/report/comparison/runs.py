@@ -38,6 +38,8 @@ from contact_sim_pkg.report.rig_reports import answered
 from contact_sim_pkg.report.series import Recording
 
 TEMPLATE = "comparison.html.j2"
+MOST_NAMED = 3
+"""Tiles of what the answer names and a limit judges, whether it moved most or not."""
 
 
 def write_comparison(
@@ -73,7 +75,12 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
     names = distinct_names(recordings)
     letters = letters_of(names)
     sides = [compared(name, each, requirements) for name, each in zip(names, recordings, strict=True)]
-    moved, leading = side_by_side(sides), {key for each in sides for key in each.leading}
+    moved, named = side_by_side(sides), answered(recordings[0])
+    # what its rigs want shown, and what the answer is judged by
+    leading = {key for each in sides for key in each.leading}
+    leading |= {
+        each.key for each in [each for each in moved if each.key in named and each.limit and each.moved][:MOST_NAMED]
+    }
     drawn = _sections(make_runs(names, recordings), "run")
     lead = leading_pictures((), drawn)
     parts = arranged(drawn, len(lead), {})
@@ -84,7 +91,7 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
     numbers = metric_table(names, moved)
     return rendered(TEMPLATE, {
         "title": " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings)),
-        "count": len(recordings), "answer": answer_of_runs(names, moved, answered(recordings[0]), unfinished),
+        "count": len(recordings), "answer": answer_of_runs(names, moved, named, unfinished),
         "conditions": ", ".join(f"{name} of {each.duration:.4g} s" for name, each in zip(names, recordings, strict=True)),
         "warnings": [f"{each.name}: {text}" for each in recordings for text in warnings(each)],
         "tiles": moved_tiles(names, moved, leading), "numbers": numbers,

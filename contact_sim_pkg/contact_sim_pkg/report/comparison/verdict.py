@@ -26,6 +26,8 @@ class Moved(NamedTuple):
     value: str
     change: str
     """with its uncertainty where that is known"""
+    share: str
+    """of the first run's value, `+5 %`"""
     word: str
     """better or worse by a limit; higher or lower where no limit says which is better"""
     tone: str
@@ -66,7 +68,7 @@ def answer_of_runs(
     letters = letters_of(names)
     told = sorted((each for each in sides if each.basis != SELF_CHECK), key=lambda each: each.key not in named)
     found = [
-        _answer([each.against_first(place) for each in told], letters[0], letter)
+        _answer([each.against_first(place) for each in told], named, letters[0], letter)
         for place, letter in enumerate(letters[1:], start=1)
     ]
     if len(found) == 1:
@@ -81,25 +83,31 @@ def letters_of(names: Sequence[str]) -> list[str]:
     return [name.partition(":")[0] for name in names]
 
 
-def _answer(pairs: Sequence[ComparedMetric], first: str, letter: str) -> Answer:
-    """Of two runs, the metrics that speak first at their begin."""
-    words = [each.comparison for each in pairs]
+def _answer(pairs: Sequence[ComparedMetric], named: Collection[str], first: str, letter: str) -> Answer:
+    """Of two runs: what the metrics say that are ``named``, else what all do."""
+    speaking = [each for each in pairs if each.key in named and each.comparison] or pairs
     better, worse, unknown = (
-        [each for each, said in zip(pairs, words, strict=True) if said == wanted] for wanted in (BETTER, WORSE, UNKNOWN)
+        [each for each in speaking if each.comparison == word] for word in (BETTER, WORSE, UNKNOWN)
     )
     if better or worse:
         return _judged(better, worse, unknown, first, letter)
+    rest = "".join(
+        f"; {word} by {_names(told)}"
+        for word in (BETTER, WORSE)
+        if (told := [each for each in pairs if each.comparison == word])
+    )
     if unknown:
-        text = f"{_change(unknown[0])}, whose spread is not known{_doubts(unknown[0])}"
-        return Answer("doubtful", f"{letter} undecided", f"{text}.")
-    moved = max((each for each, said in zip(pairs, words, strict=True) if not said), key=_moved, default=None)
-    if moved is not None and math.isfinite(moved.change):
-        text = f"most moved {_change(moved)}; no limit says which run is better"
-        return Answer("usual", f"{letter} differs", f"{text}.")
-    within = max((each for each in pairs if math.isfinite(each.change)), key=_moved, default=None)
+        text = f"the spread is not known of {_change(unknown[0])}{_more(unknown, 'nor of')}"
+        return Answer("doubtful", f"{letter} undecided", f"{text}{rest}{_doubts(unknown[0])}.")
+    known = [each for each in speaking if math.isfinite(each.change)]
+    moved = max((each for each in known if not each.comparison), key=_moved, default=None)
+    if moved is not None:
+        return Answer("usual", f"{letter} differs", f"most moved {_change(moved)}; no limit says which run is better.")
+    within = max(known, key=_moved, default=None)
     if within is None or within.change == 0.0:
-        return Answer("usual", f"{letter} is the same", f"no metric differs from {first}.")
-    return Answer("usual", "No difference beyond ±", f"{letter} against {first}, most moved {_change(within)}.")
+        return Answer("usual", f"{letter} is the same", f"no metric differs from {first}{rest}.")
+    others = [within, *(each for each in known if each is not within)]
+    return Answer("usual", f"{letter}: no difference beyond ±", f"{_change(within)}{_more(others, 'nor of')}{rest}.")
 
 
 def _judged(
@@ -123,8 +131,8 @@ def _judged(
     return Answer(tone, word, f"{text}{rest}{doubts}.")
 
 
-def _more(told: Sequence[ComparedMetric]) -> str:
-    return f", also by {_names(told[1:])}" if len(told) > 1 else ""
+def _more(told: Sequence[ComparedMetric], joined: str = "also by") -> str:
+    return f", {joined} {_names(told[1:])}" if len(told) > 1 else ""
 
 
 def _names(told: Sequence[ComparedMetric]) -> str:
@@ -154,10 +162,7 @@ def _tile(letters: Sequence[str], side: ComparedMetric) -> MovedTile:
     moved = []
     for letter, each in zip(letters[1:], pairs, strict=True):
         word = each.comparison or ("absent" if math.isnan(each.change) else "higher" if each.change > 0.0 else "lower")
-        change = f"{_with_uncertainty(each)}{_percent(each)}" if math.isfinite(each.change) else ""
-        moved.append(Moved(letter, number(each.values[1]), change, word, TONES.get(word, "usual")))
+        change = _with_uncertainty(each) if math.isfinite(each.change) and each.change else ""
+        share = f"{signed(100.0 * each.relative)} %" if math.isfinite(each.relative) and each.change else ""
+        moved.append(Moved(letter, number(each.values[1]), change, share, word, TONES.get(word, "usual")))
     return MovedTile(side.name, printed_unit(side.unit), letters[0], number(side.values[0]), moved)
-
-
-def _percent(side: ComparedMetric) -> str:
-    return f", {signed(100.0 * side.relative)} %" if math.isfinite(side.relative) and side.change else ""

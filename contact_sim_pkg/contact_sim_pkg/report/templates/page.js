@@ -28,7 +28,7 @@
       const share = length > 0 ? Math.min(Math.max((time - one.time[first]) / length, 0), 1) : 0;
       return place => (place === 0 ? 0 : (1 - share) * one.frames[first * one.cells + place - 1] + share * one.frames[last * one.cells + place - 1]);
     };
-    const frame = new Uint8Array(film.rows * film.cols);
+    const frame = new Uint8Array(film.rows * film.cols), kilo = value => Number((value * film.unit).toPrecision(3)).toString();
     const show = time => {
       const [first, second] = pair.map(one => at(one, time));
       let least = 0, most = 0;
@@ -39,7 +39,7 @@
         frame[cell] = a > 0 || b > 0 ? Math.min(Math.max(Math.round(128 + 127 * (b - a) / film.largest), 1), 255) : 0;
       }
       paint(frame, 0);
-      text.textContent = `${time.toFixed(3)} s · ${(least * film.unit).toFixed(0)} to ${(most * film.unit).toFixed(0)} kPa`;
+      text.textContent = `${time.toFixed(3)} s · ${kilo(least)} to ${kilo(most)} kPa`;
     };
     return {show};
   };
