@@ -150,6 +150,20 @@ def rig_of_bag(bag: Bag) -> RigOf:
     return RigOf(bag.path.parent.name, str(scene.get("rig") or "unknown"), tuple(forces))
 
 
+def holds_only_fields(bag: Bag) -> bool:
+    """Whether a bag is of a mat, before a message is read."""
+    types = {row.type for row in bag.topics.values()}
+    return PATCH in types and not types & set(SERIES_TYPES)
+
+
+def refuse_incomparable(bags: Sequence[Bag]) -> bool:
+    """Whether a mat is among the bags, which is laid over a run of any rig; without one BagError as `refuse_other_rigs`."""
+    if any(map(holds_only_fields, bags)):
+        return True
+    refuse_other_rigs([rig_of_bag(each) for each in bags])
+    return False
+
+
 def rig_of_recording(recording: Recording) -> RigOf:
     """The same of a bag that has been read."""
     return RigOf(recording.name, str(recording.scene.get("rig") or "unknown"), tuple(recording.contacts))
