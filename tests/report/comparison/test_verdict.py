@@ -33,6 +33,8 @@ def side(key, *values, spread=math.nan, limit=None, basis=EVENT, broken=()):
         ([side("SEAT", 60.0, 50.0, limit=AT_MOST, basis=STATIONARY, broken=("too short",))], "doubtful", "B undecided",
          "the spread is not known of SEAT 60 → 50 % (-10) (too short)."),
         ([side("x", 60.0, 50.0)], "usual", "B differs", "most moved x 60 → 50 % (-10); no limit says which run is better."),
+        ([side("x", 60.0, 50.0), side("SEAT", 0.0, 0.0, limit=AT_MOST), side("a_w", 3.0, 3.1, spread=1.0)], "usual", "B differs",
+         "most moved x 60 → 50 % (-10); no limit says which run is better."),
         ([side("x", 60.0, 60.0)], "usual", "B is the same", "no metric differs from A."),
     ],
 )  # fmt: skip

@@ -84,8 +84,8 @@ def letters_of(names: Sequence[str]) -> list[str]:
 
 
 def _answer(pairs: Sequence[ComparedMetric], named: Collection[str], first: str, letter: str) -> Answer:
-    """Of two runs: what the metrics say that are ``named``, else what all do."""
-    speaking = [each for each in pairs if each.key in named and each.comparison] or pairs
+    """Of two runs: what the metrics say that are ``named``, have a limit and moved, else what all do."""
+    speaking = [each for each in pairs if each.key in named and each.limit and each.comparison and each.change] or pairs
     better, worse, unknown = (
         [each for each in speaking if each.comparison == word] for word in (BETTER, WORSE, UNKNOWN)
     )
