@@ -17,7 +17,15 @@ def field(load, peak, where=(2, 1)):
     pressure = np.zeros((ROWS, COLS))
     pressure[where] = peak
     return SimpleNamespace(
-        rows=ROWS, cols=COLS, pressure=pressure.ravel(), load=load, peak=peak, cell_x=0.01, cell_y=0.02
+        rows=ROWS,
+        cols=COLS,
+        pressure=pressure.ravel(),
+        load=load,
+        peak=peak,
+        cell_x=0.01,
+        cell_y=0.02,
+        origin_x=-0.03,
+        origin_y=0.1,
     )
 
 
@@ -38,6 +46,7 @@ def test_few_fields_are_all_kept_and_cut_to_what_is_loaded():
     assert film.frames[0, 1, 1] == 128  # half of 255, rounded up: what is loaded is never blank
     assert film.frames[1, 2, 2] == 255
     assert np.count_nonzero(film.frames) == 2
+    assert (film.origin_x, film.origin_y) == pytest.approx((-0.03 + 0.01, 0.1))
 
 
 def test_of_many_fields_the_largest_load_and_peak_are_kept():

@@ -44,31 +44,32 @@ def command(
 ) -> None:
     """Write the report page of BAG and print its path.
 
-    Several bags of one rig are overlaid on one page, named by what differs between their scenes.
+    Up to six bags of one rig are compared on one page, each with the first. A pressure mat (its file, or the bag of
+    `bench import`) and a run are laid over each other.
     """
     _refuse_unused(len(bags), printed is not None, bool(wanted), across_versions)
     from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.bag.versions import differences_from, differences_of_bags, installed_versions
+    from contact_sim_pkg.cli.bags.mats import bag_of
     from contact_sim_pkg.report.metrics.requirements import read_requirements
     from contact_sim_pkg.report.place import free_figure, free_place
+    from contact_sim_pkg.report.reading import refuse_incomparable
     from contact_sim_pkg.run.bag_content import kernel_fingerprint
 
     requirements = read_requirements(wanted)
-    recorded = [open_bag(bag, skip_bad=skip_bad) for bag in bags]
+    kept = click.get_current_context().with_resource
+    recorded = [open_bag(bag_of(bag, kept) if len(bags) > 1 else bag, skip_bad=skip_bad) for bag in bags]
     if printed:
         free_figure(recorded[0], *printed, out, overwrite=overwrite)
     else:
         free_place(recorded, out, overwrite=overwrite)
-    if len(recorded) > 1:
-        from contact_sim_pkg.report.reading import refuse_other_rigs, rig_of_bag
-
-        refuse_other_rigs([rig_of_bag(bag) for bag in recorded])
+    mats = len(recorded) > 1 and refuse_incomparable(recorded)
     for each in recorded:
         for note in each.notes:
             say(note if len(bags) == 1 else f"{each.path.parent.name}: {note}", err=True)
     # a page of several bags compares their versions, a page of one those of this installation
     here = installed_versions(kernel_fingerprint())
-    others = differences_of_bags(recorded, across=across_versions) or [
+    others = differences_of_bags(recorded, across=across_versions or mats) or [
         differences_from(each, here) for each in recorded
     ]
     for line in filter(None, others):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from fnmatch import fnmatchcase
+from operator import itemgetter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -75,6 +76,14 @@ class ComparedMetric(NamedTuple):
             return "spread not known"
         return "better" if (self.change < 0.0) == math.isinf(ends[0]) else "worse"
 
+    def against_first(self, place: int) -> ComparedMetric:
+        """The metric in the first run and in that at a ``place`` from 1 on: two runs, whose `change` is theirs."""
+        two = itemgetter(0, place)
+        return self._replace(
+            values=two(self.values), verdicts=two(self.verdicts), errors=two(self.errors) if self.errors else (),
+            spreads=two(self.spreads) if self.spreads else (),
+        )  # fmt: skip
+
     @property
     def change(self) -> float:
         """Last value less the first."""
@@ -91,11 +100,11 @@ class ComparedMetric(NamedTuple):
 
     @property
     def moved(self) -> float:
-        """Largest difference of two runs over the largest magnitude, 0 to 2; -1 where a run lacks it."""
+        """Largest difference from the first run over the largest magnitude, 0 to 2; -1 where a run lacks it."""
         if not all(map(math.isfinite, self.values)):
             return -1.0
         size = max(map(abs, self.values))
-        return (max(self.values) - min(self.values)) / size if size else 0.0
+        return max(abs(each - self.values[0]) for each in self.values) / size if size else 0.0
 
     @property
     def verdict(self) -> str:
@@ -122,6 +131,8 @@ class Compared(NamedTuple):
     curves: Mapping[str, Curve]
     warnings: Sequence[str] = ()
     """how it ended early, and excitation that is not its scene's"""
+    leading: Sequence[str] = ()
+    """keys of metrics that the page of a comparison always shows first"""
 
 
 class Tolerance(NamedTuple):

@@ -59,6 +59,7 @@ class ContactReport:
             for what is remarked of it; a phrase without its metric is left out.
         curves: (recording) -> `compare.side_by_side.Curve` by name, for tolerances.
         comparison: (key, contact, runs) -> pictures that compare several runs.
+        compared: (recording) -> metrics that a comparison lists and shows first, beside the list of the run.
         weighted: (recording, weighting) -> metrics of what shakes a person, by that weighting.
         tables: (recording) -> `Section`s of `bench table`, by the kind of table.
     """
@@ -76,5 +77,6 @@ class ContactReport:
     answer: tuple[str, ...] = ()
     curves: str = ""
     comparison: str = ""
+    compared: str = ""
     weighted: str = ""
     tables: Mapping[str, str] = field(default_factory=dict)

@@ -33,6 +33,23 @@ class Film(NamedTuple):
     cell_x: float
     cell_y: float
     """[m]"""
+    origin_x: float = 0.0
+    origin_y: float = 0.0
+    """[m] centre of cell (0, 0), forward and left"""
+
+    def on_scale(self, largest: float) -> Film:
+        """The film with 255 at ``largest`` [Pa], which is not below its own."""
+        scaled = np.ceil(self.frames * (self.largest / largest if largest > 0.0 else 0.0))
+        return self._replace(frames=scaled.astype(np.uint8), largest=largest)
+
+    def at(self, time: float) -> NDArray[np.float64]:
+        """Values [rows, cols] at a time [s], between two frames along a straight line."""
+        after = int(np.clip(np.searchsorted(self.time, time), 1, max(self.time.size - 1, 1)))
+        first, last = after - 1, min(after, self.time.size - 1)
+        between = self.time[last] - self.time[first]
+        share = float(np.clip((time - self.time[first]) / between, 0.0, 1.0)) if between > 0.0 else 0.0
+        found: NDArray[np.float64] = (1.0 - share) * self.frames[first] + share * self.frames[last]
+        return found
 
     @property
     def heaviest(self) -> int:
@@ -73,13 +90,15 @@ class FilmReader:
             field = np.reshape(message.pressure, (message.rows, message.cols))
             pressure[number, row : row + message.rows, col : col + message.cols] = np.nan_to_num(field)
         rows, cols = (np.flatnonzero(pressure.any(axis=axes)) for axes in ((0, 2), (0, 1)))
+        row, col = (max(int(each[0]) - 1, 0) if each.size else 0 for each in (rows, cols))
         if rows.size:
-            pressure = pressure[:, max(rows[0] - 1, 0) : rows[-1] + 2, max(cols[0] - 1, 0) : cols[-1] + 2]
+            pressure = pressure[:, row : rows[-1] + 2, col : cols[-1] + 2]
         largest = float(pressure.max(initial=0.0))
         scaled = np.ceil(pressure * (255.0 / largest if largest > 0.0 else 0.0))
         loads, peaks = (np.array([float(getattr(chosen[time], name)) for time in times]) for name in ("load", "peak"))
         frames = np.clip(scaled, 0.0, 255.0).astype(np.uint8)
-        return Film(np.array(times), loads, peaks, frames, largest, widest.cell_x, widest.cell_y)
+        origin = widest.origin_x + row * widest.cell_x, widest.origin_y + col * widest.cell_y
+        return Film(np.array(times), loads, peaks, frames, largest, widest.cell_x, widest.cell_y, *origin)
 
 
 def png_of(frame: ByteArray, colours: ByteArray) -> bytes:

@@ -36,6 +36,8 @@ from contact_sim_pkg.report.signal.episodes import episode_series
 from contact_sim_pkg.run.outputs import Estimate
 from contact_sim_pkg.scene.errors import SceneError
 
+MOST_RUNS = 6
+"""of one comparison"""
 FORCE = "contact_msgs_defs/msg/ContactForce"
 PATCH = "contact_msgs_defs/msg/ContactPatch"
 MOTION = "contact_msgs_defs/msg/BodyMotion"
@@ -148,15 +150,33 @@ def rig_of_bag(bag: Bag) -> RigOf:
     return RigOf(bag.path.parent.name, str(scene.get("rig") or "unknown"), tuple(forces))
 
 
+def holds_only_fields(bag: Bag) -> bool:
+    """Whether a bag is of a mat, before a message is read."""
+    types = {row.type for row in bag.topics.values()}
+    return PATCH in types and not types & set(SERIES_TYPES)
+
+
+def refuse_incomparable(bags: Sequence[Bag]) -> bool:
+    """Whether a mat is among the bags, which is laid over a run of any rig; without one BagError as `refuse_other_rigs`."""
+    if any(map(holds_only_fields, bags)):
+        return True
+    refuse_other_rigs([rig_of_bag(each) for each in bags])
+    return False
+
+
 def rig_of_recording(recording: Recording) -> RigOf:
     """The same of a bag that has been read."""
     return RigOf(recording.name, str(recording.scene.get("rig") or "unknown"), tuple(recording.contacts))
 
 
 def refuse_other_rigs(runs: Sequence[RigOf]) -> None:
-    """Raises BagError where the runs are not of one rig, or fewer than two."""
+    """Raises BagError where the runs are not of one rig, fewer than two, or more than `MOST_RUNS`."""
     if len(runs) < 2:
         raise BagError(f"a comparison needs at least two bags, {len(runs)} given")
+    if len(runs) > MOST_RUNS:
+        raise BagError(
+            f"a comparison takes at most {MOST_RUNS} bags, {len(runs)} given; `bench sweep` puts many cases into one table"
+        )
     first, *others = runs
     for each in others:
         if each.rig != first.rig or {*each.contacts} != {*first.contacts}:

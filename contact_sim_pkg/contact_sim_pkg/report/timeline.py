@@ -1,10 +1,10 @@
-"""The series of a run for the page's interactive view, on one axis of time, and the films that its cursor moves."""
+"""The series of runs for the page's interactive view, on one axis of time, and the films that its cursor moves."""
 
 from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,9 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 from contact_sim_pkg.report.drawing import PRESSURE_COLOURS
 from contact_sim_pkg.report.film import Film, png_of
 from contact_sim_pkg.report.rows import number
-from contact_sim_pkg.report.series import FieldSeries, FloatArray, Recording
+from contact_sim_pkg.report.series import FloatArray, Recording
 
-__all__ = ["MapView", "colours_as_text", "map_views", "page_data"]
+__all__ = [
+    "MapView", "Series", "as_floats", "as_text", "colours_as_text", "data_of", "film_data", "films_of", "groups_of", "map_view",
+    "map_views", "page_data",
+]  # fmt: skip
 
 INTERVALS = 1000
 """Intervals of the view; each shows the smallest and the largest value in it."""
@@ -37,20 +40,22 @@ class MapView(NamedTuple):
     """[kPa] at the upper end of the colours"""
     size: str
     """[mm] length and width of what is shown"""
+    least: str = "0"
+    """[kPa] at the lower end of the colours"""
 
 
 def map_views(recording: Recording) -> list[MapView]:
     """A view a contact with a pressure field that carries a load."""
-    colours = _colours()
-    return [_map_view(name, field.film, colours) for name, field in _films(recording)]
+    return [map_view(name, film) for name, film in films_of(recording)]
 
 
-def _map_view(name: str, film: Film, colours: NDArray[np.uint8]) -> MapView:
+def map_view(name: str, film: Film) -> MapView:
+    """A film at its largest load."""
     place = film.heaviest
     _, rows, cols = film.frames.shape
     length, width = 1e3 * rows * film.cell_x, 1e3 * cols * film.cell_y
     said = frame_text(film.time[place], film.load[place], film.peak[place])
-    picture = base64.b64encode(png_of(film.frames[place], colours)).decode()
+    picture = as_text(png_of(film.frames[place], _colours()))
     return MapView(
         name, picture, rows, cols, width / length, said, number(1e-3 * film.largest), f"{length:.0f} × {width:.0f} mm"
     )
@@ -62,26 +67,38 @@ def frame_text(time: float, load: float, peak: float) -> str:
 
 
 def page_data(recording: Recording) -> str:
-    """What the script of the page draws, as JSON that is safe inside an element of a page.
+    """What the script of the page of a run draws: `data_of`, over distance too where the run travels."""
+    road = recording.series.get("road")
+    travel = None if road is None or np.ptp(road.travel.distance) <= 0.01 else road.travel.at
+    films = [film_data(name, film) for name, film in films_of(recording)]
+    return data_of(groups_of(recording), films, travel)
+
+
+def data_of(
+    groups: Sequence[tuple[str, list[Series]]],
+    films: Sequence[dict[str, Any]],
+    distance: Callable[[FloatArray], FloatArray] | None = None,
+    **more: Any,
+) -> str:
+    """What the script of a page draws, as JSON that is safe inside an element of a page.
 
     Numbers are base64 of little-endian 32-bit floats, frames of bytes.
     """
-    groups = _groups(recording)
     start, end = _span(groups)
     edges = np.linspace(start, end, INTERVALS + 1)
     times = np.repeat(edges[:-1], 2)
     times[1::2] += 0.5 * (edges[1] - edges[0])
-    road = recording.series.get("road")
     data: dict[str, Any] = {
-        "time": _floats(times),
-        "distance": _floats(road.travel.at(times)) if road is not None and np.ptp(road.travel.distance) > 0.01 else None,
+        "time": as_floats(times),
+        "distance": None if distance is None else as_floats(distance(times)),
         "groups": [
-            {"label": label, "series": [{"name": name, "values": _floats(_on(edges, times, time, values))}
+            {"label": label, "series": [{"name": name, "values": as_floats(_on(edges, times, time, values))}
                                         for name, time, values in series]}
             for label, series in groups
         ],
-        "films": [_film_data(name, field.film) for name, field in _films(recording)],
+        "films": films,
         "colours": colours_as_text(),
+        **more,
     }  # fmt: skip
     # inside <script> only "<" could end the element
     return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
@@ -90,7 +107,7 @@ def page_data(recording: Recording) -> str:
 Series = tuple[str, FloatArray, FloatArray]
 
 
-def _groups(recording: Recording) -> list[tuple[str, list[Series]]]:
+def groups_of(recording: Recording) -> list[tuple[str, list[Series]]]:
     """Series that share an axis, by its label."""
     contacts, fields, motion = recording.contacts, recording.fields, recording.motion
     forces: list[Series] = []
@@ -112,15 +129,17 @@ def _groups(recording: Recording) -> list[tuple[str, list[Series]]]:
     return [(label, series) for label, series in found if series]
 
 
-def _films(recording: Recording) -> list[tuple[str, FieldSeries]]:
-    return [(name, field) for name, field in recording.fields.items() if field.film.largest > 0.0]
+def films_of(recording: Recording) -> list[tuple[str, Film]]:
+    """Contacts whose field carries a load, with its film."""
+    return [(name, field.film) for name, field in recording.fields.items() if field.film.largest > 0.0]
 
 
-def _film_data(name: str, film: Film) -> dict[str, Any]:
+def film_data(name: str, film: Film) -> dict[str, Any]:
+    """A film as the script takes it."""
     return {
-        "name": name, "rows": film.frames.shape[1], "cols": film.frames.shape[2], "time": _floats(film.time),
-        "load": _floats(film.load), "peak": _floats(1e-3 * film.peak),
-        "frames": base64.b64encode(film.frames.tobytes()).decode(),
+        "name": name, "rows": film.frames.shape[1], "cols": film.frames.shape[2], "time": as_floats(film.time),
+        "load": as_floats(film.load), "peak": as_floats(1e-3 * film.peak),
+        "frames": as_text(film.frames.tobytes()),
     }  # fmt: skip
 
 
@@ -150,13 +169,19 @@ def _on(edges: FloatArray, times: FloatArray, time: FloatArray, values: FloatArr
     return found
 
 
-def _floats(values: ArrayLike) -> str:
-    return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode()
+def as_floats(values: ArrayLike) -> str:
+    """Numbers as base64 of little-endian 32-bit floats."""
+    return as_text(np.asarray(values, dtype="<f4").tobytes())
+
+
+def as_text(values: bytes) -> str:
+    """Bytes as base64."""
+    return base64.b64encode(values).decode()
 
 
 def colours_as_text() -> str:
     """Four bytes a byte of a frame, as base64."""
-    return base64.b64encode(_colours().tobytes()).decode()
+    return as_text(_colours().tobytes())
 
 
 def _colours() -> NDArray[np.uint8]:

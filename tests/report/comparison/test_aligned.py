@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.report.page import Page
 from tests.report.sitting import SEAT, grid, mat_file, run_bag
 
 from contact_sim_pkg.cli.main import main
@@ -60,6 +61,22 @@ def test_a_mat_and_a_run_are_compared_in_either_order_by_file_or_bag(tmp_path, c
     tolerances.write_text("seat.map_peak: {relative: 0.001}")
     assert main(["compare", str(run), str(tmp_path / "bag"), "--tolerances", str(tolerances)]) == 1
     assert "MISSED" in capsys.readouterr().out
+
+
+def test_the_page_of_a_mat_and_a_run_has_both_maps_and_what_the_run_presses_more(tmp_path, capsys):
+    run = run_bag(tmp_path / "ride")
+    mat = mat_file(tmp_path / "mine.csv", grid(0.0127, 44, 40, math.radians(5.0), (0.02, -0.03)))
+    out = tmp_path / "page.html"
+    assert main(["report", str(mat), str(run), "--out", str(out)]) == 0
+    page = Page(out.read_text(encoding="utf-8"))
+    assert [text for text in page.texts if text.endswith(": seat") or text.startswith("B − A: ")] == [
+        "A: seat", "B: seat", "B − A: seat",
+    ]  # fmt: skip
+    said = " ".join(page.texts)
+    assert "turned by 5.0° to the left" in said
+    assert "cells of 12.7 × 12.7 mm and 10 × 10 mm in A and B" in said
+    assert main(["report", str(mat), str(run), str(run), "--out", str(out)]) == 2
+    assert "compared with one run or one mat; 3 bags" in capsys.readouterr().err
 
 
 def test_what_cannot_lie_on_each_other_is_refused(tmp_path, capsys):

@@ -11,10 +11,10 @@ from contact_sim_pkg.cli.report import command
 from contact_sim_pkg.compare.side_by_side import side_by_side
 from contact_sim_pkg.report.comparison.curves import compared
 from contact_sim_pkg.report.comparison.figures import COLOURS, make_runs
-from contact_sim_pkg.report.comparison.runs import render_comparison, write_comparison
+from contact_sim_pkg.report.comparison.runs import distinct_names, render_comparison, write_comparison
 from contact_sim_pkg.report.comparison.tables import metric_table
 from contact_sim_pkg.report.drawing import style
-from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.reading import MOST_RUNS, read_recording
 from contact_sim_pkg.rigs.backrest.report.figures_comparison import domain_comparison
 
 FREQUENCIES = (4.75, 5.25, 5.75, 6.25)
@@ -34,19 +34,21 @@ def page(bags):
 def test_four_runs_lie_on_one_page_called_by_their_bags(page):
     text = " ".join(page.texts)
     assert "comparison of 4 bags" in text
-    assert page.tags.count("figure") == 6
-    for each in FREQUENCIES:
-        assert page.texts.count(f"run_{each}") >= 1 + 1 + 4, "in both tables and every legend"
+    assert page.tags.count("figure") == 6 + 7, "pictures; a film of each run and of three differences"
+    for letter, each in zip("ABCD", FREQUENCIES, strict=True):
+        name = f"{letter}: run_{each}"
+        assert page.texts.count(name) >= 1 + 1 + 4, "in both tables and every legend"
         assert page.texts.count(f"{each} Hz") >= 1, "in the table of keys"
 
 
 def test_the_table_has_the_metrics_of_every_run(bags):
     recordings = [read_recording(bag) for bag in bags]
-    names = [bag.path.parent.name for bag in bags]
+    names = distinct_names(recordings)
     sides = side_by_side([compared(name, each) for name, each in zip(names, recordings, strict=True)])
     table = metric_table(names, sides)
     rows = {row[0]: row[1:] for row in table.rows}
-    assert table.header[1:-3] == tuple(names)
+    assert table.header[1:5] == tuple(names)
+    assert table.header[5:7] == ("Δ % of B", "B is")
     assert table.header[-2:] == ("rests on", "verdict")
     assert rows["slaps"][:4] == tuple(str(known.touches(each).size) for each in FREQUENCIES)
     assert rows["restitution e, mean"][:4] == ("0.5 ± 0",) * 4  # all slaps are alike
@@ -57,7 +59,7 @@ def test_the_table_has_the_metrics_of_every_run(bags):
 def test_runs_without_slaps_are_compared_without_them(tmp_path):
     kept = [known.backrest_bag(tmp_path / f"{each}", each, slaps=False) for each in (4.0, 5.0)]
     page = Page(write_comparison(kept, tmp_path / "page.html").read_text(encoding="utf-8"))
-    assert page.tags.count("figure") == 5
+    assert page.tags.count("figure") == 5 + 3, "pictures; two films and their difference"
     assert "Work that the contact takes a cycle, and friction" in " ".join(page.texts)
 
 
@@ -83,9 +85,10 @@ def test_other_rigs_are_compared_by_force_and_approach(seat, tmp_path):
     assert page.tags.count("figure") == 3
 
 
-def test_more_runs_than_colours_begin_again():
-    runs = make_runs([str(k) for k in range(len(COLOURS) + 1)], [None] * (len(COLOURS) + 1))
-    assert runs[0].colour == runs[-1].colour
+def test_there_is_a_colour_for_each_of_as_many_runs_as_may_be_compared(seat):
+    assert len({*COLOURS}) == MOST_RUNS
+    with pytest.raises(BagError, match=f"at most {MOST_RUNS} bags, {MOST_RUNS + 1} given"):
+        write_comparison([seat] * (MOST_RUNS + 1))
 
 
 def test_bags_of_two_rigs_are_refused(bags, seat):

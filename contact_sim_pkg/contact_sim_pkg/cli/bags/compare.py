@@ -6,17 +6,16 @@ import math
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from contact_sim_pkg.cli.bags.mats import bag_of
 from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import overwrite_option, print_json, require_option, show_rows
 from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.bag.reader import Bag
     from contact_sim_pkg.compare.side_by_side import Compared, Miss
     from contact_sim_pkg.report.comparison.aligned import MapPair
     from contact_sim_pkg.report.metrics.requirements import Requirement
@@ -124,17 +123,15 @@ def _runs(
     from contact_sim_pkg.report.facts import warnings_of
     from contact_sim_pkg.report.metrics.of_bag import recording_of
     from contact_sim_pkg.report.metrics.requirements import required as judged
-    from contact_sim_pkg.report.reading import refuse_other_rigs, rig_of_bag
+    from contact_sim_pkg.report.reading import refuse_incomparable
 
     with ExitStack() as kept:
-        opened = [open_bag(_bag_of(each, kept), skip_bad=skip_bad) for each in paths]
-        mats = any(_holds_only_fields(bag) for bag in opened)
+        opened = [open_bag(bag_of(each, kept.enter_context), skip_bad=skip_bad) for each in paths]
+        mats = refuse_incomparable(opened)
         if drawn and not mats:
             raise click.UsageError(
                 "--plot draws the maps of a mat and a run; `bench report A B` draws the page of two runs."
             )
-        if not mats:
-            refuse_other_rigs([rig_of_bag(bag) for bag in opened])
         recordings: list[Recording] = []
         for bag in opened:
             doing(f"compare: reading {bag.path}", len(recordings) / len(opened))
@@ -150,32 +147,6 @@ def _runs(
     return [
         Compared(name, judged(each, requirements), {}) for name, each in zip(names, pair.metrics, strict=True)
     ], pair
-
-
-def _bag_of(path: Path, kept: ExitStack) -> Path:
-    """The bag of a mat's file, made for the time of the command; any other path as it is."""
-    from contact_sim_pkg.bag.errors import BagError
-    from contact_sim_pkg.standard.imported_mats import import_mat
-    from contact_sim_pkg.standard.mat_files import is_mat
-
-    if not is_mat(path):
-        return path
-    folder = Path(kept.enter_context(TemporaryDirectory())) / path.stem
-    try:
-        _, notes = import_mat(path, folder)
-    except BagError as error:
-        raise BagError(f"{error} (options of `bench import`, whose bag is taken too)") from None
-    for note in notes:
-        say(f"{path.name}: {note}", err=True)
-    return folder
-
-
-def _holds_only_fields(bag: Bag) -> bool:
-    """Whether a bag is of a mat, before a message is read."""
-    from contact_sim_pkg.report.reading import PATCH, SERIES_TYPES
-
-    types = {row.type for row in bag.topics.values()}
-    return PATCH in types and not types & set(SERIES_TYPES)
 
 
 def _alignment(pair: MapPair | None) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from contact_sim_pkg.compare.side_by_side import Compared, Curve
+from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.metrics.listing import metrics_of
 from contact_sim_pkg.report.metrics.requirements import Requirement, required
@@ -24,5 +25,13 @@ def curves_of(recording: Recording) -> dict[str, Curve]:
 
 
 def compared(name: str, recording: Recording, requirements: Sequence[Requirement] = ()) -> Compared:
-    """A run as it is compared, under the ``name`` of its bag, its metrics judged by ``requirements``."""
-    return Compared(name, required(metrics_of(recording), requirements), curves_of(recording))
+    """A run as it is compared, under the ``name`` of its bag, its metrics judged by ``requirements``: its list, and what
+    its rigs add where runs are compared.
+    """
+    added: list[Metric] = [
+        metric for report in reports_of(recording) if report.compared for metric in load(report.compared)(recording)
+    ]
+    listed = {each.key: each for each in (*added, *metrics_of(recording))}
+    return Compared(
+        name, required([*listed.values()], requirements), curves_of(recording), leading=[each.key for each in added]
+    )

@@ -26,10 +26,10 @@ from contact_sim_pkg.report.signal.loops import (
     tangential_loop,
 )
 
-COLOURS = ("#2f7fb5", "#e08a2e", "#3f9b63", "#b4508f", "#8a6d3b", "#6a6fd0", "#c0392b", "#4aa3a2")
+COLOURS = ("#2f7fb5", "#e08a2e", "#3f9b63", "#b4508f", "#8a6d3b", "#6a6fd0")
 """Of the runs in their order; seen on light and on dark ground."""
 BELOW_LEGEND = Margins(top=0.85, right=0.24)
-"""Room for the legend of up to eight runs."""
+"""Room for the legend of up to six runs."""
 LOOP_POINTS = 3000
 """Most points of the curve of one run."""
 
@@ -50,11 +50,8 @@ class Run(NamedTuple):
 
 
 def make_runs(names: Sequence[str], recordings: Sequence[Recording]) -> list[Run]:
-    """A colour for each; more runs than colours begin again."""
-    return [
-        Run(name, COLOURS[number % len(COLOURS)], each)
-        for number, (name, each) in enumerate(zip(names, recordings, strict=True))
-    ]
+    """A colour for each, of as many as there are."""
+    return [Run(*each) for each in zip(names, COLOURS, recordings, strict=False)]
 
 
 def force_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture:

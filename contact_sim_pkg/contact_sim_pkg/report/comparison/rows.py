@@ -49,8 +49,7 @@ def csv_text(names: Sequence[str], sides: Sequence[ComparedMetric]) -> str:
 def table_rows(names: Sequence[str], sides: Sequence[ComparedMetric]) -> list[dict[str, str]]:
     """The table of the page as rows for a terminal."""
     table = metric_table(names, sides)
-    header = ("metric", *table.header[1:])
-    return [dict(zip(header, row, strict=True)) for row in table.rows]
+    return [dict(zip(table.header, row, strict=True)) for row in table.rows]
 
 
 def junit_text_of(

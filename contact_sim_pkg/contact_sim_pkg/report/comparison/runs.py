@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from string import ascii_uppercase
+
+from markupsafe import Markup
 
 from contact_sim_pkg.bag.reader import Bag
-from contact_sim_pkg.compare.side_by_side import side_by_side
+from contact_sim_pkg.compare.side_by_side import Compared, side_by_side
 from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
-from contact_sim_pkg.report import facts
+from contact_sim_pkg.report.arrangement import Entry, arranged, folds_of
+from contact_sim_pkg.report.arrangement import leading as leading_pictures
+from contact_sim_pkg.report.comparison.aligned import MapPair, compare_maps, is_mat
 from contact_sim_pkg.report.comparison.curves import compared
 from contact_sim_pkg.report.comparison.figures import (
     Run,
@@ -19,17 +24,25 @@ from contact_sim_pkg.report.comparison.figures import (
     make_runs,
     slap_comparison,
 )
-from contact_sim_pkg.report.comparison.maps import map_comparison
+from contact_sim_pkg.report.comparison.films import data_of_runs, films_of_runs
+from contact_sim_pkg.report.comparison.maps import figure_of_maps, map_comparison
 from contact_sim_pkg.report.comparison.scene_differences import differences
 from contact_sim_pkg.report.comparison.tables import difference_table, metric_table
-from contact_sim_pkg.report.drawing import Picture, style
-from contact_sim_pkg.report.metrics.requirements import Requirement
+from contact_sim_pkg.report.comparison.verdict import answer_of_runs, letters_of, moved_tiles
+from contact_sim_pkg.report.drawing import Picture, picture, style
+from contact_sim_pkg.report.facts import ended_early, warnings
+from contact_sim_pkg.report.metrics.mat import LOADED
+from contact_sim_pkg.report.metrics.requirements import Requirement, required
 from contact_sim_pkg.report.page import Section, rendered
 from contact_sim_pkg.report.place import free_place, new_page
-from contact_sim_pkg.report.reading import read_recording, refuse_other_rigs, rig_of_bag, rig_of_recording
+from contact_sim_pkg.report.reading import read_recording, refuse_incomparable, refuse_other_rigs, rig_of_recording
+from contact_sim_pkg.report.rig_reports import answered
 from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.report.tables import Table
 
 TEMPLATE = "comparison.html.j2"
+MOST_NAMED = 3
+"""Tiles of what the answer names and a limit judges, whether it moved most or not."""
 
 
 def write_comparison(
@@ -51,7 +64,7 @@ def write_comparison(
         FileRefusedError: `out` is another file, or part of a bag that is read.
     """
     path = free_place(bags, out, overwrite=overwrite)
-    refuse_other_rigs([rig_of_bag(bag) for bag in bags])
+    refuse_incomparable(bags)
     # Everything is read before the file is touched
     page = render_comparison([read_recording(bag) for bag in bags], requirements)
     with new_page(path, bags, overwrite=overwrite) as file:
@@ -61,24 +74,73 @@ def write_comparison(
 
 def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Requirement] = ()) -> str:
     """The page as text. Raises BagError for runs of different rigs, or fewer than two."""
-    refuse_other_rigs([rig_of_recording(each) for each in recordings])
+    mats = any(map(is_mat, recordings))
+    if not mats:
+        refuse_other_rigs([rig_of_recording(each) for each in recordings])
     names = distinct_names(recordings)
-    runs = make_runs(names, recordings)
-    sides = side_by_side([compared(name, each, requirements) for name, each in zip(names, recordings, strict=True)])
-    title = " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings))
+    letters = letters_of(names)
+    pair = compare_maps(names, recordings, LOADED) if mats else None
+    if pair is None:
+        sides = [compared(name, each, requirements) for name, each in zip(names, recordings, strict=True)]
+        told = difference_table(names, differences([each.scene for each in recordings]))
+        films, drawn = films_of_runs(letters, recordings), _sections(make_runs(names, recordings), "run")
+    else:
+        sides = [
+            Compared(name, required(each, requirements), {}) for name, each in zip(names, pair.metrics, strict=True)
+        ]
+        told = Table("A mat has no scene.", ("how they lie on each other",), [(text,) for text in pair.sentences])
+        films, drawn = films_of_runs(letters, recordings, pair.moved, pair.alignment), [_maps_of(pair)]
+    moved, named = side_by_side(sides), answered(recordings[0])
+    # what its rigs want shown, and what the answer is judged by
+    leading = {key for each in sides for key in each.leading}
+    leading |= {
+        each.key for each in [each for each in moved if each.key in named and each.limit and each.moved][:MOST_NAMED]
+    }
+    lead = leading_pictures((), drawn)
+    parts = arranged(drawn, len(lead), {})
+    unfinished = [
+        f"{letter}: {text}" for letter, each in zip(letters, recordings, strict=True) for text in ended_early(each)
+    ]
+    numbers = metric_table(names, moved)
     return rendered(TEMPLATE, {
-        "title": title, "warnings": [f"{each.name}: {text}" for each in recordings for text in facts.warnings(each)],
-        "count": len(recordings), "differences": difference_table(names, differences([each.scene for each in recordings])),
-        "numbers": metric_table(names, sides), "sections": _sections(runs, "run"),
-    })  # fmt: skip
+        "title": " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings)),
+        "count": len(recordings), "answer": answer_of_runs(names, moved, named, unfinished),
+        "conditions": ", ".join(f"{name} of {each.duration:.4g} s" for name, each in zip(names, recordings, strict=True)),
+        "warnings": [f"{each.name}: {text}" for each in recordings for text in warnings(each)],
+        "tiles": moved_tiles(names, moved, leading), "numbers": numbers,
+        "differences": told,
+        "maps": films.views, "notes": films.notes, "lead": lead, "drawn": parts,
+        "contents": [Entry("result", "Result"), Entry("time", "Time and maps"),
+                     *(Entry(each.key, each.title) for each in parts), Entry("files", "Files")],
+        "folds": [Entry("fold-metrics", "All metrics"), *folds_of(parts)],
+        "commands": _commands([each.name for each in recordings]),
+        "data": Markup(data_of_runs(letters, recordings, films)),  # noqa: S704 - made by json
+    }, scripts=True)  # fmt: skip
+
+
+def _maps_of(pair: MapPair) -> Section:
+    """Both mean maps, one moved onto the other, and their difference."""
+    with style():
+        figure, text = figure_of_maps(pair.names, pair.maps, pair.difference)
+        caption = f"Mean pressure, one scale, {pair.names[pair.moved]} moved onto the other.{text}"
+        drawn = picture("laid-over", figure, "Mean pressure maps laid over each other", caption)
+    return Section("maps", "Maps", [drawn])
+
+
+def _commands(names: Sequence[str]) -> list[tuple[str, str]]:
+    """Command and what it does, to be called beside the bags."""
+    bags = " ".join(names)
+    return [
+        (f"bench report {bags}", "makes this page"),
+        (f"bench compare {bags} --csv", "prints the metrics"),
+        (f"bench compare {bags} --tolerances FILE", "judges what moved; exit code 1 beyond a tolerance"),
+        (f"bench report {names[0]}", "makes the page of one run"),
+    ]
 
 
 def distinct_names(recordings: Sequence[Recording]) -> list[str]:
-    """Names of the bags, of two runs with A and B before them; equal names with their number."""
-    names = [each.name for each in recordings]
-    if len(set(names)) < len(names):
-        names = [f"{name} ({place})" for place, name in enumerate(names, start=1)]
-    return [f"{letter}: {name}" for letter, name in zip("AB", names, strict=True)] if len(names) == 2 else names
+    """Names of the bags with A, B and so on before them."""
+    return [f"{letter}: {each.name}" for letter, each in zip(ascii_uppercase, recordings, strict=False)]
 
 
 def _sections(runs: list[Run], title: str) -> list[Section]:
@@ -87,9 +149,9 @@ def _sections(runs: list[Run], title: str) -> list[Section]:
         for number, name in enumerate(runs[0].recording.contacts):
             key = f"contact-{number}"
             made: list[Picture | None] = [
+                *_rig_pictures(key, name, runs),
                 force_comparison(key, name, runs, title),
                 map_comparison(key, name, runs),
-                *_rig_pictures(key, name, runs),
                 loop_comparison(key, name, runs, title),
             ]
             made += [area_comparison(key, name, runs, title), slap_comparison(key, name, runs, title)]

@@ -21,8 +21,10 @@ def difference_table(names: Sequence[str], found: Sequence[Difference]) -> Table
 
 
 def metric_table(names: Sequence[str], sides: Sequence[ComparedMetric]) -> Table:
-    """One row a metric, one column a run; of two runs their difference too."""
-    header = ("", *names, *(("Δ", "Δ %", "B is") if len(names) == 2 else ("range, %",)), "rests on", "verdict")
+    """One row a metric, one column a run, and how far each moved from the first."""
+    letters = [name.partition(":")[0] for name in names[1:]]
+    moved = [("Δ", "Δ %", "B is")] if len(letters) == 1 else [(f"Δ % of {each}", f"{each} is") for each in letters]
+    header = ("metric", *names, *(text for each in moved for text in each), "rests on", "verdict")
     caption = "What moved most first."
     broken = dict.fromkeys(text for side in sides for text in side.broken)
     if broken:
@@ -34,15 +36,11 @@ def row_of(side: ComparedMetric) -> tuple[str, ...]:
     """Texts of one metric."""
     label = f"{side.name}, {side.unit}" if side.unit else side.name
     spreads = side.spreads or (math.nan,) * len(side.values)
-    values = tuple(
-        _text(value) + (f" ± {number(spread)}" if math.isfinite(spread) else "")
-        for value, spread in zip(side.values, spreads, strict=True)
-    )
-    if len(side.values) == 2:
-        moved: tuple[str, ...] = (_signed(side.change), _signed(100.0 * side.relative), side.comparison)
-    else:
-        moved = (NONE if side.moved < 0.0 else number(100.0 * side.moved),)
-    return (label, *values, *moved, _rests_on(side), side.verdict)
+    values = tuple(with_spread(number(value), spread) for value, spread in zip(side.values, spreads, strict=True))
+    pairs = [side.against_first(place) for place in range(1, len(side.values))]
+    moved = [(signed(100.0 * each.relative), each.comparison) for each in pairs]
+    change = (signed(side.change),) if len(pairs) == 1 else ()
+    return (label, *values, *change, *(text for each in moved for text in each), _rests_on(side), side.verdict)
 
 
 def _rests_on(side: ComparedMetric) -> str:
@@ -51,11 +49,13 @@ def _rests_on(side: ComparedMetric) -> str:
     return ", ".join(filter(None, (side.basis, f"error {number(max(known))}" if known else "")))
 
 
-def _text(value: float) -> str:
-    return number(value) if math.isfinite(value) else NONE
+def with_spread(text: str, spread: float) -> str:
+    """`57.3 ± 2.1`, or the text alone where the spread is not known."""
+    return f"{text} ± {number(spread)}" if math.isfinite(spread) else text
 
 
-def _signed(value: float) -> str:
+def signed(value: float) -> str:
+    """`+5.3`, `-2`; `new` for a change from nothing."""
     if math.isinf(value):
         return "new"
     return NONE if math.isnan(value) else f"{'+' if value > 0.0 else ''}{number(value)}"

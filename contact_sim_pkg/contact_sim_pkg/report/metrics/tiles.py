@@ -11,7 +11,7 @@ from contact_sim_pkg.report.metrics.views import verdict_text
 from contact_sim_pkg.report.rows import SUPERSCRIPT, number
 from contact_sim_pkg.report.tables import Table
 
-__all__ = ["Tile", "doubts_of", "metric_table", "published_table", "tiles_of"]
+__all__ = ["Tile", "doubts_of", "metric_table", "printed_unit", "published_table", "tiles_of"]
 
 
 class Bar(NamedTuple):
@@ -56,7 +56,7 @@ def metric_table(metrics: Sequence[Metric]) -> Table:
     """A row a metric: all that its tile leaves out."""
     rows = [
         (
-            metric.name, _text(metric.value), _printed(metric.unit), _text(metric.error), _text(metric.spread),
+            metric.name, _text(metric.value), printed_unit(metric.unit), _text(metric.error), _text(metric.spread),
             verdict_text(metric), "" if metric.band is None else metric.band.text, metric.basis, metric.remark,
         )
         for metric in metrics
@@ -68,7 +68,7 @@ def metric_table(metrics: Sequence[Metric]) -> Table:
 def published_table(metrics: Sequence[Metric]) -> Table | None:
     """Values beside the bands of their sources; None where no band applies to this run."""
     rows = [
-        (metric.name, f"{_text(metric.value)} {_printed(metric.unit)}".rstrip(), metric.band.text, verdict_text(metric),
+        (metric.name, f"{_text(metric.value)} {printed_unit(metric.unit)}".rstrip(), metric.band.text, verdict_text(metric),
          metric.band.conditions or "always", metric.band.source)
         for metric in metrics if metric.band is not None and metric.band.kind not in (CLOSED_FORM, REQUIRED)
     ]  # fmt: skip
@@ -83,7 +83,7 @@ def _tile(metric: Metric) -> Tile:
     space = "\N{NO-BREAK SPACE}"
     given = [f"±{space}{number(value)}{space}{name}" for name, value in spreads.items() if math.isfinite(value)]
     return Tile(
-        label=metric.name, value=number(metric.value) if defined else "–", unit=_printed(metric.unit) if defined else "",
+        label=metric.name, value=number(metric.value) if defined else "–", unit=printed_unit(metric.unit) if defined else "",
         spread=", ".join(given) if defined else "", verdict=verdict_text(metric),
         tone="doubtful" if metric.broken else metric.verdict.replace(" ", "-"),
         band="" if band is None else band.text, bar=_bar(metric),
@@ -111,7 +111,7 @@ def _text(value: float) -> str:
     return number(value) if math.isfinite(value) else ""
 
 
-def _printed(unit: str) -> str:
+def printed_unit(unit: str) -> str:
     """`m/s^1.75` -> `m/s¹·⁷⁵`."""
     base, _, power = unit.partition("^")
     return base + power.translate(SUPERSCRIPT).replace(".", "·")

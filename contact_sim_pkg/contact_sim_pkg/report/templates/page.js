@@ -5,6 +5,7 @@
   if (!source) return;
   const data = JSON.parse(source.textContent);
   const bytes = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
+  const places = text => new Uint32Array(bytes(text).buffer);
   const floats = text => new Float32Array(bytes(text).buffer);
   const time = floats(data.time), distance = data.distance ? floats(data.distance) : null;
   const colours = bytes(data.colours);
@@ -19,12 +20,41 @@
     return low;
   };
 
+  // what the second of two films presses more than the first, each between two frames along a straight line
+  const difference = (film, paint, text) => {
+    const pair = film.of.map((number, side) => ({...films[number], places: places(film.places[side])}));
+    const at = (one, time) => {
+      const first = before(one.time, time), last = Math.min(first + 1, one.time.length - 1), length = one.time[last] - one.time[first];
+      const share = length > 0 ? Math.min(Math.max((time - one.time[first]) / length, 0), 1) : 0;
+      return place => (place === 0 ? 0 : (1 - share) * one.frames[first * one.cells + place - 1] + share * one.frames[last * one.cells + place - 1]);
+    };
+    const frame = new Uint8Array(film.rows * film.cols), kilo = value => Number((value * film.unit).toPrecision(3)).toString();
+    const show = time => {
+      const [first, second] = pair.map(one => at(one, time));
+      let least = 0, most = 0;
+      for (let cell = 0; cell < frame.length; cell++) {
+        const [a, b] = [first(pair[0].places[cell]), second(pair[1].places[cell])];
+        least = Math.min(least, b - a);
+        most = Math.max(most, b - a);
+        frame[cell] = a > 0 || b > 0 ? Math.min(Math.max(Math.round(128 + 127 * (b - a) / film.largest), 1), 255) : 0;
+      }
+      paint(frame, 0);
+      text.textContent = `${time.toFixed(3)} s · ${kilo(least)} to ${kilo(most)} kPa`;
+    };
+    return {show};
+  };
+
   // a canvas in place of each picture, with the same cells
-  const films = data.films.map((film, number) => {
+  const films = [];
+  data.films.forEach((film, number) => {
     const picture = document.querySelector(`[data-film="${number}"]`), canvas = document.createElement("canvas");
-    const paint = bench.painter(canvas, film.rows, film.cols, colours);
+    const paint = bench.painter(canvas, film.rows, film.cols, film.of ? bytes(data.differences) : colours);
     picture.replaceWith(canvas);
     const text = canvas.closest("figure").querySelector("output");
+    if (film.of) {
+      films.push(difference(film, paint, text));
+      return;
+    }
     const all = {time: floats(film.time), load: floats(film.load), peak: floats(film.peak), frames: bytes(film.frames)};
     let shown = -1;
     const show = at => {
@@ -34,10 +64,10 @@
       paint(all.frames, frame * cells);
       text.textContent = `${all.time[frame].toFixed(3)} s · ${all.load[frame].toFixed(0)} N · peak ${all.peak[frame].toFixed(0)} kPa`;
     };
-    return {show, time: all.time, load: all.load};
+    films.push({...all, show, cells: film.rows * film.cols});
   });
   const slider = document.querySelector(".slider input");
-  const steps = films.reduce((most, film) => (film.time.length > most.length ? film.time : most), new Float32Array(0));
+  const steps = films.reduce((most, {time}) => (time && time.length > most.length ? time : most), new Float32Array(0));
 
   // one time for maps, slider and curves
   let plots = [], axis = time, moving = false;

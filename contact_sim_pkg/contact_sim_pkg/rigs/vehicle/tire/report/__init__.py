@@ -36,6 +36,7 @@ TIRE_REPORT = ContactReport(
     metrics=f"{__name__}.metrics:tire_metrics",
     lead=("rolling-way",),
     parts=f"{__name__}.drawing:tire_parts",
+    compared=f"{__name__}.metrics:largest_forces",
     answer=(
         "load {load}, {load:remark}",
         "dynamic load coefficient {dlc}",

@@ -76,6 +76,22 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     return [*along, *upright] if float(conditions["largest_slip"]) >= LARGE_SLIP else [*upright, *along]
 
 
+def largest_forces(recording: Recording) -> list[Metric]:
+    """Largest force of the road on the tire, and of the tire on its axle along the road, either way [N]."""
+    contact, axle = recording.contacts.get(TIRE), axle_of(recording)
+    if contact is None:
+        return []
+    window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
+    make, errors, largest = Maker(TIRE, f"{TIRE}/force", window).make, errors_of(recording), float(contact.normal.max())
+    found = [make("fz_largest", "F_z of the tire, largest", largest, "N", count=contact.normal.size, basis=EVENT,
+                  error=errors.largest(TIRE, "force") * largest)]  # fmt: skip
+    if axle is not None:
+        along = np.abs(axle.longitudinal)
+        found.append(make("fx_largest", "F_x of the tire, largest", along.max(), "N", topic=f"{TIRE}/axle", count=along.size,
+                          basis=EVENT, error=errors.largest(TIRE, "force") * largest))  # fmt: skip
+    return found
+
+
 def _has_one_obstacle(scene: Mapping[str, Any]) -> bool:
     """Whether the road of a scene is even but for one obstacle."""
     road = scene.get("road")
