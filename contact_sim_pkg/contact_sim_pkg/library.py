@@ -94,7 +94,7 @@ def _show(progress: RunProgress) -> None:
 
 def sweep(
     scene: str | Path, directory: str | Path, *varied: str, sample: str = "grid", seeds: int = 0, sample_seed: int = 1,
-    jobs: int | None = None, keep_bags: bool = False, progress: bool = True,
+    jobs: int | None = None, keep_bags: str = "none", progress: bool = True,
 ) -> SweepTable:  # fmt: skip
     """Run many cases of a scene over the processors and return the table of their metrics, as `bench sweep` does.
 
@@ -107,7 +107,8 @@ def sweep(
         seeds: each case so many times, with seeds from 1; 0: the seed of the scene.
         sample_seed: of what is drawn.
         jobs: processes, of one thread each; None: as many as processors.
-        keep_bags: whether the bags stay, in ``bags`` of the directory.
+        keep_bags: which bags stay, in ``bags`` of the directory: ``none``, ``all``, ``worst:3:seat.SEAT`` (largest),
+            ``worst:3:tire.load_smallest > 300`` (which hold it least).
         progress: whether it is shown on standard error.
 
     Raises:

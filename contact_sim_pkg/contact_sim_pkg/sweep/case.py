@@ -34,6 +34,7 @@ __all__ = [
     "Task",
     "case_name",
     "failed",
+    "kept_row",
     "run_case",
     "scene_of",
     "sources_hash",
@@ -97,7 +98,7 @@ def run_case(task: Task) -> Row:
     name = case_name(scene, task.sources)
     ending = f"-{task.series.replace('/', '_')}" if task.series else ""
     kept, bag = Path(task.folder) / "cases" / f"{name}{ending}.json", Path(task.folder) / "bags" / name
-    found = _kept(kept)
+    found = kept_row(kept)
     if found is not None and (bag.is_dir() or not task.keeps_bag):
         return {**found, "number": task.number, "again": True}
     row = {
@@ -112,7 +113,7 @@ def run_case(task: Task) -> Row:
     return row
 
 
-def _kept(path: Path) -> Row | None:
+def kept_row(path: Path) -> Row | None:
     """The row in a file; None where there is none, or a damaged one."""
     try:
         found: Row = json.loads(path.read_text(encoding="utf-8"))
