@@ -67,6 +67,7 @@ def command(
     """
     from contact_sim_pkg.sweep.cost import cost_of
     from contact_sim_pkg.sweep.kept import read_kept
+    from contact_sim_pkg.sweep.page import PAGES, Swept, write_page
     from contact_sim_pkg.sweep.sweep import check_folder, sweep, texts_of, try_ends
     from contact_sim_pkg.sweep.variation import read_variation, samples_of
 
@@ -88,7 +89,9 @@ def command(
     except KeyboardInterrupt:
         say(f"interrupted; what has ended is in {out}, the same command goes on", err=True)
         return 1
-    _say_table(table, out, as_json=as_json)
+    doing("drawing the page")
+    page = write_page(out / PAGES["sweep"], "sweep", Path(scene).stem, [Swept(scene, scene, table, out)])
+    _say_table(table, out, page, as_json=as_json)
     return 1 if table.failed else 0
 
 
@@ -110,13 +113,13 @@ def _say_plan(values: list[Values], cost: Cost, *, as_json: bool) -> None:
             say(f"at least {cost.cpu / 3600.0:.2g} CPU hours by the scene; disk not known until one case has run")
 
 
-def _say_table(table: SweepTable, out: Path, *, as_json: bool) -> None:
+def _say_table(table: SweepTable, out: Path, page: Path, *, as_json: bool) -> None:
     """What the metrics do over the cases, the cases that failed, and where all of it is."""
     ranges = table.ranges()
     if as_json:
         print_json({
             "cases": len(table), "failed": [dict(each) for each in table.failed], "table": str(out / "table.csv"),
-            "metrics": [each._asdict() for each in ranges],
+            "page": str(page), "metrics": [each._asdict() for each in ranges],
         })  # fmt: skip
         return
     if ranges:
@@ -133,4 +136,4 @@ def _say_table(table: SweepTable, out: Path, *, as_json: bool) -> None:
         say(f"case {row['number']} ({values}) {row['outcome']}: {row['sentence']}", err=True)
     if len(table.failed) > MOST_FAULTS:
         say(f"and {len(table.failed) - MOST_FAULTS} more", err=True)
-    say(f"{len(table)} cases, {len(table.failed)} failed; {out / 'table.csv'} has a row each")
+    say(f"{len(table)} cases, {len(table.failed)} failed; {out / 'table.csv'} has a row each, {page} shows them")
