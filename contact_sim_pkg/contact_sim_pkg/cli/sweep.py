@@ -39,6 +39,9 @@ MOST_FAULTS = 5
     "--jobs", type=click.IntRange(1, 1024), default=None, metavar="N", help="Processes.  [default: processors]"
 )
 @click.option(
+    "--scheduler", default="", metavar="tcp://HOST:PORT", help="Workers of a Dask scheduler in place of processes here."
+)
+@click.option(
     "--keep-bags", default="none", show_default=True, metavar="none|all|worst:N:METRIC",
     help="In DIR/bags; the N cases of its largest values, or 'worst:N:METRIC > LIMIT' those that hold a limit least.",
 )  # fmt: skip
@@ -54,6 +57,7 @@ def command(
     sample: str,
     sample_seed: int,
     jobs: int | None,
+    scheduler: str,
     keep_bags: str,
     out: Path | None,
     dry_run: bool,
@@ -85,7 +89,7 @@ def command(
         return 0
     assert out is not None
     try:
-        table = sweep(scene, values, out, jobs=jobs, keep_bags=keep_bags, notify=doing)
+        table = sweep(scene, values, out, jobs=jobs, scheduler=scheduler, keep_bags=keep_bags, notify=doing)
     except KeyboardInterrupt:
         say(f"interrupted; what has ended is in {out}, the same command goes on", err=True)
         return 1

@@ -35,6 +35,7 @@ __all__ = [
     "case_name",
     "failed",
     "kept_row",
+    "machine",
     "run_case",
     "scene_of",
     "sources_hash",
@@ -104,7 +105,7 @@ def run_case(task: Task) -> Row:
     row = {
         "number": task.number,
         "case": name,
-        "machine": _machine(),
+        "machine": machine(),
         **_run(scene, bag if task.keeps_bag else None, task.series),
     }
     if row["outcome"] == FINISHED:
@@ -158,7 +159,7 @@ def _series_of(path: Path, series: str) -> Row:
     raise BagError(f"{topic} has no column {column!r}; it has {', '.join(each.name for each in columns)}")
 
 
-def _machine() -> str:
+def machine() -> str:
     """What the bits of a number hang on beside the case."""
     return f"{platform.machine()} {_processor()}, Python {platform.python_version()}"
 

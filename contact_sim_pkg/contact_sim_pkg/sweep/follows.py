@@ -19,7 +19,7 @@ Field = NDArray[numpy.float64]
 FAR = 3.5
 """Modified z score of an outlier (Iglewicz and Hoaglin, How to detect and handle outliers, 1993)."""
 NORMAL = 0.6745  # of a normal distribution: median of the distances from its middle over its standard deviation
-LEAST_SHARE = 0.01  # of the range of a metric: what is less is no outlier, however alike the others are
+LEAST_SHARE = 0.05  # of the range of a metric: what is less is no outlier, however alike the others are
 WEAK = 0.3
 """Largest rank correlation of a metric that follows no key."""
 LEAST_FREEDOM = 4  # cases beyond the terms of the model

@@ -30,7 +30,7 @@ class Kept(NamedTuple):
 
 
 def read_kept(text: str) -> Kept:
-    """`none`, `all`, `worst:3:seat.SEAT`, `worst:3:tire.load_smallest > 300`. Raises SweepError for what is none of them."""
+    """`none`, `all`, `worst:3:seat.factor`, `worst:3:tire.load_smallest > 300`. Raises SweepError for what is none of them."""
     if text in (NONE, ALL):
         return Kept(all=text == ALL)
     kind, _, rest = text.partition(":")

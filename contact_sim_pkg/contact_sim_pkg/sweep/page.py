@@ -21,12 +21,13 @@ from contact_sim_pkg.sweep.figures import main_effects, response_map, scatter_ma
 from contact_sim_pkg.sweep.follows import column_of, correlation, numeric_keys, outliers, varying_metrics
 from contact_sim_pkg.sweep.plan import MISSED, NOT_DECIDED, PASSED, Judged, Outcome, Plan, judged_rows, set_by
 from contact_sim_pkg.sweep.table import SweepTable
+from contact_sim_pkg.sweep.variation import SEED, Values
 
 __all__ = ["PAGES", "Swept", "page_of", "write_page", "write_plan_page"]
 
 PAGES = {"sweep": "sweep.html", "plan": "plan.html"}
 TEMPLATE = "sweep.html.j2"
-MOST_ROWS, MOST_CALLS, MAPS = 200, 12, 2
+MOST_ROWS, MOST_CALLS, MOST_OUTLIERS, MAPS = 200, 12, 5, 2
 NONE = "–"
 
 
@@ -113,7 +114,7 @@ def _worst(table: SweepTable, rows: Sequence[Judged]) -> dict[int, str]:
     found: dict[int, list[str]] = {}
     for each in rows:
         for values, row in table.cases:
-            if set_by(values) == each.case:
+            if set_by(values, [given for given, _ in table.cases]) == each.case:
                 text = f"{each.verdict}: worst of {each.metric} {each.limit}, {each.worst}"
                 found.setdefault(row["number"], []).append(text)
                 break
@@ -250,7 +251,7 @@ def _calls(swept: Swept, metrics: Sequence[str]) -> list[_Call]:
         reasons.setdefault(row["number"], []).append(f"{row['outcome']}: {row['sentence']}")
     for case, what in swept.worst.items():
         reasons.setdefault(case, []).append(what)
-    for each in outliers(table, metrics):
+    for each in outliers(table, metrics)[:MOST_OUTLIERS]:
         text = f"{each.metric} {number(each.value)}, the others let expect {number(each.expected)}"
         reasons.setdefault(each.number, []).append(text)
     if not swept.worst:
@@ -268,7 +269,11 @@ def _calls(swept: Swept, metrics: Sequence[str]) -> list[_Call]:
         run = f"bench run {shlex.quote(swept.scene)} {sets} --offline --out {name}"
         kept = bag is not None and bag.is_dir()
         lines = [f"bench report {shlex.quote(str(bag))}"] if kept else [run, f"bench report {name}"]
-        found.append(
-            _Call(f"{case}: " + ", ".join(f"{key}={value}" for key, value in values.items()), "; ".join(texts), lines)
-        )
+        found.append(_Call(_named(case, values, table), "; ".join(texts), lines))
     return found
+
+
+def _named(case: int, values: Values, table: SweepTable) -> str:
+    """`case 14, a=1 seed=2`."""
+    seed = f" seed={values[SEED]}" if SEED in values else ""
+    return f"case {case}, {set_by(values, [each for each, _ in table.cases])}{seed}"

@@ -12,7 +12,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
 from contact_sim_pkg.records.metric import OUTSIDE, REQUIRED, STATIONARY, UNDECIDED, Metric, exit_status
 from contact_sim_pkg.report.metrics.repeated import repeated
-from contact_sim_pkg.report.metrics.requirements import Requirement, required, requirements_of
+from contact_sim_pkg.report.metrics.requirements import Requirement, places_of, required, requirements_of
 from contact_sim_pkg.report.metrics.views import metric_of, suite_of, value_text, xml_text
 from contact_sim_pkg.sweep.case import FINISHED, Row
 from contact_sim_pkg.sweep.sweep import Notify, check_folder, sweep, try_ends
@@ -161,14 +161,24 @@ def run_plan(plan: Plan, folder: Path, *, jobs: int | None, notify: Notify) -> t
             each.scene, each.values, folder / each.name, jobs=jobs,
             notify=lambda text, done, name=each.name: notify(f"{name}: {text}", done),  # type: ignore[misc]
         )  # fmt: skip
+        _refuse_missing(each, table)
         found += judge(each, table.cases)
         tables.append(table)
     return found, tables
 
 
-def set_by(values: Values) -> str:
-    """What a case sets beside its seed: `a=1 b=2`."""
-    return " ".join(f"{key}={value}" for key, value in values.items() if key != SEED)
+def _refuse_missing(planned: PlannedSweep, table: SweepTable) -> None:
+    """Raise BagError for a requirement of a metric that no case has, where some have finished."""
+    known = {each["key"]: metric_of(each) for _, row in table.cases for each in row["metrics"]}
+    for each in planned.requirements if known else ():
+        places_of([*known.values()], each.metric, f"{planned.name} requires")
+
+
+def set_by(values: Values, others: Sequence[Values] = ()) -> str:
+    """What a case sets beside its seed, `a=1 b=2`; of what all ``others`` set too, nothing, unless it is all."""
+    own = {key: value for key, value in values.items() if key != SEED}
+    differs = {key: value for key, value in own.items() if any(each.get(key) != value for each in others)}
+    return " ".join(f"{key}={value}" for key, value in (differs or own).items())
 
 
 def judge(planned: PlannedSweep, cases: Sequence[tuple[Values, Row]]) -> list[Outcome]:
@@ -217,7 +227,7 @@ def judged_rows(outcomes: Sequence[Outcome]) -> list[Judged]:
             each for _, each in members if each.verdict == UNDECIDED or not math.isfinite(each.value) or each.broken
         ]
         assert metric.band is not None
-        case = set_by(worst.values)
+        case = set_by(worst.values, [each.values for each, _ in members])
         found.append(
             Judged(
                 name, key, f"{metric.band.text} {metric.unit}".rstrip(),

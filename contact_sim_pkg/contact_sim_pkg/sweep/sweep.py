@@ -9,6 +9,7 @@ from pathlib import Path
 
 from contact_sim_pkg.files import FileRefusedError, new_file, wrong_name
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
+from contact_sim_pkg.sweep.cluster import run_on_cluster
 from contact_sim_pkg.sweep.kept import NONE, read_kept, worst_cases
 from contact_sim_pkg.sweep.pool import run_all
 from contact_sim_pkg.sweep.table import SweepTable
@@ -41,6 +42,7 @@ def sweep(
     folder: Path,
     *,
     jobs: int | None = None,
+    scheduler: str = "",
     keep_bags: str = NONE,
     notify: Notify = lambda _text, _done: None,
 ) -> SweepTable:
@@ -51,6 +53,7 @@ def sweep(
         values: of each case, what it sets.
         folder: new, empty, or of a sweep: cases that it holds do not run again.
         jobs: processes; None: as many as there are processors.
+        scheduler: address of a Dask scheduler whose workers run the cases in place of processes; empty: none.
         keep_bags: which bags stay, in ``bags``; see `read_kept`. The worst run once more, when they are known.
         notify: gets what is being done.
 
@@ -69,13 +72,13 @@ def sweep(
     ]
     rows: list[Row] = []
     try:
-        for row in _ordered(tasks, values, count):
+        for row in run_on_cluster(tasks, scheduler) if scheduler else _ordered(tasks, values, count):
             rows.append(row)
             notify(_progress(rows, len(tasks)), len(rows) / len(tasks))
         if kept.number:
             again = [tasks[number]._replace(keeps_bag=True) for number in worst_cases(kept, rows)]
             notify(f"running the {len(again)} worst with their bags", 1.0)
-            for row in run_all(again, count):
+            for row in run_on_cluster(again, scheduler) if scheduler else run_all(again, count):
                 rows.append(row)
     finally:  # interrupted as well: what has ended is there
         table = SweepTable(values, rows)
