@@ -20,6 +20,8 @@ FAR = 3.5
 """Modified z score of an outlier (Iglewicz and Hoaglin, How to detect and handle outliers, 1993)."""
 NORMAL = 0.6745  # of a normal distribution: median of the distances from its middle over its standard deviation
 LEAST_SHARE = 0.05  # of the range of a metric: what is less is no outlier, however alike the others are
+ROUNDING = 1e-12
+"""Difference that is none, in the units of metrics."""
 WEAK = 0.3
 """Largest rank correlation of a metric that follows no key."""
 LEAST_FREEDOM = 4  # cases beyond the terms of the model
@@ -57,7 +59,9 @@ def varying_metrics(table: SweepTable, first: Sequence[str] = ()) -> list[str]:
     """
     checks = {each["key"] for _, row in table.cases for each in row["metrics"] if each["basis"] == SELF_CHECK}
     found = [
-        each for each in table.ranges() if each.largest > each.smallest and each.metric not in {*checks} - {*first}
+        each
+        for each in table.ranges()
+        if each.largest - each.smallest > ROUNDING and each.metric not in checks - {*first}
     ]
 
     def strength(metric: str) -> float:
@@ -115,7 +119,7 @@ def _terms(table: SweepTable) -> Field:
             columns += [scaled, scaled**2] if len(set(values)) > 2 else [scaled]
         else:
             columns += [
-                numpy.asarray([each == level for each in values], dtype=numpy.float64)
+                numpy.asarray([str(each) == level for each in values], dtype=numpy.float64)
                 for level in sorted({*map(str, values)})[1:]
             ]
     return numpy.column_stack(columns)
