@@ -73,6 +73,7 @@ setup(
         "zstandard>=0.22,<1",
     ],
     extras_require={
+        "cluster": ["distributed>=2024.1"],
         "daq": ["asammdf>=8", "h5py>=3.10", "npTDMS>=1.9", "pyuff>=2.4"],
         "fatigue": ["rainflow>=3"],
         "parquet": ["pyarrow>=15"],

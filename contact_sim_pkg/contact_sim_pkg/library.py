@@ -94,7 +94,7 @@ def _show(progress: RunProgress) -> None:
 
 def sweep(
     scene: str | Path, directory: str | Path, *varied: str, sample: str = "grid", seeds: int = 0, sample_seed: int = 1,
-    jobs: int | None = None, keep_bags: bool = False, progress: bool = True,
+    jobs: int | None = None, scheduler: str = "", keep_bags: str = "none", progress: bool = True,
 ) -> SweepTable:  # fmt: skip
     """Run many cases of a scene over the processors and return the table of their metrics, as `bench sweep` does.
 
@@ -107,7 +107,9 @@ def sweep(
         seeds: each case so many times, with seeds from 1; 0: the seed of the scene.
         sample_seed: of what is drawn.
         jobs: processes, of one thread each; None: as many as processors.
-        keep_bags: whether the bags stay, in ``bags`` of the directory.
+        scheduler: ``tcp://host:8786`` of a Dask scheduler whose workers run the cases in place of processes.
+        keep_bags: which bags stay, in ``bags`` of the directory: ``none``, ``all``, ``worst:3:seat.factor`` (largest),
+            ``worst:3:tire.load_smallest > 300`` (which hold it least).
         progress: whether it is shown on standard error.
 
     Raises:
@@ -122,7 +124,9 @@ def sweep(
     values = samples_of(variations, sample, seeds, sample_seed)
     try_ends(str(scene), variations, values)
     with working(f"{len(values)} cases: starting") if progress else nullcontext():
-        return run_cases(str(scene), values, Path(str(directory)), jobs=jobs, keep_bags=keep_bags, notify=doing)
+        return run_cases(
+            str(scene), values, Path(str(directory)), jobs=jobs, scheduler=scheduler, keep_bags=keep_bags, notify=doing
+        )
 
 
 def fit(

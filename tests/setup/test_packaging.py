@@ -172,7 +172,7 @@ def test_the_page_of_the_wheel_is_complete(tmp_path):
     pythons = [text.rpartition(" ")[2] for text in page.get_all("Classifier") if "Python :: 3." in text]
     assert pythons == supported_pythons()
     assert page.get_all("License-File") == ["LICENSE"]
-    assert set(page.get_all("Provides-Extra")) == {"daq", "fatigue", "parquet", "test", "view"}
+    assert set(page.get_all("Provides-Extra")) == {"cluster", "daq", "fatigue", "parquet", "test", "view"}
     assert len([text for text in made.requires if "extra ==" not in text]) == len(setup_py_value("install_requires"))
 
 

@@ -11,7 +11,7 @@ from contact_sim_pkg.files import RefusedError
 from contact_sim_pkg.records.metric import EVENT, NO_BAND, STATIONARY, Metric
 from contact_sim_pkg.report.metrics.views import rows_of
 from contact_sim_pkg.scene.load import load_scene
-from contact_sim_pkg.sweep.plan import Plan, judge, judged_rows, junit, read_plan, shipped_plans, status_of
+from contact_sim_pkg.sweep.plan import Plan, judge, judged_rows, junit, read_plan, run_plan, shipped_plans, status_of
 from contact_sim_pkg.sweep.sweep import try_ends
 
 TEXT = "sweeps: {ride: {scene: seat_ride, vary: ['k=1,2'], require: {seat.SEAT: {max: 60, unit: '%'}}}}"
@@ -129,3 +129,10 @@ def test_what_is_no_plan_is_one_sentence(tmp_path, text, word):
 def test_a_plan_that_is_not_there_names_those_that_are():
     with pytest.raises(RefusedError, match="tire_standing_stiffness"):
         read_plan("nothing")
+
+
+def test_a_requirement_of_a_metric_that_no_case_has_is_refused_and_names_those_there_are(tmp_path):
+    path = tmp_path / "plan.yaml"
+    path.write_text("sweeps: {a: {scene: impact_steel, vary: [impact.mass=0.03], require: {impact.e: {min: 0}}}}")
+    with pytest.raises(BagError, match=r"impact\.restitution"):
+        run_plan(read_plan(str(path)), tmp_path / "out", jobs=1, notify=lambda _text, _done: None)

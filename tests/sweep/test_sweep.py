@@ -1,14 +1,19 @@
 """Many cases of a scene, and their table."""
 
 import csv
+import importlib.util
 import io
 import json
+import math
 
 import pytest
 
 from contact_sim_pkg import SceneError, load_scene, open_bag, run, sweep
 from contact_sim_pkg.files import FileRefusedError
+from contact_sim_pkg.run.work import estimated_work
 from contact_sim_pkg.sweep.case import case_name, scene_of
+from contact_sim_pkg.sweep.cost import cost_of
+from contact_sim_pkg.sweep.kept import read_kept
 from contact_sim_pkg.sweep.variation import SweepError
 
 TIMES = ("wall_s", "cpu_s")
@@ -25,7 +30,7 @@ def without_times(table):
 @pytest.fixture(scope="module")
 def found(tmp_path_factory):
     folder = tmp_path_factory.mktemp("sweep") / "out"
-    return folder, swept(folder, "impact.mass=0.03:0.06:3", jobs=2, keep_bags=True)
+    return folder, swept(folder, "impact.mass=0.03:0.06:3", jobs=2, keep_bags="all")
 
 
 def test_a_row_has_the_metrics_of_the_same_run(found, tmp_path):
@@ -116,3 +121,65 @@ def test_what_a_metric_does_over_the_cases_and_what_it_follows(found):
     assert force.largest / force.smallest == pytest.approx(3.0**0.6, rel=0.01)
     assert force.moved_by == "impact.mass (+1.00)"
     assert json.loads(json.dumps(force._asdict()))["largest_in"] == 2
+
+
+def test_the_bags_of_the_worst_stay(found):
+    """The force of a Hertzian impact grows with the mass: the heaviest are the worst, of a lower limit the lightest."""
+    folder, _ = found
+    for keep, masses in (
+        ("worst:1:impact.force", {0.08}),
+        ("worst:2:impact.force > 10", {0.08, 0.05}),
+    ):
+        out = folder.parent / f"worst{len(masses)}"
+        table = swept(out, "impact.mass=0.05,0.08,0.1" if len(masses) == 2 else "impact.mass=0.05,0.08", keep_bags=keep)
+        kept = {path.name for path in (out / "bags").iterdir()}
+        assert {row["impact.mass"] for row in table if row["case"] in kept} == masses
+
+
+@pytest.mark.parametrize("text", ["some", "worst", "worst:3", "worst:0:m", "worst:x:m", "worst:3:m <", "worst:3:m < x"])
+def test_bags_to_keep_that_are_none_are_one_sentence(text, tmp_path):
+    with pytest.raises(SweepError, match="--keep-bags") as refused:
+        swept(tmp_path / "out", "impact.mass=0.03,0.06", keep_bags=text)
+    assert "\n" not in str(refused.value)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_metric_of_the_worst_that_no_case_has_leaves_the_table(tmp_path):
+    with pytest.raises(SweepError, match=r"impact\.nothing"):
+        swept(tmp_path / "out", "impact.mass=0.03,0.06", keep_bags="worst:1:impact.nothing", jobs=1)
+    assert (tmp_path / "out" / "table.csv").is_file()
+
+
+def test_the_cost_is_that_of_the_cases_that_ran(found):
+    folder, _ = found
+    values = [{"impact.mass": str(each)} for each in (0.03, 0.045, 0.06, 0.09, 0.1)]
+    rows = [json.loads(path.read_text()) for path in (folder / "cases").iterdir()]
+    cost = cost_of("impact_steel", values, ("impact.mass=0.03",), read_kept("none"), folder)
+    mean = sum(row["cpu"] for row in rows) / len(rows)
+    assert (cost.cases, cost.measured) == (5, len(rows))
+    assert cost.cpu == pytest.approx(5 * mean)
+    kept = cost_of("impact_steel", values, ("impact.mass=0.03",), read_kept("all"), folder)
+    bags = [sum(file.stat().st_size for file in bag.rglob("*")) for bag in (folder / "bags").iterdir()]
+    assert kept.disk - cost.disk == pytest.approx(5 * sum(bags) / len(bags), rel=0.01)
+
+
+def test_the_cost_without_a_case_is_that_of_the_scene():
+    values = [{"duration": "1"}, {"duration": "2"}]
+    cost = cost_of("impact_steel", values, ("duration=1",), read_kept("none"), None)
+    parts = estimated_work(scene_of("impact_steel", ("duration=1",)))
+    assert cost.cpu == pytest.approx(2 * sum(part.seconds for part in parts))
+    assert math.isnan(cost.disk)
+    assert cost.measured == 0
+
+
+@pytest.mark.skipif(importlib.util.find_spec("pyarrow") is None, reason="pyarrow is not installed")
+def test_the_parquet_table_is_the_same(found):
+    from pyarrow import parquet
+
+    folder, _ = found
+    table = swept(folder, "impact.mass=0.03:0.06:3")
+    read = parquet.read_table(folder / "table.parquet")
+    assert read.column_names == table.columns
+    for row, given in zip(read.to_pylist(), table, strict=True):
+        for name, value in given.items():
+            assert row[name] == value or (row[name] is None and math.isnan(value))

@@ -37,6 +37,7 @@ def command(
     """
     from contact_sim_pkg.files import FileRefusedError, check_output, new_file, wrong_name
     from contact_sim_pkg.sweep import plan as plans
+    from contact_sim_pkg.sweep.page import PAGES, write_plan_page
 
     if plan is None:
         shipped = [plans.read_plan(name) for name in plans.shipped_plans()]
@@ -62,25 +63,26 @@ def command(
         check_output(junit_file, overwrite=overwrite)
     found = plans.read_plan(plan)
     try:
-        outcomes = plans.run_plan(found, out, jobs=jobs, notify=doing)
+        outcomes, tables = plans.run_plan(found, out, jobs=jobs, notify=doing)
     except KeyboardInterrupt:
         say(f"interrupted; what has ended is in {out}, the same command goes on", err=True)
         return 1
     if junit_file is not None:
         with new_file(junit_file, overwrite=overwrite) as file:
             file.write(plans.junit(found, outcomes).encode())
+    doing("drawing the page")
+    page = write_plan_page(out / PAGES["plan"], found, outcomes, tables)
     rows, failed = plans.judged_rows(outcomes), [each for each in outcomes if each.failure]
     if as_json:
         print_json({
-            "plan": found.name, "requirements": [each._asdict() for each in rows],
+            "plan": found.name, "page": str(page), "requirements": [each._asdict() for each in rows],
             "failed": [{"sweep": each.sweep, "values": each.values, "sentence": each.failure} for each in failed],
         })  # fmt: skip
         return plans.status_of(outcomes)
     show_rows([each._asdict() for each in rows], False)
     for outcome in failed:
-        case = " ".join(f"{key}={value}" for key, value in outcome.values.items())
-        say(f"{outcome.sweep} {case} did not finish: {outcome.failure}", err=True)
-    say(_sentence(rows, len(outcomes), len(failed)))
+        say(f"{outcome.sweep} {plans.set_by(outcome.values)} did not finish: {outcome.failure}", err=True)
+    say(f"{_sentence(rows, len(outcomes), len(failed))}; {page} shows them")
     return plans.status_of(outcomes)
 
 

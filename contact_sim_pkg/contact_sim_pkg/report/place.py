@@ -14,7 +14,9 @@ from contact_sim_pkg.files import FileRefusedError, check_output, new_file, open
 __all__ = ["free_figure", "free_place", "is_page", "new_figure_file", "new_page"]
 
 OF_ONE, OF_SEVERAL = "report.html", "comparison.html"
-TITLE = re.compile(rb"<title>[^<]* \xe2\x80\x93 Contact Bench (report|comparison)</title>")  # as in the templates
+TITLE = re.compile(
+    rb"<title>[^<]* \xe2\x80\x93 Contact Bench (report|comparison|sweep|plan)</title>"
+)  # as in the templates
 
 
 def free_place(bags: Sequence[Bag], out: Path | None = None, *, overwrite: bool = False) -> Path:

@@ -34,6 +34,8 @@ __all__ = [
     "Task",
     "case_name",
     "failed",
+    "kept_row",
+    "machine",
     "run_case",
     "scene_of",
     "sources_hash",
@@ -97,13 +99,13 @@ def run_case(task: Task) -> Row:
     name = case_name(scene, task.sources)
     ending = f"-{task.series.replace('/', '_')}" if task.series else ""
     kept, bag = Path(task.folder) / "cases" / f"{name}{ending}.json", Path(task.folder) / "bags" / name
-    found = _kept(kept)
+    found = kept_row(kept)
     if found is not None and (bag.is_dir() or not task.keeps_bag):
         return {**found, "number": task.number, "again": True}
     row = {
         "number": task.number,
         "case": name,
-        "machine": _machine(),
+        "machine": machine(),
         **_run(scene, bag if task.keeps_bag else None, task.series),
     }
     if row["outcome"] == FINISHED:
@@ -112,7 +114,7 @@ def run_case(task: Task) -> Row:
     return row
 
 
-def _kept(path: Path) -> Row | None:
+def kept_row(path: Path) -> Row | None:
     """The row in a file; None where there is none, or a damaged one."""
     try:
         found: Row = json.loads(path.read_text(encoding="utf-8"))
@@ -157,7 +159,7 @@ def _series_of(path: Path, series: str) -> Row:
     raise BagError(f"{topic} has no column {column!r}; it has {', '.join(each.name for each in columns)}")
 
 
-def _machine() -> str:
+def machine() -> str:
     """What the bits of a number hang on beside the case."""
     return f"{platform.machine()} {_processor()}, Python {platform.python_version()}"
 

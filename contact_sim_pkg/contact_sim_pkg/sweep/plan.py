@@ -12,13 +12,17 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
 from contact_sim_pkg.records.metric import OUTSIDE, REQUIRED, STATIONARY, UNDECIDED, Metric, exit_status
 from contact_sim_pkg.report.metrics.repeated import repeated
-from contact_sim_pkg.report.metrics.requirements import Requirement, required, requirements_of
+from contact_sim_pkg.report.metrics.requirements import Requirement, places_of, required, requirements_of
 from contact_sim_pkg.report.metrics.views import metric_of, suite_of, value_text, xml_text
 from contact_sim_pkg.sweep.case import FINISHED, Row
 from contact_sim_pkg.sweep.sweep import Notify, check_folder, sweep, try_ends
+from contact_sim_pkg.sweep.table import SweepTable
 from contact_sim_pkg.sweep.variation import SEED, SweepError, Values, Variation, read_variation, samples_of
 
 __all__ = [
+    "MISSED",
+    "NOT_DECIDED",
+    "PASSED",
     "Judged",
     "Outcome",
     "Plan",
@@ -27,6 +31,7 @@ __all__ = [
     "junit",
     "read_plan",
     "run_plan",
+    "set_by",
     "shipped_plans",
     "status_of",
 ]
@@ -140,8 +145,8 @@ def _refuse_unknown(path: Path, before: str, given: Mapping[str, Any], keys: Seq
         raise BagError(f"{path}: {before}{unknown[0]} is no key of a plan; there are {', '.join(keys)}")
 
 
-def run_plan(plan: Plan, folder: Path, *, jobs: int | None, notify: Notify) -> list[Outcome]:
-    """Run all cases that have not run, each sweep in a folder of its name, and judge them.
+def run_plan(plan: Plan, folder: Path, *, jobs: int | None, notify: Notify) -> tuple[list[Outcome], list[SweepTable]]:
+    """Run all cases that have not run, each sweep in a folder of its name, and judge them; the table of each sweep too.
 
     Raises what `sweep` does, before anything runs; BagError for a requirement of a metric that no case has.
     """
@@ -150,13 +155,30 @@ def run_plan(plan: Plan, folder: Path, *, jobs: int | None, notify: Notify) -> l
         check_folder(folder / each.name)
         try_ends(each.scene, each.variations, each.values)
     found: list[Outcome] = []
+    tables = []
     for each in plan.sweeps:
         table = sweep(
             each.scene, each.values, folder / each.name, jobs=jobs,
             notify=lambda text, done, name=each.name: notify(f"{name}: {text}", done),  # type: ignore[misc]
         )  # fmt: skip
+        _refuse_missing(each, table)
         found += judge(each, table.cases)
-    return found
+        tables.append(table)
+    return found, tables
+
+
+def _refuse_missing(planned: PlannedSweep, table: SweepTable) -> None:
+    """Raise BagError for a requirement of a metric that no case has, where some have finished."""
+    known = {each["key"]: metric_of(each) for _, row in table.cases for each in row["metrics"]}
+    for each in planned.requirements if known else ():
+        places_of([*known.values()], each.metric, f"{planned.name} requires")
+
+
+def set_by(values: Values, others: Sequence[Values] = ()) -> str:
+    """What a case sets beside its seed, `a=1 b=2`; of what all ``others`` set too, nothing, unless it is all."""
+    own = {key: value for key, value in values.items() if key != SEED}
+    differs = {key: value for key, value in own.items() if any(each.get(key) != value for each in others)}
+    return " ".join(f"{key}={value}" for key, value in (differs or own).items())
 
 
 def judge(planned: PlannedSweep, cases: Sequence[tuple[Values, Row]]) -> list[Outcome]:
@@ -205,7 +227,7 @@ def judged_rows(outcomes: Sequence[Outcome]) -> list[Judged]:
             each for _, each in members if each.verdict == UNDECIDED or not math.isfinite(each.value) or each.broken
         ]
         assert metric.band is not None
-        case = " ".join(f"{each}={value}" for each, value in worst.values.items())
+        case = set_by(worst.values, [each.values for each, _ in members])
         found.append(
             Judged(
                 name, key, f"{metric.band.text} {metric.unit}".rstrip(),
@@ -253,7 +275,7 @@ def junit(plan: Plan, outcomes: Sequence[Outcome]) -> str:
     """
     root = ElementTree.Element("testsuites", name=plan.name)
     for outcome in outcomes:
-        case = " ".join(f"{key}={value}" for key, value in outcome.values.items())
+        case = set_by(outcome.values)
         own = [each for each in outcome.metrics if each.band is not None and each.band.kind == REQUIRED]
         root.append(suite_of(f"{outcome.sweep} {case}".rstrip(), own, [outcome.failure] if outcome.failure else []))
     return xml_text(root)

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 
 from contact_sim_pkg.files import FileRefusedError, new_file, wrong_name
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
+from contact_sim_pkg.sweep.cluster import run_on_cluster
+from contact_sim_pkg.sweep.kept import NONE, read_kept, worst_cases
 from contact_sim_pkg.sweep.pool import run_all
 from contact_sim_pkg.sweep.table import SweepTable
 from contact_sim_pkg.sweep.variation import Values, Variation
 
-__all__ = ["TABLE", "check_folder", "processors", "sweep", "texts_of", "try_ends"]
+__all__ = ["TABLE", "check_folder", "processors", "sweep", "texts_of", "try_ends", "write_table"]
 
-TABLE, CASES = "table.csv", "cases"
+TABLE, PARQUET, CASES = "table.csv", "table.parquet", "cases"
 
 Notify = Callable[[str, float], None]
 """What is being done, and how much of it is done in [0, 1]."""
@@ -39,7 +42,8 @@ def sweep(
     folder: Path,
     *,
     jobs: int | None = None,
-    keep_bags: bool = False,
+    scheduler: str = "",
+    keep_bags: str = NONE,
     notify: Notify = lambda _text, _done: None,
 ) -> SweepTable:
     """Run all cases of a scene and return their table, which is written to ``table.csv`` in the folder as well.
@@ -49,30 +53,46 @@ def sweep(
         values: of each case, what it sets.
         folder: new, empty, or of a sweep: cases that it holds do not run again.
         jobs: processes; None: as many as there are processors.
-        keep_bags: whether the bag of each case stays, in ``bags``.
+        scheduler: address of a Dask scheduler whose workers run the cases in place of processes; empty: none.
+        keep_bags: which bags stay, in ``bags``; see `read_kept`. The worst run once more, when they are known.
         notify: gets what is being done.
 
     Raises:
         FileRefusedError: the folder is none of a sweep.
         SceneError: the first case is refused.
+        SweepError: ``keep_bags`` says nothing, or no case has its metric; the table is written then.
     """
+    kept = read_kept(keep_bags)
     check_folder(folder)
     (folder / CASES).mkdir(parents=True, exist_ok=True)
     count = jobs or processors()
     tasks = [
-        Task(number, scene, texts_of(each), str(folder.absolute()), keep_bags, sources_hash())
+        Task(number, scene, texts_of(each), str(folder.absolute()), kept.all, sources_hash())
         for number, each in enumerate(values)
     ]
     rows: list[Row] = []
     try:
-        for row in _ordered(tasks, values, count):
+        for row in run_on_cluster(tasks, scheduler) if scheduler else _ordered(tasks, values, count):
             rows.append(row)
             notify(_progress(rows, len(tasks)), len(rows) / len(tasks))
+        if kept.number:
+            again = [tasks[number]._replace(keeps_bag=True) for number in worst_cases(kept, rows)]
+            notify(f"running the {len(again)} worst with their bags", 1.0)
+            for row in run_on_cluster(again, scheduler) if scheduler else run_all(again, count):
+                rows.append(row)
     finally:  # interrupted as well: what has ended is there
         table = SweepTable(values, rows)
-        with new_file(folder / TABLE, overwrite=True) as file:
-            file.write(table.csv().encode())
+        write_table(table, folder)
     return table
+
+
+def write_table(table: SweepTable, folder: Path) -> None:
+    """Write ``table.csv``, and ``table.parquet`` where pyarrow is installed."""
+    with new_file(folder / TABLE, overwrite=True) as file:
+        file.write(table.csv().encode())
+    if find_spec("pyarrow") is not None:
+        with new_file(folder / PARQUET, overwrite=True) as file:
+            table.write_parquet(file)
 
 
 def _ordered(tasks: Sequence[Task], values: Sequence[Values], jobs: int) -> Iterator[Row]:

@@ -1,6 +1,6 @@
 """Noise between two frequencies."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import ceil, floor, pi, sqrt
 from typing import Any, Literal
 
@@ -19,19 +19,23 @@ from contact_sim_pkg.excitation.signals import (
 from contact_sim_pkg.records.breach import Breach, rising
 
 MOST_POINTS = 1 << 24
+Density = Callable[[NDArray[numpy.float64]], NDArray[numpy.float64]]
 
 
 class NoiseSignal:
-    """Gaussian noise with a flat spectrum between two frequencies, made of harmonics with random
+    """Gaussian noise between two frequencies, flat or with a spectrum, made of harmonics with random
     phases.
 
-    Harmonics of 1 / period inside [low, high], equal amplitudes, uniform random phases: the rms
+    Harmonics of 1 / period inside [low, high], equal amplitudes or such that their squares go as the
+    density, uniform random phases: the rms
     over one period is exactly the rms requested, the distribution Gaussian to within the number of
     harmonics (at least 16). It repeats after `period`. Interpolated to 1e-6 of the rms, see
     excitation/periodic.py.
     """
 
-    def __init__(self, rms: float, low: float, high: float, seed: int, period: float = 60.0) -> None:
+    def __init__(
+        self, rms: float, low: float, high: float, seed: int, period: float = 60.0, density: Density | None = None
+    ) -> None:
         """Make the noise.
 
         Args:
@@ -40,6 +44,7 @@ class NoiseSignal:
             high: highest frequency, [Hz].
             seed: whole number from 0; the same seed gives the same bits.
             period: the noise repeats after this time, [s].
+            density: of frequencies [n] in [Hz], [n] up to a factor; None: flat.
 
         Raises:
             ExcitationError: a value out of range, or a band that holds fewer than 16 harmonics of
@@ -60,9 +65,9 @@ class NoiseSignal:
             )
         self.rms, self.low, self.high, self.seed, self.period = rms, low, high, seed, period
         self.harmonics = last - first + 1
-        self._table = self._make(first, last)
+        self._table = self._make(first, last, density)
 
-    def _make(self, first: int, last: int) -> Any:
+    def _make(self, first: int, last: int, density: Density | None) -> Any:
         points = 64 * ceil(48 * last / 64)
         if points > MOST_POINTS:
             raise ExcitationError(
@@ -72,6 +77,9 @@ class NoiseSignal:
         amplitude = numpy.zeros(last + 1, dtype=numpy.complex128)
         phase = 2.0 * pi * numpy.random.Generator(numpy.random.PCG64(self.seed)).random(self.harmonics)
         amplitude[first:] = self.rms * sqrt(2.0 / self.harmonics) * numpy.exp(1j * phase)
+        if density is not None:
+            power = density(numpy.arange(first, last + 1) / self.period)
+            amplitude[first:] *= numpy.sqrt(power / power.mean())
         return synthesise(amplitude, points, self.period)
 
     def values(self, t: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
