@@ -10,7 +10,7 @@ from tests.report.page import Page
 from contact_sim_pkg.files import FileRefusedError
 from contact_sim_pkg.records.metric import EVENT, NO_BAND, Metric
 from contact_sim_pkg.report.metrics.views import rows_of
-from contact_sim_pkg.sweep.follows import column_of, correlation, outliers, varying_metrics
+from contact_sim_pkg.sweep.correlations import column_of, correlation, outliers, varying_metrics
 from contact_sim_pkg.sweep.page import Swept, page_of, write_page, write_plan_page
 from contact_sim_pkg.sweep.plan import judge, read_plan
 from contact_sim_pkg.sweep.table import SweepTable

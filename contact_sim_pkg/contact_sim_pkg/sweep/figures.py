@@ -21,7 +21,7 @@ from contact_sim_pkg.report.drawing import (
     picture,
 )
 from contact_sim_pkg.report.rows import number
-from contact_sim_pkg.sweep.follows import column_of, correlation, numeric_keys, varied_keys
+from contact_sim_pkg.sweep.correlations import column_of, correlation, numeric_keys, varied_keys
 from contact_sim_pkg.sweep.table import SweepTable
 
 __all__ = ["main_effects", "response_map", "scatter_matrix"]

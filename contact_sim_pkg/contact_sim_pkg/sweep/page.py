@@ -17,8 +17,8 @@ from contact_sim_pkg.report.place import is_page
 from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.report.tables import Table
 from contact_sim_pkg.sweep.case import FINISHED
+from contact_sim_pkg.sweep.correlations import column_of, correlation, numeric_keys, outliers, varying_metrics
 from contact_sim_pkg.sweep.figures import main_effects, response_map, scatter_matrix
-from contact_sim_pkg.sweep.follows import column_of, correlation, numeric_keys, outliers, varying_metrics
 from contact_sim_pkg.sweep.plan import MISSED, NOT_DECIDED, PASSED, Judged, Outcome, Plan, judged_rows, set_by
 from contact_sim_pkg.sweep.table import SweepTable
 from contact_sim_pkg.sweep.variation import SEED, Values
