@@ -68,6 +68,7 @@ BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with 
         ("seat_drop", "vibration.start=0"),
         ("seat_ride", "vibration={kind: sweep, start_frequency: 1, end_frequency: 9, amplitude: 1, duration: 9}"),
         ("seat_ride", "vibration={kind: noise, low: 1, high: 9, rms: 1}"),
+        ("seat_ride", "vibration={kind: platform, spectrum: EM1}"),
     ),
     "car": (("car_full_bench",),),
     "occupant": (("seat_ride_full",),),

@@ -4,12 +4,13 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
 from contact_sim_pkg.sweep.case import Task
-from contact_sim_pkg.sweep.pool import run_all
+from contact_sim_pkg.sweep.pool import Workers, run_all
 
 DEADLY, ONCE = 3, 5
 
@@ -37,6 +38,18 @@ def test_a_case_that_ends_its_process_is_one_row_and_takes_none_with_it(tmp_path
     assert sorted(found) == list(range(8))
     assert [number for number, row in found.items() if row["outcome"] != "finished"] == [DEADLY]
     assert "killed" in found[DEADLY]["sentence"]
+
+
+def test_a_process_that_ends_between_two_cases_costs_none(tmp_path):
+    """As in a fit, or while a row is written."""
+    with Workers(2, work) as workers:
+        found = []
+        for row in workers.run(tasks(tmp_path)):
+            if row["number"] == 2:
+                os.kill(next(iter(workers._pool._processes)), signal.SIGKILL)
+                time.sleep(0.5)  # the pool has noticed
+            found.append((row["number"], row["outcome"]))
+    assert sorted(found) == [(number, "finished") for number in range(8)]
 
 
 def test_a_process_has_one_thread(tmp_path):

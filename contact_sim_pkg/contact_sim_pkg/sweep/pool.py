@@ -91,7 +91,12 @@ class Workers:
         if self._pool is None:
             self._pool = _pool(self._jobs)
         with _one_thread(), _main_hidden():
-            return self._pool.submit(self._work, task)
+            try:
+                return self._pool.submit(self._work, task)
+            except BrokenProcessPool as error:  # one ended where no case was: this case is as one that was in the air
+                broken: Future[Row] = Future()
+                broken.set_exception(error)
+                return broken
 
 
 def _pool(jobs: int) -> ProcessPoolExecutor:
