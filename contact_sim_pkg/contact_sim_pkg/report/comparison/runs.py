@@ -82,13 +82,13 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
     pair = compare_maps(names, recordings, LOADED) if mats else None
     if pair is None:
         sides = [compared(name, each, requirements) for name, each in zip(names, recordings, strict=True)]
-        told = difference_table(names, differences([each.scene for each in recordings]))
+        table = difference_table(names, differences([each.scene for each in recordings]))
         films, drawn = films_of_runs(letters, recordings), _sections(make_runs(names, recordings), "run")
     else:
         sides = [
             Compared(name, required(each, requirements), {}) for name, each in zip(names, pair.metrics, strict=True)
         ]
-        told = Table("A mat has no scene.", ("how they lie on each other",), [(text,) for text in pair.sentences])
+        table = Table("A mat has no scene.", ("how they lie on each other",), [(text,) for text in pair.sentences])
         films, drawn = films_of_runs(letters, recordings, pair.moved, pair.alignment), [_maps_of(pair)]
     moved, named = side_by_side(sides), answered(recordings[0])
     # what its rigs want shown, and what the answer is judged by
@@ -108,7 +108,7 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
         "conditions": ", ".join(f"{name} of {each.duration:.4g} s" for name, each in zip(names, recordings, strict=True)),
         "warnings": [f"{each.name}: {text}" for each in recordings for text in warnings(each)],
         "tiles": moved_tiles(names, moved, leading), "numbers": numbers,
-        "differences": told,
+        "differences": table,
         "maps": films.views, "notes": films.notes, "lead": lead, "drawn": parts,
         "contents": [Entry("result", "Result"), Entry("time", "Time and maps"),
                      *(Entry(each.key, each.title) for each in parts), Entry("files", "Files")],

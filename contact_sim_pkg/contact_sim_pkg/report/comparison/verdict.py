@@ -66,9 +66,9 @@ def answer_of_runs(
     if unfinished:
         return Answer("outside", "Not finished", "; ".join(each.rstrip(".") for each in unfinished) + ".")
     letters = letters_of(names)
-    told = sorted((each for each in sides if each.basis != SELF_CHECK), key=lambda each: each.key not in named)
+    ranked = sorted((each for each in sides if each.basis != SELF_CHECK), key=lambda each: each.key not in named)
     found = [
-        _answer([each.against_first(place) for each in told], named, letters[0], letter)
+        _answer([each.against_first(place) for each in ranked], named, letters[0], letter)
         for place, letter in enumerate(letters[1:], start=1)
     ]
     if len(found) == 1:
@@ -92,13 +92,13 @@ def _answer(pairs: Sequence[ComparedMetric], named: Collection[str], first: str,
     if better or worse:
         return _judged(better, worse, unknown, first, letter)
     rest = "".join(
-        f"; {word} by {_names(told)}"
+        f"; {word} by {_names(found)}"
         for word in (BETTER, WORSE)
-        if (told := [each for each in pairs if each.comparison == word])
+        if (found := [each for each in pairs if each.comparison == word])
     )
     if unknown:
         text = f"the spread is not known of {_change(unknown[0])}{_more(unknown, 'nor of')}"
-        return Answer("doubtful", f"{letter} undecided", f"{text}{rest}{_doubts(unknown[0])}.")
+        return Answer("doubtful", f"{letter} undecided", f"{text}{rest}{_reservation(unknown[0])}.")
     known = [each for each in speaking if math.isfinite(each.change)]
     moved = max((each for each in known if not each.comparison), key=_moved, default=None)
     if moved is not None:
@@ -118,28 +118,28 @@ def _judged(
     letter: str,
 ) -> Answer:
     """Where limits tell the runs apart."""
-    doubts = next(filter(None, map(_doubts, (*better, *worse))), "")
+    reservation = next(filter(None, map(_reservation, (*better, *worse))), "")
     rest = f"; the spread is not known of {_names(unknown)}" if unknown else ""
     if better and worse:
         text = f"better by {_change(better[0])}{_more(better)}; worse by {_change(worse[0])}{_more(worse)}"
         word = f"{letter} better and worse"
     else:
-        told = better or worse
-        text = f"{_change(told[0])}{_more(told)}"
+        judging = better or worse
+        text = f"{_change(judging[0])}{_more(judging)}"
         word = f"{letter if better else first} is better"
-    tone = "doubtful" if doubts else "usual" if better and worse else "good"
-    return Answer(tone, word, f"{text}{rest}{doubts}.")
+    tone = "doubtful" if reservation else "usual" if better and worse else "good"
+    return Answer(tone, word, f"{text}{rest}{reservation}.")
 
 
-def _more(told: Sequence[ComparedMetric], joined: str = "also by") -> str:
-    return f", {joined} {_names(told[1:])}" if len(told) > 1 else ""
+def _more(sides: Sequence[ComparedMetric], joined: str = "also by") -> str:
+    return f", {joined} {_names(sides[1:])}" if len(sides) > 1 else ""
 
 
-def _names(told: Sequence[ComparedMetric]) -> str:
-    return ", ".join(each.name for each in told)
+def _names(sides: Sequence[ComparedMetric]) -> str:
+    return ", ".join(each.name for each in sides)
 
 
-def _doubts(side: ComparedMetric) -> str:
+def _reservation(side: ComparedMetric) -> str:
     return f" ({'; '.join(side.broken)})" if side.broken else ""
 
 
