@@ -8,6 +8,7 @@ from tests.report import synthetic_bag as known
 from contact_sim_pkg.records.metric import CLOSED_FORM, LIMIT, OUTSIDE, SELF_CHECK, STATIONARY, Band, Metric, judged
 from contact_sim_pkg.report.answer import answer_of, first_metrics
 from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.run.outputs import Estimate
 
 AT_MOST_100 = Band(-math.inf, 100.0, LIMIT, "s")
 
@@ -42,6 +43,19 @@ def test_a_run_that_failed_says_so_before_its_numbers(recording):
     answer = answer_of(failed, [metric("seat.factor", 57.0, AT_MOST_100)])
     assert (answer.word, answer.tone) == ("Not finished", "outside")
     assert "the solver stopped" in answer.text
+
+
+def test_a_run_that_errs_by_more_than_requested_is_doubtful(recording):
+    estimates = [Estimate("seat/force.normal", 30.0, 1000.0)]
+    scene = {**recording.scene, "accuracy": 1e-2}
+    answer = answer_of(recording._replace(estimates=estimates, scene=scene), [metric("seat.factor", 57.0, AT_MOST_100)])
+    assert (answer.word, answer.tone) == ("Doubtful", "doubtful")
+    assert "estimated above the requested 1e-2: seat force 3e-2" in answer.text
+    enough = answer_of(
+        recording._replace(estimates=estimates, scene={**scene, "accuracy": 5e-2}),
+        [metric("seat.factor", 57.0, AT_MOST_100)],
+    )
+    assert enough.word == "Good"
 
 
 def test_what_lies_outside_is_the_first_tile_and_self_checks_only_fill(recording):

@@ -16,7 +16,7 @@ from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.run.outputs import Estimate
 from contact_sim_pkg.scene.schema.accuracy import requested
 
-__all__ = ["above", "accuracy_lines", "accuracy_numbers"]
+__all__ = ["above", "above_line", "accuracy_lines", "accuracy_numbers"]
 
 MOTION = "motion"
 WORDS = {"force": "force", "motion": "motion", "peak": "peak pressure", "area": "area"}
@@ -117,7 +117,7 @@ def _not_below(recording: RunRecording, estimated: Mapping[str, Mapping[str, Any
     return {place: kinds for place, kinds in found.items() if kinds}
 
 
-def above(numbers: dict[str, Any]) -> list[str]:
+def above(numbers: Mapping[str, Any]) -> list[str]:
     """What is estimated to err by more than requested, as ``tire force 1.4e-2``, or cannot err by so
     little.
     """
@@ -130,6 +130,14 @@ def above(numbers: dict[str, Any]) -> list[str]:
             elif least > asked:
                 found.append(f"{_named(place, kind)}, not below {number_of(least)} with {effect}")
     return found
+
+
+def above_line(numbers: Mapping[str, Any]) -> str:
+    """`above` in a sentence, ``estimated above the requested 1e-2: tire force 1.4e-2``; empty where nothing is, and
+    where ``numbers`` are empty.
+    """
+    named = above(numbers) if numbers else []
+    return f"estimated above the requested {number_of(numbers['requested'])}: {', '.join(named)}" if named else ""
 
 
 def accuracy_lines(numbers: dict[str, Any]) -> list[str]:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from itertools import zip_longest
 from typing import NamedTuple
 
+from contact_sim_pkg.compare.estimated import above_line, accuracy_numbers
 from contact_sim_pkg.records.metric import GOOD, MET, OUTSIDE, REQUIRED, SELF_CHECK, UNDECIDED, USUAL, Metric
 from contact_sim_pkg.records.report import ContactReport
 from contact_sim_pkg.report import facts
@@ -75,6 +76,8 @@ def _verdict(recording: Recording, metrics: Sequence[Metric]) -> tuple[str, str,
         return "doubtful", "Undecided", ", ".join(undecided)
     if broken := dict.fromkeys(text for each in metrics for text in each.broken):
         return "doubtful", "Doubtful", ", ".join(broken)
+    if above := above_line(accuracy_numbers(recording)):
+        return "doubtful", "Doubtful", above
     judged = [each.verdict for each in metrics if each.verdict in (GOOD, USUAL, MET)]
     if GOOD in judged:
         return "good", "Good", "nothing outside its band"

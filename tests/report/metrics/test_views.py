@@ -72,6 +72,8 @@ def test_the_terminal_ends_with_what_is_outside_and_what_is_doubtful():
         "OUTSIDE: bad 131 % (at most 100) | DOUBTFUL: 1 of 5 metrics, too short: 3 s, 34 s needed | the rest "
     )
     assert verdict_line(rows_of(METRICS[:1])) == "nothing outside its band: 1 good"
+    above = "estimated above the requested 1e-2: tire force 3e-2"
+    assert verdict_line(rows_of(METRICS[:1]), above) == f"DOUBTFUL: {above} | the rest 1 good"
 
 
 def test_junit_counts_failures_errors_and_what_is_skipped():

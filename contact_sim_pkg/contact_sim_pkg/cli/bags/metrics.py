@@ -94,7 +94,7 @@ def command(
     elif form == "junit":
         say(junit_of(suite_name(bags), metrics, found.warnings), nl=False)
     else:
-        for line in (*lines_of(rows), verdict_line(rows)):
+        for line in (*lines_of(rows), verdict_line(rows, found.above)):
             say(line)
     return exit_code(metrics)
 

@@ -134,7 +134,7 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome, checked: Iterable[str
         say(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")
     for line in checked:
         say(f"  {line}")
-    _echo_metrics(summary.get("metrics", []))
+    _echo_metrics(summary.get("metrics", []), summary.get("accuracy", {}))
     if row := summary.get("expected"):
         from contact_sim_pkg.report.metrics.regimes import line_of
         from contact_sim_pkg.report.metrics.views import metric_of
@@ -148,21 +148,21 @@ def _echo_accuracy(numbers: dict[str, Any] | None) -> None:
     """What was requested and what is estimated, the warning of it on standard error."""
     if not numbers:
         return
-    from contact_sim_pkg.compare.estimated import above, accuracy_lines
-    from contact_sim_pkg.records.table import number_of
+    from contact_sim_pkg.compare.estimated import above_line, accuracy_lines
 
     for line in accuracy_lines(numbers):
         say(f"  {line}")
-    if beyond := above(numbers):
-        say(f"bench: estimated above the requested {number_of(numbers['requested'])}: {', '.join(beyond)}", err=True)
+    if beyond := above_line(numbers):
+        say(f"bench: {beyond}", err=True)
 
 
-def _echo_metrics(rows: list[dict[str, Any]]) -> None:
+def _echo_metrics(rows: list[dict[str, Any]], accuracy: dict[str, Any]) -> None:
     """The list of metrics, and the verdict on all of it."""
     if not rows:
         return
+    from contact_sim_pkg.compare.estimated import above_line
     from contact_sim_pkg.report.metrics.views import lines_of, verdict_line
 
     for line in lines_of(rows):
         say(f"  {line}")
-    say(verdict_line(rows))
+    say(verdict_line(rows, above_line(accuracy)))

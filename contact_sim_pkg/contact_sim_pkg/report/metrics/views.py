@@ -106,8 +106,10 @@ def lines_of(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     return found
 
 
-def verdict_line(rows: Sequence[Mapping[str, Any]]) -> str:
-    """The list in one sentence: what lies outside its band, what is doubtful, else how many are good."""
+def verdict_line(rows: Sequence[Mapping[str, Any]], above: str = "") -> str:
+    """The list in one sentence: what lies outside its band, what is doubtful, ``above`` (the sentence of what errs by
+    more than requested), else how many are good.
+    """
     metrics = [metric_of(row) for row in rows]
     outside = [f"{each.name} {value_text(each)} ({_limit(each)})" for each in metrics if each.verdict == OUTSIDE]
     undecided = [f"{each.name} {value_text(each)} ({_limit(each)})" for each in metrics if each.verdict == UNDECIDED]
@@ -122,7 +124,10 @@ def verdict_line(rows: Sequence[Mapping[str, Any]]) -> str:
         f"OUTSIDE: {', '.join(outside)}" if outside else "",
         f"UNDECIDED: {', '.join(undecided)}" if undecided else "",
         f"DOUBTFUL: {len(metrics) - len(sure)} of {len(metrics)} metrics, {'; '.join(doubts)}" if doubts else "",
-        f"{'the rest ' if outside or undecided or doubts else 'nothing outside its band: '}{rest}" if rest else "",
+        f"DOUBTFUL: {above}" if above else "",
+        f"{'the rest ' if outside or undecided or doubts or above else 'nothing outside its band: '}{rest}"
+        if rest
+        else "",
     ]
     return " | ".join(filter(None, parts))
 
