@@ -103,7 +103,7 @@ def sweep(
         directory: new, empty, or of a sweep: a case that it holds does not run again.
         varied: what varies, ``"travel.speed=5:20:4"``, ``"road.roughness_class=A,B,C"``; ``:log`` behind a range for
             equal ratios.
-        sample: ``grid``, ``lhs:N``, ``sobol:N``, or a CSV file whose header names keys.
+        sample: ``grid``, ``lhs:N``, ``sobol:N``, ``saltelli:N``, or a CSV file whose header names keys.
         seeds: each case so many times, with seeds from 1; 0: the seed of the scene.
         sample_seed: of what is drawn.
         jobs: processes, of one thread each; None: as many as processors.

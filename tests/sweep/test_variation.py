@@ -63,10 +63,25 @@ def test_a_file_names_keys_and_cases(tmp_path):
         (("k=1:2",), "grid", "number of points"), (("k=1,,2",), "grid", "empty"), (("k=1,1",), "grid", "twice"),
         (("k=1,2", "k=3,4"), "grid", "varies twice"), ((), "grid", "nothing varies"), (("k=1:2",), "lhs:x", "number of cases"),
         ((), "lhs:4", "there is none"), (("k=1:2",), "nowhere.csv", "no such file"),
-        (("a=1:2:2000", "b=1:2:2000"), "grid", "at most 1000000"),
+        (("a=1:2:2000", "b=1:2:2000"), "grid", "at most 1000000"), (("a=1:2:1000000", "b=1:2:1000000"), "grid", "at most 1000000"),
+        (("k=3,4,3.0",), "grid", "3.0 is there twice"),
     ],
 )  # fmt: skip
 def test_what_is_no_variation_is_one_sentence(texts, sample, word):
     with pytest.raises(SweepError, match=word) as refused:
         samples(*texts, sample=sample)
     assert "\n" not in str(refused.value)
+
+
+def test_many_seeds_are_counted_before_a_list_is_built():
+    with pytest.raises(SweepError, match="at most 1000000"):
+        samples("k=1:2:1000000", seeds=10**9)
+    with pytest.raises(SweepError, match="leave --seeds out"):
+        samples("k=1:2", sample="saltelli:8", seeds=2)
+
+
+def test_a_file_that_is_no_text_is_one_sentence(tmp_path):
+    path = tmp_path / "cases.csv"
+    path.write_bytes("travel.speed,größe\n1,2\n".encode("latin-1"))
+    with pytest.raises(SweepError, match="UTF-8"):
+        samples(sample=str(path))

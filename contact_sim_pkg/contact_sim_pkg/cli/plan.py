@@ -23,11 +23,24 @@ if TYPE_CHECKING:
 @click.option(
     "--jobs", type=click.IntRange(1, 1024), default=None, metavar="N", help="Processes.  [default: processors]"
 )
+@click.option(
+    "--scheduler", default="", metavar="tcp://HOST:PORT", help="Workers of a Dask scheduler in place of processes here."
+)
+@click.option(
+    "--keep-bags", default="none", show_default=True, metavar="none|all|worst:N:METRIC", help="As of `bench sweep`."
+)
 @click.option("--junit", "junit_file", type=click.Path(path_type=Path), default=None, metavar="FILE", help="JUnit XML.")
 @overwrite_option
 @json_option
 def command(
-    plan: str | None, out: Path | None, jobs: int | None, junit_file: Path | None, overwrite: bool, as_json: bool
+    plan: str | None,
+    out: Path | None,
+    jobs: int | None,
+    scheduler: str,
+    keep_bags: str,
+    junit_file: Path | None,
+    overwrite: bool,
+    as_json: bool,
 ) -> int:
     """Run the cases of PLAN, a shipped one or a file, and say for each requirement whether they hold it, by how much, and
     what the worst case is. Without PLAN, list the shipped ones.
@@ -63,7 +76,7 @@ def command(
         check_output(junit_file, overwrite=overwrite)
     found = plans.read_plan(plan)
     try:
-        outcomes, tables = plans.run_plan(found, out, jobs=jobs, notify=doing)
+        outcomes, tables = plans.run_plan(found, out, jobs=jobs, scheduler=scheduler, keep_bags=keep_bags, notify=doing)
     except KeyboardInterrupt:
         say(f"interrupted; what has ended is in {out}, the same command goes on", err=True)
         return 1

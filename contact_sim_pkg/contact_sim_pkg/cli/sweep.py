@@ -31,8 +31,8 @@ MOST_FAULTS = 5
     "--seeds", type=click.IntRange(1), default=None, metavar="N", help="Each case N times, with seeds 1 to N."
 )
 @click.option(
-    "--sample", default="grid", show_default=True, metavar="grid|lhs:N|sobol:N|FILE.csv",
-    help="All combinations, N drawn ones, or the rows of a file whose header names keys.",
+    "--sample", default="grid", show_default=True, metavar="grid|lhs:N|sobol:N|saltelli:N|FILE.csv",
+    help="All combinations, N drawn ones, N (keys + 2) for Sobol indices, or the rows of a file whose header names keys.",
 )  # fmt: skip
 @click.option("--sample-seed", type=click.IntRange(0), default=1, show_default=True, help="Of what is drawn.")
 @click.option(
@@ -72,6 +72,7 @@ def command(
     from contact_sim_pkg.sweep.cost import cost_of
     from contact_sim_pkg.sweep.kept import read_kept
     from contact_sim_pkg.sweep.page import PAGES, Swept, write_page
+    from contact_sim_pkg.sweep.sensitivity import drawn_points
     from contact_sim_pkg.sweep.sweep import check_folder, sweep, texts_of, try_ends
     from contact_sim_pkg.sweep.variation import read_variation, samples_of
 
@@ -94,7 +95,9 @@ def command(
         say(f"interrupted; what has ended is in {out}, the same command goes on", err=True)
         return 1
     doing("drawing the page")
-    page = write_page(out / PAGES["sweep"], "sweep", Path(scene).stem, [Swept(scene, scene, table, out)])
+    page = write_page(
+        out / PAGES["sweep"], "sweep", Path(scene).stem, [Swept(scene, scene, table, out, points=drawn_points(sample))]
+    )
     _say_table(table, out, page, as_json=as_json)
     return 1 if table.failed else 0
 

@@ -9,6 +9,7 @@ import platform
 import shutil
 import tempfile
 import time
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -161,7 +162,8 @@ def _series_of(path: Path, series: str) -> Row:
 
 def machine() -> str:
     """What the bits of a number hang on beside the case."""
-    return f"{platform.machine()} {_processor()}, Python {platform.python_version()}"
+    versions = ", ".join(f"{name} {version(name)}" for name in ("numpy", "numba"))
+    return f"{platform.machine()} {_processor()}, Python {platform.python_version()}, {versions}"
 
 
 @functools.cache

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from pathlib import Path
 from typing import NamedTuple
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.files import BAG_ENDINGS
 from contact_sim_pkg.report.export.table import table_of
-from contact_sim_pkg.sweep.variation import SweepError, Values
+from contact_sim_pkg.sweep.variation import SweepError, Values, read_rows
 
 __all__ = ["Points", "Series", "read_points", "read_series"]
 
@@ -58,8 +57,7 @@ def read_points(path: Path, metrics: list[str]) -> Points:
         raise SweepError(
             f"{path}: there is no such file; --to is a table of points, or with --by TOPIC.COLUMN a recording"
         )
-    with path.open(newline="", encoding="utf-8-sig") as file:
-        rows = [[cell.strip() for cell in row] for row in csv.reader(file) if any(cell.strip() for cell in row)]
+    rows = read_rows(path)
     if len(rows) < 2:
         raise SweepError(f"{path}: needs a header and a row a case")
     named = [_name_and_unit(each) for each in rows[0]]
@@ -127,12 +125,14 @@ def read_series(path: Path, name: str) -> Series:
 def _columns_of_csv(path: Path, name: str) -> tuple[Field, Field]:
     if not path.is_file():
         raise SweepError(f"{path}: there is no such file")
-    with path.open(newline="", encoding="utf-8-sig") as file:
-        rows = [[cell.strip() for cell in row] for row in csv.reader(file) if any(cell.strip() for cell in row)]
+    rows = read_rows(path)
     header = [_name_and_unit(each)[0] for each in rows[0]] if rows else []
     column = next((each for each in (name, name.rpartition(".")[2]) if each in header[1:]), None)
     if column is None:
         raise SweepError(f"{path}: has no column {name.rpartition('.')[2]} behind its time; it has {', '.join(header)}")
     place = header.index(column)
-    found = numpy.array([[_number(path, row[each]) for each in (0, place)] for row in rows[1:]])
+    short = next((number for number, row in enumerate(rows[1:], 2) if len(row) <= place), None)
+    if short is not None:
+        raise SweepError(f"{path}: row {short} has no value of {column}")
+    found = numpy.array([[_number(path, row[each]) for each in (0, place)] for row in rows[1:]]).reshape(-1, 2)
     return found[:, 0], found[:, 1]

@@ -20,6 +20,7 @@ from contact_sim_pkg.sweep.case import FINISHED
 from contact_sim_pkg.sweep.correlations import column_of, correlation, numeric_keys, outliers, varying_metrics
 from contact_sim_pkg.sweep.figures import main_effects, response_map, scatter_matrix
 from contact_sim_pkg.sweep.plan import MISSED, NOT_DECIDED, PASSED, Judged, Outcome, Plan, judged_rows, set_by
+from contact_sim_pkg.sweep.sensitivity import sobol_indices
 from contact_sim_pkg.sweep.table import SweepTable
 from contact_sim_pkg.sweep.variation import SEED, Values
 
@@ -42,6 +43,8 @@ class Swept(NamedTuple):
     """metrics that something is required of, which are drawn first"""
     worst: Mapping[int, str] = {}
     """numbers of cases and what they are the worst of"""
+    points: int = 0
+    """N of `--sample saltelli:N`; 0: drawn otherwise"""
 
 
 class _Call(NamedTuple):
@@ -181,6 +184,8 @@ def _part(key: str, swept: Swept) -> _Part:
     tables = [_ranges(table)]
     if numeric_keys(table) and metrics:
         tables.append(_correlations(table, metrics))
+    if swept.points:
+        tables.append(_indices(swept, metrics))
     title = swept.name if swept.name == swept.scene else f"{swept.name}: {swept.scene}"
     return _Part(
         key,
@@ -216,6 +221,21 @@ def _correlations(table: SweepTable, metrics: Sequence[str]) -> Table:
             (metric, *(f"{each:+.2f} ({_probability(p)})" if math.isfinite(each) else NONE for each, p in found))
         )
     return Table("Spearman's rank correlation of metric and key, and its p value.", ("metric", *keys), rows)
+
+
+def _indices(swept: Swept, metrics: Sequence[str]) -> Table:
+    """A row a metric and key, the key with the largest total index first."""
+    found = sobol_indices(swept.table, swept.points, metrics)
+    rows = [
+        (each.metric, each.key, *(f"{value:.2f} ({ends[0]:.2f} to {ends[1]:.2f})" for value, ends in
+                                  ((each.first, each.first_ends), (each.total, each.total_ends))))
+        for metric in metrics for each in sorted((each for each in found if each.metric == metric), key=lambda each: -each.total)
+    ]  # fmt: skip
+    caption = (
+        "Sobol indices with their 95 % intervals: share of the metric's variance that the key has alone (first), and with "
+        "any of the others (total)."
+    )
+    return Table(caption, ("metric", "key", "first", "total"), rows)
 
 
 def _probability(p: float) -> str:

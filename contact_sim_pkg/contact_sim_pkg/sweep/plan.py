@@ -15,6 +15,7 @@ from contact_sim_pkg.report.metrics.repeated import repeated
 from contact_sim_pkg.report.metrics.requirements import Requirement, places_of, required, requirements_of
 from contact_sim_pkg.report.metrics.views import metric_of, suite_of, value_text, xml_text
 from contact_sim_pkg.sweep.case import FINISHED, Row
+from contact_sim_pkg.sweep.kept import NONE, read_kept
 from contact_sim_pkg.sweep.sweep import Notify, check_folder, sweep, try_ends
 from contact_sim_pkg.sweep.table import SweepTable
 from contact_sim_pkg.sweep.variation import SEED, SweepError, Values, Variation, read_variation, samples_of
@@ -145,11 +146,15 @@ def _refuse_unknown(path: Path, before: str, given: Mapping[str, Any], keys: Seq
         raise BagError(f"{path}: {before}{unknown[0]} is no key of a plan; there are {', '.join(keys)}")
 
 
-def run_plan(plan: Plan, folder: Path, *, jobs: int | None, notify: Notify) -> tuple[list[Outcome], list[SweepTable]]:
+def run_plan(
+    plan: Plan, folder: Path, *, jobs: int | None, scheduler: str = "", keep_bags: str = NONE, notify: Notify
+) -> tuple[list[Outcome], list[SweepTable]]:
     """Run all cases that have not run, each sweep in a folder of its name, and judge them; the table of each sweep too.
+    ``scheduler`` and ``keep_bags`` are those of `sweep`.
 
     Raises what `sweep` does, before anything runs; BagError for a requirement of a metric that no case has.
     """
+    read_kept(keep_bags)
     for each in plan.sweeps:
         notify(f"checking {each.name}", 0.0)
         check_folder(folder / each.name)
@@ -158,7 +163,7 @@ def run_plan(plan: Plan, folder: Path, *, jobs: int | None, notify: Notify) -> t
     tables = []
     for each in plan.sweeps:
         table = sweep(
-            each.scene, each.values, folder / each.name, jobs=jobs,
+            each.scene, each.values, folder / each.name, jobs=jobs, scheduler=scheduler, keep_bags=keep_bags,
             notify=lambda text, done, name=each.name: notify(f"{name}: {text}", done),  # type: ignore[misc]
         )  # fmt: skip
         _refuse_missing(each, table)

@@ -111,6 +111,9 @@ def check_folder(folder: Path) -> None:
     if reason := wrong_name(folder):
         raise FileRefusedError(folder, reason)
     if not folder.exists():
+        above = next(each for each in folder.absolute().parents if each.exists())
+        if not above.is_dir():
+            raise FileRefusedError(folder, f"{above} is no folder; give another name")
         return
     if not folder.is_dir():
         raise FileRefusedError(folder, "exists already and is no folder; give another name")
