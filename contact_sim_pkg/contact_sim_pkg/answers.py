@@ -8,7 +8,7 @@ from typing import Any, Protocol, TypeVar
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
-from contact_sim_pkg.compare.estimated import above_line, accuracy_numbers
+from contact_sim_pkg.compare.estimated import Above, above_request, accuracy_numbers
 from contact_sim_pkg.compare.side_by_side import ComparedMetric, side_by_side
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.records.table import table_html
@@ -84,7 +84,7 @@ def metrics(bag: Bag) -> Answers[Metric]:
     """
     recording = recording_of(bag) if is_ours(bag) else None
     found = foreign_metrics(bag, ForeignOptions())[0] if recording is None else metrics_of(recording)
-    above = "" if recording is None else above_line(accuracy_numbers(recording))
+    above = Above() if recording is None else above_request(accuracy_numbers(recording))
     rows, sentence = rows_of(found), verdict_line(rows_of(found), above)
     shown = [
         {"key": each.key, "metric": each.name, "value": value_text(each), "verdict": verdict_text(each),

@@ -2,7 +2,7 @@
 
 import pytest
 
-from contact_sim_pkg.compare.estimated import above, accuracy_lines, accuracy_numbers
+from contact_sim_pkg.compare.estimated import above, above_request, accuracy_lines, accuracy_numbers
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.run.outputs import Estimate
 
@@ -38,6 +38,10 @@ def test_bodies_err_by_their_forces_or_by_the_speed_that_these_leave(recording):
 def test_what_is_above_the_request_is_named_and_what_no_request_moves(recording):
     numbers = accuracy_numbers(recording)
     assert above(numbers) == ["tire peak pressure 2e-2"]
+    assert above_request(numbers) == ("estimated above the requested 1e-2: tire peak pressure 2e-2", True)
+    floor = {**numbers, "not_below": {"tire": {"peak": [2e-2, "tire something"]}}}
+    assert not above_request(floor).is_doubtful
+    assert above_request({}) == ("", False)
     scene = {**recording.scene, "rig": "car", "accuracy": 1e-4, "effects": {"seat": {"cushion": {}}}}
     named = above(accuracy_numbers(recording._replace(scene=scene)))
     assert any(each.startswith("seat force, not below 1e-3 with seat cushion") for each in named)

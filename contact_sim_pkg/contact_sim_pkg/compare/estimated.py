@@ -8,7 +8,7 @@ contacts, and err by no more of theirs: motion has the error of the force that e
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from contact_sim_pkg.compare.least_errors import least_errors
 from contact_sim_pkg.records.definitions import RESOLVED, definition_of
@@ -16,7 +16,7 @@ from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.run.outputs import Estimate
 from contact_sim_pkg.scene.schema.accuracy import requested
 
-__all__ = ["above", "above_line", "accuracy_lines", "accuracy_numbers"]
+__all__ = ["Above", "above", "above_request", "accuracy_lines", "accuracy_numbers"]
 
 MOTION = "motion"
 WORDS = {"force": "force", "motion": "motion", "peak": "peak pressure", "area": "area"}
@@ -132,12 +132,33 @@ def above(numbers: Mapping[str, Any]) -> list[str]:
     return found
 
 
-def above_line(numbers: Mapping[str, Any]) -> str:
-    """`above` in a sentence, ``estimated above the requested 1e-2: tire force 1.4e-2``; empty where nothing is, and
-    where ``numbers`` are empty.
-    """
+class Above(NamedTuple):
+    """What errs by more than requested."""
+
+    text: str = ""
+    """``estimated above the requested 1e-2: tire force 1.4e-2``; empty where nothing does"""
+    is_doubtful: bool = False
+    """whether a run can be more accurate, by a smaller request or without a limit on its steps; not where the model of
+    an effect errs by so much at any request"""
+
+
+def above_request(numbers: Mapping[str, Any]) -> Above:
+    """`above` in a sentence; ``numbers`` may be empty."""
     named = above(numbers) if numbers else []
-    return f"estimated above the requested {number_of(numbers['requested'])}: {', '.join(named)}" if named else ""
+    if not named:
+        return Above()
+    asked = numbers["requested"]
+    floors = {
+        (place, kind)
+        for place, kinds in numbers["not_below"].items()
+        for kind, least in kinds.items()
+        if least[0] > asked
+    }
+    beyond = {
+        (place, kind) for place, kinds in numbers["estimated"].items() for kind, error in kinds.items()
+        if error is not None and error > asked
+    }  # fmt: skip
+    return Above(f"estimated above the requested {number_of(asked)}: {', '.join(named)}", bool(beyond - floors))
 
 
 def accuracy_lines(numbers: dict[str, Any]) -> list[str]:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from itertools import zip_longest
 from typing import NamedTuple
 
-from contact_sim_pkg.compare.estimated import above_line, accuracy_numbers
+from contact_sim_pkg.compare.estimated import above_request, accuracy_numbers
 from contact_sim_pkg.records.metric import GOOD, MET, OUTSIDE, REQUIRED, SELF_CHECK, UNDECIDED, USUAL, Metric
 from contact_sim_pkg.records.report import ContactReport
 from contact_sim_pkg.report import facts
@@ -76,12 +76,14 @@ def _verdict(recording: Recording, metrics: Sequence[Metric]) -> tuple[str, str,
         return "doubtful", "Undecided", ", ".join(undecided)
     if broken := dict.fromkeys(text for each in metrics for text in each.broken):
         return "doubtful", "Doubtful", ", ".join(broken)
-    if above := above_line(accuracy_numbers(recording)):
-        return "doubtful", "Doubtful", above
+    above = above_request(accuracy_numbers(recording))
+    if above.is_doubtful:
+        return "doubtful", "Doubtful", above.text
+    inside = "; ".join(filter(None, ("nothing outside its band", above.text)))
     judged = [each.verdict for each in metrics if each.verdict in (GOOD, USUAL, MET)]
     if GOOD in judged:
-        return "good", "Good", "nothing outside its band"
-    return ("usual", "As usual", "nothing outside its band") if judged else ("usual", "Measured", "no band applies")
+        return "good", "Good", inside
+    return ("usual", "As usual", inside) if judged else ("usual", "Measured", "no band applies")
 
 
 def _filled(phrase: str, report: ContactReport, metrics: dict[str, Metric]) -> str:

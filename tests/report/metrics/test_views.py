@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from contact_sim_pkg.compare.estimated import Above
 from contact_sim_pkg.records.metric import Band, Metric, judged
 from contact_sim_pkg.report.metrics.tiles import doubts_of, metric_table, published_table, tiles_of
 from contact_sim_pkg.report.metrics.views import csv_of, junit_of, lines_of, metric_of, row_of, rows_of, verdict_line
@@ -72,8 +73,10 @@ def test_the_terminal_ends_with_what_is_outside_and_what_is_doubtful():
         "OUTSIDE: bad 131 % (at most 100) | DOUBTFUL: 1 of 5 metrics, too short: 3 s, 34 s needed | the rest "
     )
     assert verdict_line(rows_of(METRICS[:1])) == "nothing outside its band: 1 good"
-    above = "estimated above the requested 1e-2: tire force 3e-2"
-    assert verdict_line(rows_of(METRICS[:1]), above) == f"DOUBTFUL: {above} | the rest 1 good"
+    above = Above("estimated above the requested 1e-2: tire force 3e-2", is_doubtful=True)
+    assert verdict_line(rows_of(METRICS[:1]), above) == f"DOUBTFUL: {above.text} | the rest 1 good"
+    by_an_effect = above._replace(is_doubtful=False)
+    assert verdict_line(rows_of(METRICS[:1]), by_an_effect) == f"{above.text} | nothing outside its band: 1 good"
 
 
 def test_junit_counts_failures_errors_and_what_is_skipped():

@@ -148,11 +148,11 @@ def _echo_accuracy(numbers: dict[str, Any] | None) -> None:
     """What was requested and what is estimated, the warning of it on standard error."""
     if not numbers:
         return
-    from contact_sim_pkg.compare.estimated import above_line, accuracy_lines
+    from contact_sim_pkg.compare.estimated import above_request, accuracy_lines
 
     for line in accuracy_lines(numbers):
         say(f"  {line}")
-    if beyond := above_line(numbers):
+    if beyond := above_request(numbers).text:
         say(f"bench: {beyond}", err=True)
 
 
@@ -160,9 +160,9 @@ def _echo_metrics(rows: list[dict[str, Any]], accuracy: dict[str, Any]) -> None:
     """The list of metrics, and the verdict on all of it."""
     if not rows:
         return
-    from contact_sim_pkg.compare.estimated import above_line
+    from contact_sim_pkg.compare.estimated import above_request
     from contact_sim_pkg.report.metrics.views import lines_of, verdict_line
 
     for line in lines_of(rows):
         say(f"  {line}")
-    say(verdict_line(rows, above_line(accuracy)))
+    say(verdict_line(rows, above_request(accuracy)))

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.metadata import IMPORTED_FROM
 from contact_sim_pkg.bag.reader import Bag, open_bag
-from contact_sim_pkg.compare.estimated import above_line, accuracy_numbers
+from contact_sim_pkg.compare.estimated import Above, above_request, accuracy_numbers
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.facts import warnings_of
@@ -30,7 +30,7 @@ class FoundMetrics(NamedTuple):
     notes: list[str]
     warnings: list[str]
     """runs that failed or were stopped, and excitation that no node of the bench published"""
-    above: str = ""
+    above: Above = Above()
     """what errs by more than its scene requested"""
 
 
@@ -59,7 +59,7 @@ def metrics_of_bags(
     warnings: list[str] = []
     lists: list[list[Metric]] = []
     scenes: list[dict[str, Any]] = []
-    above: list[str] = []
+    above: list[Above] = []
     for bag in bags:
         if is_foreign(bag, chosen):
             if whole or loaded is not None:
@@ -84,11 +84,13 @@ def metrics_of_bags(
             notes += [f"{bag.path.name}: {bag.metadata['imported_as']}"] if IMPORTED_FROM in bag.metadata else []
             warnings += [f"{suite_name([bag.path])}: {said}" for said in warnings_of(recording)]
             scenes.append(recording.scene)
-            above += filter(None, [above_line(accuracy_numbers(recording))])
+            above.append(above_request(accuracy_numbers(recording)))
     names = [suite_name([path]) for path in paths]
     if len(bags) == 1:
         return FoundMetrics(lists[0], notes, warnings, *above)
-    return FoundMetrics(repeated(names, scenes, lists), notes, warnings, "; ".join(dict.fromkeys(above)))
+    texts = "; ".join(dict.fromkeys(each.text for each in above if each.text))
+    of_all = Above(texts, any(each.is_doubtful for each in above))
+    return FoundMetrics(repeated(names, scenes, lists), notes, warnings, of_all)
 
 
 def recording_of(bag: Bag) -> Recording:

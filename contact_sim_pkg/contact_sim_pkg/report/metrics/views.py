@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 from xml.etree import ElementTree
 
+from contact_sim_pkg.compare.estimated import Above
 from contact_sim_pkg.files import as_cell
 from contact_sim_pkg.records.metric import CLOSED_FORM, GOOD, MET, NO_BAND, OUTSIDE, UNDECIDED, USUAL, Band, Metric
 from contact_sim_pkg.report.rows import number
@@ -27,6 +28,7 @@ __all__ = [
     "xml_text",
 ]
 
+NOTHING = Above()
 COLUMNS = (
     "key", "name", "value", "unit", "verdict", "low", "high", "kind", "source", "conditions", "remark", "broken", "spread", "error",
     "basis", "count", "topic", "window_start", "window_end",
@@ -106,9 +108,9 @@ def lines_of(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     return found
 
 
-def verdict_line(rows: Sequence[Mapping[str, Any]], above: str = "") -> str:
-    """The list in one sentence: what lies outside its band, what is doubtful, ``above`` (the sentence of what errs by
-    more than requested), else how many are good.
+def verdict_line(rows: Sequence[Mapping[str, Any]], above: Above = NOTHING) -> str:
+    """The list in one sentence: what lies outside its band, what is doubtful, what errs by more than
+    requested (``above``), else how many are good.
     """
     metrics = [metric_of(row) for row in rows]
     outside = [f"{each.name} {value_text(each)} ({_limit(each)})" for each in metrics if each.verdict == OUTSIDE]
@@ -124,8 +126,8 @@ def verdict_line(rows: Sequence[Mapping[str, Any]], above: str = "") -> str:
         f"OUTSIDE: {', '.join(outside)}" if outside else "",
         f"UNDECIDED: {', '.join(undecided)}" if undecided else "",
         f"DOUBTFUL: {len(metrics) - len(sure)} of {len(metrics)} metrics, {'; '.join(doubts)}" if doubts else "",
-        f"DOUBTFUL: {above}" if above else "",
-        f"{'the rest ' if outside or undecided or doubts or above else 'nothing outside its band: '}{rest}"
+        f"{'DOUBTFUL: ' if above.is_doubtful else ''}{above.text}" if above.text else "",
+        f"{'the rest ' if outside or undecided or doubts or above.is_doubtful else 'nothing outside its band: '}{rest}"
         if rest
         else "",
     ]
