@@ -24,6 +24,8 @@
     const box = parent.getBoundingClientRect(), frame = parent.ownerSVGElement.getBoundingClientRect();
     return box.left < frame.left - 1 || box.right > frame.right + 1 || box.top < frame.top - 1 || box.bottom > frame.bottom + 1;
   });
+  const wide = [...document.querySelectorAll(".tile")].filter(tile => seen(tile) && tile.scrollWidth > tile.clientWidth + 1)
+    .map(tile => tile.textContent.trim().replace(/\s+/g, " "));
   const overlap = [];
   for (const svg of document.querySelectorAll("figure svg, .sketch")) {
     const boxes = [...svg.querySelectorAll("text")].filter(text => seen(text) && !/rotate\((?!-?0)/.test(text.getAttribute("transform") || ""))
@@ -48,7 +50,7 @@
     height: opened, heights, unfolded: root.scrollHeight, content: root.scrollWidth, window: root.clientWidth,
     pictures: document.querySelectorAll("figure svg").length,
     least_font: Math.min(...texts.map(([size]) => size)), smallest: texts.filter(([size]) => size < 11).map(([size, text]) => `${size.toFixed(1)} ${text}`),
-    texts: texts.length, cut: cut.map(([, text]) => text), overlap,
+    texts: texts.length, cut: [...cut.map(([, text]) => text), ...wide], overlap,
     unlisted: folds.filter(fold => !listed.has(fold.id) && ![...fold.querySelectorAll("[id]")].some(each => listed.has(each.id)))
       .map(fold => fold.querySelector("summary").textContent),
     broken: [...listed].filter(key => !document.getElementById(key)),

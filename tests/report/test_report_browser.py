@@ -3,7 +3,10 @@
 import pytest
 from tests.report.browser import BROWSER, browser
 
+from contact_sim_pkg.report import report
 from contact_sim_pkg.report.comparison.runs import write_comparison
+from contact_sim_pkg.report.metrics.listing import metrics_of
+from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.report import write_report
 
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no chromium or chrome on the PATH")
@@ -54,6 +57,18 @@ def test_no_text_is_too_small_cut_or_over_another(shown):
     assert found["smallest"] == []
     assert found["cut"] == []
     assert found["overlap"] == []
+
+
+@pytest.mark.parametrize("width", [WIDE, NARROW])
+def test_a_tile_holds_both_its_errors(tmp_path, monkeypatch, seat, tab, width):
+    """Numerical and random, of several digits each."""
+    recording = read_recording(seat)
+    metrics = [each._replace(error=0.00123, spread=0.0456) for each in metrics_of(recording)]
+    monkeypatch.setattr(report, "metrics_of", lambda _recording: metrics)
+    out = tmp_path / "page.html"
+    out.write_text(report.render(recording))
+    found = tab.measured(out, width)
+    assert found["cut"] == []
 
 
 def test_nothing_runs_over_the_side(shown):

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from itertools import zip_longest
 from typing import NamedTuple
 
-from contact_sim_pkg.compare.estimated import above_request, accuracy_numbers
+from contact_sim_pkg.compare.estimated import Above, above_request, accuracy_numbers
 from contact_sim_pkg.records.metric import GOOD, MET, OUTSIDE, REQUIRED, SELF_CHECK, UNDECIDED, USUAL, Metric
 from contact_sim_pkg.records.report import ContactReport
 from contact_sim_pkg.report import facts
@@ -32,13 +32,15 @@ class Answer(NamedTuple):
 
 
 def answer_of(recording: Recording, metrics: Sequence[Metric]) -> Answer:
-    """The worst that holds of a run, then what its rigs have to say."""
+    """The worst that holds of a run, what its rigs have to say, and what of it no request makes more accurate."""
     found = {metric.key: metric for metric in metrics}
     phrases = [
         text for report in reports_of(recording) for phrase in report.answer if (text := _filled(phrase, report, found))
     ]
-    tone, word, reason = _verdict(recording, metrics)
-    return Answer(tone, word, "; ".join([*([reason] if reason else []), *phrases]) + ".")
+    above = above_request(accuracy_numbers(recording))
+    tone, word, reason = _verdict(recording, metrics, above)
+    said = [reason, *phrases, above.text if above.text not in reason else ""]
+    return Answer(tone, word, "; ".join(filter(None, said)) + ".")
 
 
 def first_metrics(recording: Recording, metrics: Sequence[Metric]) -> list[Metric]:
@@ -61,7 +63,7 @@ def first_metrics(recording: Recording, metrics: Sequence[Metric]) -> list[Metri
     return sorted((each for each in metrics if each.key in chosen), key=lambda each: each.key not in own)
 
 
-def _verdict(recording: Recording, metrics: Sequence[Metric]) -> tuple[str, str, str]:
+def _verdict(recording: Recording, metrics: Sequence[Metric], above: Above) -> tuple[str, str, str]:
     """Tone, word and reason of the worst that holds."""
     if ended := facts.ended_early(recording):
         return "outside", "Not finished", ended[0].rstrip(".")
@@ -76,14 +78,12 @@ def _verdict(recording: Recording, metrics: Sequence[Metric]) -> tuple[str, str,
         return "doubtful", "Undecided", ", ".join(undecided)
     if broken := dict.fromkeys(text for each in metrics for text in each.broken):
         return "doubtful", "Doubtful", ", ".join(broken)
-    above = above_request(accuracy_numbers(recording))
     if above.is_doubtful:
         return "doubtful", "Doubtful", above.text
-    inside = "; ".join(filter(None, ("nothing outside its band", above.text)))
     judged = [each.verdict for each in metrics if each.verdict in (GOOD, USUAL, MET)]
     if GOOD in judged:
-        return "good", "Good", inside
-    return ("usual", "As usual", inside) if judged else ("usual", "Measured", "no band applies")
+        return "good", "Good", "nothing outside its band"
+    return ("usual", "As usual", "nothing outside its band") if judged else ("usual", "Measured", "no band applies")
 
 
 def _filled(phrase: str, report: ContactReport, metrics: dict[str, Metric]) -> str:
