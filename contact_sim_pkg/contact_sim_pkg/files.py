@@ -181,6 +181,9 @@ def new_file(
             draft.replace(target)
         else:
             _name_exclusively(draft, target)
+    except OSError as error:  # a full disk does not say which
+        error.filename = error.filename or str(path)
+        raise
     finally:
         draft.unlink(missing_ok=True)
 

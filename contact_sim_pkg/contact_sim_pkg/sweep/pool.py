@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from multiprocessing import resource_tracker
 from typing import Any
 
 from contact_sim_pkg.sweep.case import Row, Task, failed, run_case
@@ -90,7 +91,7 @@ class Workers:
     def _submit(self, task: Task) -> Future[Row]:
         if self._pool is None:
             self._pool = _pool(self._jobs)
-        with _one_thread(), _main_hidden():
+        with _one_thread(), _main_hidden(), _interrupt_held():
             try:
                 return self._pool.submit(self._work, task)
             except BrokenProcessPool as error:  # one ended where no case was: this case is as one that was in the air
@@ -105,7 +106,7 @@ def _pool(jobs: int) -> ProcessPoolExecutor:
 
 
 def _ignore_interrupt() -> None:
-    """Who interrupts means the process that waits for this one, which ends it."""
+    """Who interrupts means the process that waits for this one, which ends it. The signal is held since this one began."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
@@ -122,6 +123,19 @@ def _one_thread() -> Iterator[None]:
                 os.environ.pop(name, None)
             else:
                 os.environ[name] = value
+
+
+@contextmanager
+def _interrupt_held() -> Iterator[None]:
+    """While processes begin: the interrupt of a terminal, which goes to all of them, does not end one that cannot ignore it
+    yet. It reaches this process afterwards.
+    """
+    resource_tracker.ensure_running()  # its own start would let them through
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT,))
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager
