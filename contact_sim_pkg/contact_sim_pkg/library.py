@@ -131,7 +131,7 @@ def sweep(
 
 def fit(
     scene: str | Path, to: str | Path, *free: str, directory: str | Path, metrics: Sequence[str] = (), series: str = "",
-    fixed: Sequence[str] = (), shift: float = 0.02, jobs: int | None = None, progress: bool = True,
+    fixed: Sequence[str] = (), shift: float = 0.02, by: str = "series", jobs: int | None = None, progress: bool = True,
 ) -> Fit:  # fmt: skip
     """Fit keys of a scene to what was measured, as `bench fit` does.
 
@@ -143,6 +143,7 @@ def fit(
         metrics: columns of the points, metrics by their keys.
         series: ``topic.column`` of a run that is compared over time.
         fixed: set in every run, ``"duration=2"``.
+        by: what of a series is compared: ``series`` its samples, ``spectrum`` its densities.
         shift: [s] most that a recording may be late or early; 0 holds it.
         jobs: processes; None: as many as processors.
         progress: whether it is shown on standard error.
@@ -157,12 +158,22 @@ def fit(
 
     if bool(metrics) == bool(series):
         raise SweepError("give metrics for a table of points, or series for a recording")
+    if by not in ("series", "spectrum"):
+        raise SweepError(f"by {by!r}: is none of series, spectrum")
     found = [read_variation(each, "") for each in free]
     measured = read_series(Path(str(to)), series) if series else read_points(Path(str(to)), [*metrics])
     given = {key.strip(): value.strip() for key, _, value in (each.partition("=") for each in fixed)}
     with working("fit: starting") if progress else nullcontext():
         return fit_keys(
-            str(scene), measured, found, Path(str(directory)), fixed=given, jobs=jobs, most_shift=shift, notify=doing
+            str(scene),
+            measured,
+            found,
+            Path(str(directory)),
+            fixed=given,
+            jobs=jobs,
+            most_shift=shift,
+            by_spectrum=by == "spectrum",
+            notify=doing,
         )
 
 

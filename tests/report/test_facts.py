@@ -76,6 +76,13 @@ def test_an_excitation_of_another_node_is_a_warning_and_one_of_the_bench_is_not(
     assert described_by_publishers(described, {}) == described
 
 
+def test_a_run_that_was_killed_is_no_finished_one():
+    """Its bag has no end, and so no word of how it ended."""
+    killed = recording(scene={"name": "x"}, notes=["x_0.mcap holds 3 messages: it was not finished"])
+    assert "killed" in facts.ended_early(killed)[0]
+    assert facts.ended_early(killed._replace(metadata={"ended": "finished"})) == []
+
+
 def test_what_a_bag_lacks_is_a_warning():
     assert facts.warnings(recording(notes=["the bag was not finished"])) == ["the bag was not finished"]
 

@@ -12,6 +12,7 @@ from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.sweep import fit as fits
 from contact_sim_pkg.sweep.fit import fit
 from contact_sim_pkg.sweep.measured import Points, Series, read_points, read_series
+from contact_sim_pkg.sweep.spectrum import log_density
 from contact_sim_pkg.sweep.variation import SweepError, read_variation
 
 
@@ -110,6 +111,62 @@ def test_a_pair_of_which_only_the_product_acts_is_named():
     assert factor.remark == "not identifiable beside size"
     assert frequency.remark == ""
     assert not found.is_identified
+
+
+@pytest.mark.parametrize(("left", "expected"), [(0.5, 1e-2), (2.0, 0.0)])
+def test_what_the_runs_may_err_by_is_not_held_against_the_scene(left, expected):
+    """Of a largest value of 100, at a scene that requests a hundredth."""
+    time = TIME[:1001]
+    measured = 100.0 * numpy.cos(10.0 * time)
+    compared = fits.Compared("x.y", time, measured, measured + left * numpy.cos(time), "time, s")
+    found = fits.Fit([], 1.0, "", 1e-9, 0.0, 1, {}, [compared])
+    assert not found.follows
+    coarse = fits._within_request(found, "tire_bump")
+    assert coarse == expected
+    assert found._replace(coarse=coarse).follows == (expected > 0.0)
+
+
+class Resonator(Linear):
+    """A mass on spring and damper shaken by noise: of another seed each, two runs go apart in time."""
+
+    def __call__(self, places):
+        self.count += len(places)
+        return [self.run(1, *map(float, self.values_at(place).values())) for place in places]
+
+    @staticmethod
+    def run(seed, frequency, damping):
+        rate, turn = 200.0, 2.0 * math.pi * frequency
+        system = signal.cont2discrete(([turn**2], [1.0, 2.0 * damping * turn, turn**2]), 1.0 / rate)
+        noise = numpy.random.default_rng(seed).normal(size=12_000)
+        return numpy.array([numpy.arange(noise.size) / rate, signal.lfilter(system[0].ravel(), system[1], noise)])
+
+
+def test_a_spectrum_is_fitted_where_runs_go_apart_in_time():
+    """Of 20 recordings of other noise, 90 % intervals hold frequency and damping as often as a binomial lets them."""
+    inside = numpy.zeros(2)
+    for number in range(2, 22):
+        to = Series("x.y", *Resonator.run(number, 8.0, 0.1))
+        found = fits._fitted_spectrum(Resonator(("frequency=4:16:log", "damping=0.02:0.5:log")), to)
+        assert found.follows
+        inside += [each.low <= truth <= each.high for each, truth in zip(found.parameters, (8.0, 0.1), strict=True)]
+    low, high = stats.binom.ppf([5e-4, 1.0 - 5e-4], 20, 0.9)
+    assert (inside >= low).all()
+    assert (inside <= high).all()
+    wrong = Series("x.y", to.time, to.values + numpy.sin(2.0 * math.pi * 20.0 * to.time))
+    assert not fits._fitted_spectrum(Resonator(("frequency=4:16:log", "damping=0.02:0.5:log")), wrong).follows
+
+
+def test_a_density_is_that_of_white_noise_and_scatters_as_it_says():
+    """Of variance s² at a rate f: 2 s² / f at all frequencies; bias of a logarithm left in the bound."""
+    rng = numpy.random.default_rng(5)
+    found = [log_density(numpy.arange(8500) / 100.0, rng.normal(0.0, 3.0, 8500)) for _ in range(20)]
+    values = numpy.array([each.values for each in found])
+    assert values.mean() == pytest.approx(math.log(2.0 * 9.0 / 100.0), abs=0.05)
+    assert values.std() == pytest.approx(found[0].scatter, rel=0.05)
+    neighbours = numpy.corrcoef(values[:, :-1].ravel(), values[:, 1:].ravel())[0, 1]
+    assert abs(neighbours) < 0.06
+    with pytest.raises(SweepError, match="one rate"):
+        log_density(numpy.array([0.0, 1.0, 2.5]), numpy.zeros(3))
 
 
 def test_a_table_of_a_sweep_is_a_table_of_points(tmp_path):

@@ -36,6 +36,10 @@ COLUMNS = "key", "value", "from", "to", "remark"
 @click.option("--metric", "metrics", multiple=True, metavar="NAME", help="Column of the points, a metric by its key.")
 @click.option("--series", metavar="TOPIC.COLUMN", default=None, help="What of a run is compared over time.")
 @click.option(
+    "--by", type=click.Choice(["series", "spectrum"]), default="series", show_default=True,
+    help="What of a series is compared: its samples, or its densities where runs go apart in time.",
+)  # fmt: skip
+@click.option(
     "--shift", type=click.FloatRange(0.0, 10.0), default=0.02, show_default=True, metavar="S",
     help="With --series: most that the recording may be late or early; 0 holds it.",
 )  # fmt: skip
@@ -53,6 +57,7 @@ def command(
     fixed: tuple[str, ...],
     metrics: tuple[str, ...],
     series: str | None,
+    by: str,
     shift: float,
     jobs: int | None,
     out: Path,
@@ -61,11 +66,13 @@ def command(
     """Fit keys of SCENE to what was measured, and say between what they are.
 
     With --metric FILE is a table: columns of keys set the cases, columns of metrics are what was measured. With --series it
-    is a recording of one run. Writes fitted.yaml. Exit code 1 where the scene cannot follow what was measured, 3 where a
-    key is not identifiable.
+    is a recording of one run. Writes fitted.yaml and fit.html. Exit code 1 where the scene cannot follow what was
+    measured, 3 where a key is not identifiable.
     """
     from contact_sim_pkg.sweep.fit import fit
+    from contact_sim_pkg.sweep.fit_page import write_fit_page
     from contact_sim_pkg.sweep.measured import read_points, read_series
+    from contact_sim_pkg.sweep.page import PAGES
     from contact_sim_pkg.sweep.sweep import check_folder
     from contact_sim_pkg.sweep.variation import read_variation
 
@@ -79,20 +86,27 @@ def command(
     given = {key.strip(): value.strip() for key, _, value in (each.partition("=") for each in fixed)}
     to = read_points(file, [*metrics]) if series is None else read_series(file, series)
     try:
-        found = fit(scene, to, free, out, fixed=given, jobs=jobs, most_shift=shift, notify=doing)
+        found = fit(
+            scene, to, free, out, fixed=given, jobs=jobs, most_shift=shift, by_spectrum=by == "spectrum", notify=doing
+        )
     except KeyboardInterrupt:
         say(f"interrupted; the runs so far are in {out}, the same command goes on", err=True)
         return 1
+    doing("drawing the page")
+    page = write_fit_page(out / PAGES["fit"], scene, found)
     if as_json:
-        print_json(
-            {**found._asdict(), "parameters": [each._asdict() for each in found.parameters], "follows": found.follows}
-        )
+        facts = {key: value for key, value in found._asdict().items() if key != "compared"}
+        parameters = [each._asdict() for each in found.parameters]
+        print_json({**facts, "parameters": parameters, "follows": found.follows, "page": str(page)})
     else:
-        _say(found, out)
-    return 0 if found.follows and found.is_identified else 3 if found.follows else 1
+        _say(found, out, page)
+    told = found.is_identified and not found.coarse
+    return 0 if found.follows and told else 3 if found.follows else 1
 
 
-def _say(found: Fit, out: Path) -> None:
+def _say(found: Fit, out: Path, page: Path) -> None:
+    from contact_sim_pkg.sweep.fit_page import coarse_sentence
+
     show_rows(
         [
             {
@@ -113,9 +127,11 @@ def _say(found: Fit, out: Path) -> None:
             f"the scene does not follow what was measured (probability {found.probability:.1g}): an effect, a filter or "
             "another model is missing, and the intervals hold nothing"
         )
+    elif found.coarse:
+        say(coarse_sentence(found))
     elif math.isnan(found.probability):
         say("whether the scene follows was not judged: the scatter of what was measured is not known, or there is none")
-    say(f"{out / 'fitted.yaml'} is the fitted scene")
+    say(f"{out / 'fitted.yaml'} is the fitted scene, {page} shows it")
 
 
 def _digits(value: float) -> str:

@@ -86,6 +86,8 @@ def ended_early(recording: Recording) -> list[str]:
     if ended != "finished":
         reason = recording.metadata.get("failure", "")
         found.append(f"The run ended before its last block: {ended}{'; ' + reason if reason else '.'}")
+    elif recording.scene and recording.notes and "ended" not in recording.metadata:
+        found.append("The recording has no end: the run was killed, or its disk was full.")
     if recording.metadata.get("stopped"):
         found.append(recording.metadata["stopped"])
     return found

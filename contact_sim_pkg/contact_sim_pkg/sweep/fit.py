@@ -1,9 +1,10 @@
 """Keys of a scene fitted to what was measured, with intervals, and whether the scene can follow it at all.
 
 Least squares over the residual ``r = (model - measured) / scatter``: of points with their own scatter, or one that is
-estimated; of a series whitened by an autoregression of order `ORDER` that is fitted to what is left (without that, coloured
-noise makes intervals half as wide as they are), the time between recording and run free within a bound. Parameters lie in
-[0, 1] between their bounds, by their logarithm where asked; differences are cases over processes.
+estimated; of the spectrum of a series with the scatter of chance; of a series itself whitened by an autoregression of order
+`ORDER` that is fitted to what is left (without that, coloured noise makes intervals half as wide as they are), the time
+between recording and run free within a bound. Parameters lie in [0, 1] between their bounds, by their logarithm where asked;
+differences are cases over processes.
 
 The interval of a parameter is ``t(0.95) s sqrt((J^T J)^-1)`` in that measure, both ends put back into the unit of the key: a
 linear picture, right where a parameter moves little within it. A direction in which the parameters move nothing more than
@@ -23,13 +24,15 @@ import numpy
 from numpy.typing import NDArray
 from scipy import optimize, signal, stats
 
+from contact_sim_pkg.scene.schema.accuracy import requested
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.measured import Points, Series
 from contact_sim_pkg.sweep.pool import Workers
+from contact_sim_pkg.sweep.spectrum import log_density, loud
 from contact_sim_pkg.sweep.sweep import CASES, Notify, check_folder, processors, texts_of
 from contact_sim_pkg.sweep.variation import SweepError, Values, Variation, samples_of
 
-__all__ = ["Fit", "Fitted", "fit"]
+__all__ = ["Compared", "Fit", "Fitted", "fit"]
 
 Field = NDArray[numpy.float64]
 
@@ -65,6 +68,19 @@ class Fitted(NamedTuple):
     """at a bound, or not identifiable; empty else"""
 
 
+class Compared(NamedTuple):
+    """What was measured beside what the fitted scene gives."""
+
+    name: str
+    """with its unit"""
+    across: Field
+    """time [s], frequency [Hz], or number of the case"""
+    measured: Field
+    fitted: Field
+    axis: str
+    """what ``across`` is"""
+
+
 class Fit(NamedTuple):
     """Result of a fit."""
 
@@ -80,11 +96,15 @@ class Fit(NamedTuple):
     """runs, those that had run before included"""
     values: Values
     """of the fitted scene"""
+    compared: list[Compared]
+    """a metric each, a series or its spectrum"""
+    coarse: float = 0.0
+    """accuracy that the runs request, where what is left of a series may be their own error; 0 where it is more"""
 
     @property
     def follows(self) -> bool:
-        """Whether the scene can follow what was measured."""
-        return not self.probability < LEAST_PROBABILITY
+        """Whether the scene can follow what was measured, as far as its runs are accurate enough to say it."""
+        return not self.probability < LEAST_PROBABILITY or self.coarse > 0.0
 
     @property
     def is_identified(self) -> bool:
@@ -105,6 +125,7 @@ def fit(
     fixed: Values | None = None,
     jobs: int | None = None,
     most_shift: float = 0.02,
+    by_spectrum: bool = False,
     notify: Notify = lambda _text, _done: None,
 ) -> Fit:
     """Fit keys of a scene; the fitted scene is written to ``fitted.yaml`` in the folder.
@@ -117,6 +138,7 @@ def fit(
         fixed: what is set in every case.
         jobs: processes; None: as many as there are processors.
         most_shift: [s] by which a recording may be late or early; 0 holds it.
+        by_spectrum: whether the densities of a series are compared in place of its samples.
         notify: gets what is being done.
 
     Raises:
@@ -137,9 +159,22 @@ def fit(
     (folder / CASES).mkdir(parents=True, exist_ok=True)
     with Workers(jobs or processors()) as workers:
         runs = _Runs(scene, to, cases, free, folder, workers, notify)
-        found = _fitted_points(runs, to) if isinstance(to, Points) else _fitted_series(runs, to, most_shift)
+        if isinstance(to, Points):
+            found = _fitted_points(runs, to)
+        else:
+            found = _fitted_spectrum(runs, to) if by_spectrum else _fitted_series(runs, to, most_shift)
+    if found.probability < LEAST_PROBABILITY and isinstance(to, Series) and not by_spectrum:
+        found = found._replace(coarse=_within_request(found, scene))
     (folder / "fitted.yaml").write_text(_text_of(scene, found), encoding="utf-8")
     return found
+
+
+def _within_request(found: Fit, scene: str) -> float:
+    """Accuracy that the runs request if what is left is no more than it allows, else 0."""
+    (compared,) = found.compared
+    accuracy = requested(scene_of(scene, texts_of(found.values)).data["accuracy"])
+    left = float(abs(compared.fitted - compared.measured).max())
+    return accuracy if left <= accuracy * float(abs(compared.measured).max()) else 0.0
 
 
 class _Runs:
@@ -215,7 +250,14 @@ def _fitted_points(runs: _Runs, to: Points) -> Fit:
     parameters = _parameters(runs, place, slope, disagreement, scatter, freedom if to.scatter is None else math.inf)
     unit = "of its scatter" if to.scatter is not None else "of the mean size"
     misfit = math.sqrt(square / left.size)
-    return Fit(parameters, misfit, unit, probability, 0.0, runs.count, runs.values_at(place))
+    given, number = runs([place])[0], numpy.arange(1.0, 1.0 + len(to.values))
+    compared = [
+        Compared(
+            _titled(each, to.units.get(each, "")), number, to.measured[:, column], given[:, column], "row of the table"
+        )
+        for column, each in enumerate(to.metrics)
+    ]
+    return Fit(parameters, misfit, unit, probability, 0.0, runs.count, runs.values_at(place), compared)
 
 
 def _fitted_series(runs: _Runs, to: Series, most_shift: float) -> Fit:
@@ -265,7 +307,44 @@ def _fitted_series(runs: _Runs, to: Series, most_shift: float) -> Fit:
     probability = math.nan if misfit < EXACT * float(measured.std()) else _ljung_box(left)
     scatter = math.sqrt(float(left @ left) / freedom)
     parameters = _parameters(runs, place, slope, disagreement, scatter, freedom)
-    return Fit(parameters, misfit, "", probability, shift, runs.count, runs.values_at(place))
+    compared = [Compared(to.name, time, measured, numpy.interp(time - shift, *given), "time, s")]
+    return Fit(parameters, misfit, "", probability, shift, runs.count, runs.values_at(place), compared)
+
+
+def _fitted_spectrum(runs: _Runs, to: Series) -> Fit:
+    """The logarithm of a series' density, both estimates with the scatter of chance; a run may go another way in time."""
+    measured = log_density(to.time, to.values)
+    lines = loud(measured)
+    _require_enough(int(lines.sum()), runs)
+    scatter = math.sqrt(2.0) * measured.scatter
+
+    def density(given: Field) -> Field:
+        time, values = given
+        if time[0] > to.time[0] or time[-1] < to.time[-1]:
+            raise SweepError(f"the run ends at {time[-1]:.6g} s, the recording at {to.time[-1]:.6g} s; set duration")
+        return log_density(to.time, numpy.interp(to.time, time, values)).values
+
+    def residual(given: Field) -> Field:
+        found = (density(given) - measured.values)[lines] / scatter
+        if not numpy.isfinite(found).all():
+            raise SweepError(f"{to.name} of a run stands still where the recording moves; narrow the ranges of --free")
+        return numpy.asarray(found)
+
+    place, left, slope, disagreement = _minimum(runs, residual)
+    square = float(left @ left)
+    probability = float(stats.chi2.sf(square, left.size - place.size))
+    parameters = _parameters(runs, place, slope, disagreement, 1.0, math.inf)
+    fitted = density(runs([place])[0])
+    both = numpy.exp(measured.values[lines]), numpy.exp(fitted[lines])
+    compared = [Compared(f"density of {to.name}", measured.frequency[lines], *both, "frequency, Hz")]
+    misfit = math.sqrt(square / left.size)
+    return Fit(
+        parameters, misfit, "of the scatter of its lines", probability, 0.0, runs.count, runs.values_at(place), compared
+    )
+
+
+def _titled(name: str, unit: str) -> str:
+    return f"{name}, {unit}" if unit else name
 
 
 def _minimum(

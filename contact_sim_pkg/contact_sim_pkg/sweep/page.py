@@ -24,9 +24,9 @@ from contact_sim_pkg.sweep.sensitivity import sobol_indices
 from contact_sim_pkg.sweep.table import SweepTable
 from contact_sim_pkg.sweep.variation import SEED, Values
 
-__all__ = ["PAGES", "Swept", "page_of", "write_page", "write_plan_page"]
+__all__ = ["PAGES", "Call", "Part", "Swept", "page_of", "page_of_parts", "write_page", "write_plan_page"]
 
-PAGES = {"sweep": "sweep.html", "plan": "plan.html"}
+PAGES = {"sweep": "sweep.html", "plan": "plan.html", "fit": "fit.html"}
 TEMPLATE = "sweep.html.j2"
 MOST_ROWS, MOST_CALLS, MOST_OUTLIERS, MAPS = 200, 12, 5, 2
 NONE = "–"
@@ -47,7 +47,7 @@ class Swept(NamedTuple):
     """N of `--sample saltelli:N`; 0: drawn otherwise"""
 
 
-class _Call(NamedTuple):
+class Call(NamedTuple):
     """How a case runs again."""
 
     case: str
@@ -55,7 +55,7 @@ class _Call(NamedTuple):
     lines: list[str]
 
 
-class _Part(NamedTuple):
+class Part(NamedTuple):
     """What the page has of a sweep."""
 
     key: str
@@ -63,7 +63,7 @@ class _Part(NamedTuple):
     tables: list[Table]
     pictures: list[Picture]
     folded: list[Table]
-    calls: list[_Call]
+    calls: list[Call]
 
 
 def write_page(path: Path, kind: str, title: str, sweeps: Sequence[Swept], **named: Any) -> Path:
@@ -155,9 +155,20 @@ def page_of(
     """
     with style():
         parts = [_part(f"sweep-{place}", each) for place, each in enumerate(sweeps)]
+    return page_of_parts(
+        kind, title, sum(len(each.table) for each in sweeps), answer or _answer(sweeps), parts,
+        requirements=requirements, description=description,
+    )  # fmt: skip
+
+
+def page_of_parts(
+    kind: str, title: str, count: int, answer: Answer, parts: Sequence[Part], *, requirements: Table | None = None,
+    description: str = "",
+) -> str:  # fmt: skip
+    """The page as text, of parts that are drawn; arguments as of `page_of`, ``count`` of cases."""
     return rendered(TEMPLATE, {
-        "kind": kind, "title": title, "count": sum(len(each.table) for each in sweeps), "description": description,
-        "answer": answer or _answer(sweeps), "requirements": requirements, "sweeps": parts,
+        "kind": kind, "title": title, "count": count, "description": description, "answer": answer,
+        "requirements": requirements, "sweeps": parts,
     })  # fmt: skip
 
 
@@ -173,7 +184,7 @@ def _answer(sweeps: Sequence[Swept]) -> Answer:
     return Answer(tone, word, f"{count - failed} of {count} cases finished{outside}.")
 
 
-def _part(key: str, swept: Swept) -> _Part:
+def _part(key: str, swept: Swept) -> Part:
     table = swept.table
     metrics = varying_metrics(table, swept.first)
     drawn = [
@@ -187,7 +198,7 @@ def _part(key: str, swept: Swept) -> _Part:
     if swept.points:
         tables.append(_indices(swept, metrics))
     title = swept.name if swept.name == swept.scene else f"{swept.name}: {swept.scene}"
-    return _Part(
+    return Part(
         key,
         title,
         tables,
@@ -263,7 +274,7 @@ def _cell(value: Any) -> str:
     return number(value) if math.isfinite(value) else NONE
 
 
-def _calls(swept: Swept, metrics: Sequence[str]) -> list[_Call]:
+def _calls(swept: Swept, metrics: Sequence[str]) -> list[Call]:
     """Commands of failed cases, outliers and the worst; of the ends of the first metric where nothing is required."""
     table = swept.table
     reasons: dict[int, list[str]] = {}
@@ -289,7 +300,7 @@ def _calls(swept: Swept, metrics: Sequence[str]) -> list[_Call]:
         run = f"bench run {shlex.quote(swept.scene)} {sets} --offline --out {name}"
         kept = bag is not None and bag.is_dir()
         lines = [f"bench report {shlex.quote(str(bag))}"] if kept else [run, f"bench report {name}"]
-        found.append(_Call(_named(case, values, table), "; ".join(texts), lines))
+        found.append(Call(_named(case, values, table), "; ".join(texts), lines))
     return found
 
 

@@ -36,8 +36,9 @@ from contact_sim_pkg.report.metrics.requirements import Requirement, required
 from contact_sim_pkg.report.page import Section, rendered
 from contact_sim_pkg.report.place import free_place, new_page
 from contact_sim_pkg.report.reading import read_recording, refuse_incomparable, refuse_other_rigs, rig_of_recording
-from contact_sim_pkg.report.rig_reports import answered
+from contact_sim_pkg.report.rig_reports import answered, parts_of
 from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.report.sketch import Part, conditions_of
 from contact_sim_pkg.report.tables import Table
 
 TEMPLATE = "comparison.html.j2"
@@ -105,7 +106,10 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
     return rendered(TEMPLATE, {
         "title": " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings)),
         "count": len(recordings), "answer": answer_of_runs(names, moved, named, unfinished),
-        "conditions": ", ".join(f"{name} of {each.duration:.4g} s" for name, each in zip(names, recordings, strict=True)),
+        "conditions": conditions_of([
+            Part("", ", ".join(f"{name} of {each.duration:.4g} s" for name, each in zip(names, recordings, strict=True))),
+            *_common_parts(recordings),
+        ]),
         "warnings": [f"{each.name}: {text}" for each in recordings for text in warnings(each)],
         "tiles": moved_tiles(names, moved, leading), "numbers": numbers,
         "differences": table,
@@ -116,6 +120,13 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
         "commands": _commands([each.name for each in recordings]),
         "data": Markup(data_of_runs(letters, recordings, films)),  # noqa: S704 - made by json
     }, scripts=True)  # fmt: skip
+
+
+def _common_parts(recordings: Sequence[Recording]) -> list[Part]:
+    """Parts that all runs have, of the same values; a mat has none."""
+    first, *others = [parts_of(each) for each in recordings if each.scene]
+    named = [{(part.name, part.value) for part in parts} for parts in others]
+    return [part for part in first if all((part.name, part.value) in each for each in named)]
 
 
 def _maps_of(pair: MapPair) -> Section:
