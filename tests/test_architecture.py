@@ -14,7 +14,7 @@ ORDER = (
     ("files", "public", "python_process"), ("memory",),
     ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid"), ("excitation",),
     ("scene",), ("bag",), ("run",), ("compare",), ("report",), ("rigs", "identify"),
-    ("studies", "standard"), ("sweep",), ("view",), ("nodes",), ("cli",), ("answers",), ("library",),
+    ("studies", "standard"), ("steering", "sweep"), ("view",), ("nodes",), ("cli",), ("answers",), ("library",),
 )  # fmt: skip
 """A room imports from those before it, and from none beside it."""
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}

@@ -15,6 +15,7 @@ __getattr__ = on_use(
     __name__,
     {
         "BagError": "contact_sim_pkg.bag.errors:BagError",
+        "ContactBench": "contact_sim_pkg.steering.contact_bench:ContactBench",
         "RunError": "contact_sim_pkg.run.errors:RunError",
         "SceneError": "contact_sim_pkg.scene.errors:SceneError",
         "compare": "contact_sim_pkg.library:compare",

@@ -5,13 +5,10 @@ from __future__ import annotations
 import shutil
 import tempfile
 import weakref
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
 from contact_sim_pkg.bag import reader
 from contact_sim_pkg.bag.errors import BagWriteError
@@ -19,6 +16,7 @@ from contact_sim_pkg.bag.parts.find import parts_of
 from contact_sim_pkg.cli.output.working import doing, working
 from contact_sim_pkg.records.table import table_html
 from contact_sim_pkg.report.export.table import table_of
+from contact_sim_pkg.report.export.time_series import Series, series_of
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.offline import RunProgress, run_offline
 from contact_sim_pkg.scene.load import load_scene as load_checked
@@ -226,64 +224,10 @@ def compare(*bags: Bag | str | Path) -> Answers[ComparedMetric]:
     return answers.compare(*(each if isinstance(each, Bag) else open_bag(each) for each in bags))
 
 
-@dataclass(frozen=True)
-class Series:
-    """A topic of a bag, one row a sample.
-
-    Attributes:
-        topic: its full name.
-        time: of each row [s].
-        columns: arrays [rows] by name.
-        units: by name of the column; empty where there is none.
-    """
-
-    topic: str
-    time: NDArray[Any]
-    columns: dict[str, NDArray[Any]]
-    units: dict[str, str]
-
-    def __getitem__(self, column: str) -> NDArray[Any]:
-        """A column. Raises KeyError, which names those that are there."""
-        if column not in self.columns:
-            raise KeyError(f"{self.topic} has no column {column!r}; it has {', '.join(self.columns)}")
-        return self.columns[column]
-
-    def __iter__(self) -> Iterator[str]:
-        """Names of the columns."""
-        return iter(self.columns)
-
-    def __len__(self) -> int:
-        """Number of rows."""
-        return len(self.time)
-
-    def _repr_html_(self) -> str:
-        numbers = [name for name in self.columns if self.columns[name].dtype.kind in "biuf" and len(self)]
-        rows = [
-            {"column": name, "unit": self.units[name], "smallest": f"{self[name].min():.6g}",
-             "largest": f"{self[name].max():.6g}"}
-            for name in numbers
-        ]  # fmt: skip
-        span = f", {self.time[0]:.6g} to {self.time[-1]:.6g} s" if len(self) else ""
-        return table_html(rows, f"{self.topic}: {len(self)} rows{span}")
-
-    def to_pandas(self) -> Any:
-        """A pandas DataFrame, its index the time [s]. Raises ImportError where pandas is not
-        installed.
-        """
-        import pandas
-
-        return pandas.DataFrame(self.columns, index=pandas.Index(self.time, name="time"))
-
-
 def series(bag: reader.Bag | str | Path, topic: str) -> Series:
     """The series of a topic of a bag, or of the bag in a directory: samples of a block are rows, each
     with its own time; the pressure of a patch is read by ``bag.columns``.
 
     Raises BagError where there is no such topic, or it holds no numbers.
     """
-    opened = bag if isinstance(bag, reader.Bag) else open_bag(bag)
-    time, *columns = table_of(opened, topic).columns
-    return Series(
-        opened.topic(topic).name, time.values, {each.name: each.values for each in columns},
-        {each.name: each.unit for each in columns},
-    )  # fmt: skip
+    return series_of(table_of(bag if isinstance(bag, reader.Bag) else open_bag(bag), topic))

@@ -100,8 +100,9 @@ def command(
         print_json({**facts, "parameters": parameters, "follows": found.follows, "page": str(page)})
     else:
         _say(found, out, page)
-    told = found.is_identified and not found.coarse
-    return 0 if found.follows and told else 3 if found.follows else 1
+    if not found.follows:
+        return 1
+    return 0 if found.is_identified and not found.coarse else 3
 
 
 def _say(found: Fit, out: Path, page: Path) -> None:

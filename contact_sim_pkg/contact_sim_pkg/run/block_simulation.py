@@ -50,6 +50,9 @@ class BlockSimulation(Protocol):
     def prepare(self) -> None:
         """Compile or load every kernel that the scene needs: a run compiles nothing."""
 
+    def reset(self) -> None:
+        """Before the first block again, with the bits of a new simulation. After `prepare`."""
+
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``, in order from 0, with the blocks of every input topic.
 

@@ -56,6 +56,14 @@ class _Observed:
         for observer, _topic in self._observers.values():
             observer.prepare()
 
+    def reset(self) -> None:
+        """Of all. Raises RunError for an observer that does not say how: nobody knows what it remembers."""
+        for effect, (observer, _topic) in self._observers.items():
+            if not hasattr(observer, "reset"):
+                raise RunError(f"{effect} has an observer without `reset`; make a new simulation")
+            observer.reset()
+        self._simulation.reset()
+
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """The block of the simulation, with what was seen in it.
 

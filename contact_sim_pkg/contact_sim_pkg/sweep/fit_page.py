@@ -38,7 +38,7 @@ def write_fit_page(path: Path, scene: str, found: Fit) -> Path:
 
 
 def answer_of_fit(found: Fit) -> Answer:
-    """Whether the scene follows what was measured, whether its keys are told, and the keys."""
+    """Whether the scene follows what was measured, whether its keys are identifiable, and the keys."""
     keys = "; ".join(_said(each) for each in found.parameters)
     left = f"misfit {found.misfit:.3g} {found.unit}".rstrip()
     late = f", the recording {1e3 * found.shift:.2f} ms late" if found.shift else ""
@@ -60,7 +60,7 @@ def coarse_sentence(found: Fit) -> str:
     """What is missing where the runs are less accurate than the recording."""
     return (
         f"what is left is no noise, and within what the runs may err by at accuracy {found.coarse:.2g}: "
-        f"--set accuracy={0.1 * found.coarse:.1g} tells"
+        f"--set accuracy={0.1 * found.coarse:.1g} decides"
     )
 
 

@@ -12,9 +12,19 @@ from contact_sim_pkg.bag.columns import own_name
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.memory import refuse_above_limit
-from contact_sim_pkg.records.definitions import HEADER, Field, parsed
+from contact_sim_pkg.records.definitions import HEADER, Field, definition_of, parsed
 
-__all__ = ["Map", "NoTableError", "TopicColumn", "TopicTable", "maps_of", "table_of", "time_of"]
+__all__ = [
+    "Map",
+    "NoTableError",
+    "TopicColumn",
+    "TopicTable",
+    "has_columns",
+    "maps_of",
+    "table_of",
+    "table_of_records",
+    "time_of",
+]
 
 PERIODS = ("sample_period", "period")
 """Fields that hold the time between the samples of a message."""
@@ -98,6 +108,17 @@ def table_of(bag: Bag, topic: str) -> TopicTable:
     return TopicTable(row.name, _columns(times, messages, fields), maps)
 
 
+def table_of_records(topic: str, times: Sequence[float], records: Sequence[Any]) -> TopicTable:
+    """The same of records of one type that have not been written, which `has_columns`; ``times`` [s] of each; without maps."""
+    fields = _sorted(list(definition_of(type(records[0]).__name__).fields))
+    return TopicTable(topic, _columns(np.asarray(times, np.float64), records, fields), [])
+
+
+def has_columns(record: Any) -> bool:
+    """Whether no field of a record is a message itself."""
+    return not any("/" in field.type and field.type != HEADER for field in definition_of(type(record).__name__).fields)
+
+
 def maps_of(bag: Bag, topic: str) -> list[Map]:
     """The maps of a topic, by its definition; no message is read."""
     fields = _fields_of(bag, topic)
@@ -174,7 +195,7 @@ def _counts(messages: Sequence[Any], long: Sequence[Field], named: Sequence[Fiel
         return np.ones(len(messages), dtype=np.int64)
     sizes = [[len(getattr(each, field.name)) for each in messages] for field in long]
     sizes += [
-        [len(getattr(each, field.name)) // max(1, len(getattr(each, field.shape[0]))) for each in messages]
+        [np.size(getattr(each, field.name)) // max(1, len(getattr(each, field.shape[0]))) for each in messages]
         for field in named
     ]
     largest: NDArray[np.int64] = np.array(sizes, dtype=np.int64).max(axis=0)

@@ -36,9 +36,10 @@ class BackrestSimulation:
         self.scene = scene
         self.model = build_backrest(scene)
         self.blocks = self.model.timing.blocks
-        self._reset()
+        self.reset()
 
-    def _reset(self) -> None:
+    def reset(self) -> None:
+        """Before the first block."""
         states, points = len(self.model.start), len(self.model.rig.gaps)
         self.state: Vector = self.model.start.copy()
         self._mode = make_mode(points)
@@ -57,7 +58,7 @@ class BackrestSimulation:
         self.advance(
             0, {VIBRATION: VibrationBlock(block=0, sample_period=period, acceleration_x=still, acceleration_z=still)}
         )
-        self._reset()
+        self.reset()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""

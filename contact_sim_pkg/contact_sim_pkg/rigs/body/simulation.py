@@ -39,9 +39,10 @@ class BlockBodySimulation:
         self.scene = scene
         self.model = build_block(scene)
         self.blocks = self.model.timing.blocks
-        self._reset()
+        self.reset()
 
-    def _reset(self) -> None:
+    def reset(self) -> None:
+        """Before the first block."""
         self.body: Body = body_of(self.model, _copy(self.model.start))
         self._next_block = 0
         self._start = self._kinetic_potential()

@@ -38,7 +38,7 @@ class ImpactSimulation:
         self.model = build_impact(scene)
         self.blocks = self.model.timing.blocks
         self._refuse_short_period()
-        self._reset()
+        self.reset()
 
     def _refuse_short_period(self) -> None:
         """SceneError for a period in which a release does not fall, strike and part; fewer bounces
@@ -60,7 +60,8 @@ class ImpactSimulation:
             )
             raise SceneError([Fault("scene", 0, 0, "impact.period", sentence)])
 
-    def _reset(self) -> None:
+    def reset(self) -> None:
+        """Before the first block."""
         self.motion = ImpactMotion(self.model)
         self._next_block = 0
 
@@ -70,7 +71,7 @@ class ImpactSimulation:
         first = touch(self.model.touch(release.speed, release.temperature).law, release.speed)
         sample(first, few)
         hereditary_integral(maxwell(1.0, 1.0), few, few)
-        self._reset()
+        self.reset()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""

@@ -47,7 +47,7 @@ class RollerSimulation:
         self.blocks = self.model.timing.blocks
         road = make_surface(scene, ROAD_CELL) if scene.road is not None else None
         self._first = None if self.model.track_waves is None else TrackRide(self.model, road)
-        self._reset()
+        self.reset()
         self._refuse_too_fast()
 
     def _refuse_too_fast(self) -> None:
@@ -62,7 +62,8 @@ class RollerSimulation:
         except RunError as error:
             raise refused(str(error)) from None
 
-    def _reset(self) -> None:
+    def reset(self) -> None:
+        """Before the first block."""
         model = self.model
         self._next_block = 0
         self._ride = None if self._first is None else self._first.copy()
@@ -77,7 +78,7 @@ class RollerSimulation:
             self._volumes(
                 0.0, self.model.contact(1.0, self.model.held_yaw, self.model.programme.curvatures_at(0.0)), (2, 2, 2)
             )
-        self._reset()
+        self.reset()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""

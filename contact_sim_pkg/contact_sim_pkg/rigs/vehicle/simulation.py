@@ -47,8 +47,7 @@ class Simulation:
         self._travel = make_travel(scene) if self.model.tire_geometry is not None else None
         self._coupling = Coupling(self.model)
         self.cautions = self._cautions()
-        self._first_block = self._next_block = 0
-        self._reset()
+        self._begin()
 
     def _cautions(self) -> tuple[str, ...]:
         """See `cautions_of`."""
@@ -64,7 +63,13 @@ class Simulation:
             *request_cautions(self.scene, self.model.coupling, grids),
         )
 
-    def _reset(self) -> None:
+    def reset(self) -> None:
+        """Before the first block."""
+        self._begin()
+        self._coupling.reset()
+
+    def _begin(self) -> None:
+        self._first_block = self._next_block = 0
         self._start_energy: Vector | None = None  # of the run
         self._response = self._new_response()
 
@@ -88,9 +93,7 @@ class Simulation:
                 block=0, sample_period=period, acceleration_x=numpy.zeros(count), acceleration_z=numpy.zeros(count)
             )
         self.advance(0, inputs)
-        self._reset()
-        self._next_block = 0
-        self._coupling.reset()
+        self.reset()
 
     def begin_at(self, block: int) -> None:
         """Begin the run with a later block, standing on the road there. After `prepare`."""
