@@ -5,7 +5,8 @@ through it alone. The search of the calls must find it in each scene where the e
 where it is off: a function that was handed `None` returned the neutral value by its type. The scenes of a rig
 differ in more than one effect, so that few compilations show every effect both on and off.
 
-Effects without a compiled law of their own are not here: those of the impact that add outputs, and values of the
+Effects without a compiled law of their own are not here: the rigid ring of a tire, which is one more spring between
+two masses, those of the impact that add outputs, and values of the
 roller's equations (gyroscope, rolling_friction).
 """
 
@@ -46,7 +47,6 @@ LAWS = {
     "tire.normal_elastic": "NormalElastic",
     "tire.normal_dissipative": "NormalDissipative",
     "tire.contact_field": "FieldRequest",
-    "tire.rigid_ring": "RigidRing",
     "tire.brush": "Brush",
     "tire.sidewall_compliance": "Sidewalls",
     "tire.wheel_spin": "WheelSpin",

@@ -17,7 +17,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
-from contact_sim_pkg.rigs.vehicle.motion import entries
+from contact_sim_pkg.rigs.vehicle.motion import columns, entries
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle, rigid_occupant
 from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 
@@ -159,7 +159,7 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     mass, gravity = 50.0, 9.81
     friction = Friction(2.0e4, 200.0, 0.4, 0.35)
     contact = Contact(NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), friction)
-    rig = Vehicle(gravity, None, None, None, rigid_occupant(mass), contact)
+    rig = Vehicle(gravity, (), (), rigid_occupant(mass), contact)
     count = 4000
     times = numpy.arange(count + 1) * 1e-3
     a_x, a_z = 6.0 * numpy.sin(2 * math.pi * 3.1 * times), 14.0 * numpy.sin(2 * math.pi * 4.0 * times)
@@ -169,7 +169,7 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     state[0] = -((mass * gravity / 2.73e5) ** (2.0 / 3.0))
     work = make_workspace(7, event_count(rig))
     mode = numpy.zeros(1, dtype=numpy.int64)
-    samples = (numpy.zeros((count, 7)), numpy.zeros((count, 7)), numpy.zeros((count, entries.FORCES)))
+    samples = (numpy.zeros((count, 7)), numpy.zeros((count, 7)), numpy.zeros((count, columns.FORCES)))
     scale = numpy.array([1e-2, 0.5, 1e-2, 0.5, 1e-2, numpy.inf, numpy.inf]) * 1e-9
     before = numpy.array(entries.energies(rig, mode, state, 0.0, 0.0))
     entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None, (None, None))
@@ -185,7 +185,7 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
 
 
 def _separated(forces: Vector) -> int:
-    return int((forces[:, entries.SEAT_APPROACH] < 0.0).sum())
+    return int((forces[:, columns.SEAT_APPROACH] < 0.0).sum())
 
 
 def separated_without_friction() -> Finding:
@@ -193,8 +193,8 @@ def separated_without_friction() -> Finding:
     happens).
     """
     forces, states, _residual = slide_with_lift_off()
-    separated = forces[:, entries.SEAT_APPROACH] < 0.0
-    held = numpy.abs(forces[separated, entries.SEAT_TANGENTIAL]).max() + numpy.abs(states[separated, 4]).max()
+    separated = forces[:, columns.SEAT_APPROACH] < 0.0
+    held = numpy.abs(forces[separated, columns.SEAT_TANGENTIAL]).max() + numpy.abs(states[separated, 4]).max()
     return exactly(float(held), 0.0, hard=separated.sum())
 
 
@@ -203,8 +203,8 @@ def within_the_limit() -> Finding:
     load vanishes included.
     """
     forces, _states, _residual = slide_with_lift_off()
-    limit = STATIC * forces[:, entries.SEAT_NORMAL]
-    return at_most(float((numpy.abs(forces[:, entries.SEAT_TANGENTIAL]) - limit).max()), 1e-6, hard=_separated(forces))
+    limit = STATIC * forces[:, columns.SEAT_NORMAL]
+    return at_most(float((numpy.abs(forces[:, columns.SEAT_TANGENTIAL]) - limit).max()), 1e-6, hard=_separated(forces))
 
 
 def ledger_with_friction() -> Finding:

@@ -89,18 +89,19 @@ def entry(function: Function) -> Function:
     return compiled
 
 
-def kernel_overload(function: Callable[..., Any]) -> Callable[[Function], Function]:
+def kernel_overload(function: Callable[..., Any], *, thin: bool = False) -> Callable[[Function], Function]:
     """Register a compiled implementation of `function`, chosen by argument types, with the compile
     options of kernels.
 
     As `numba.extending.overload`: the decorated function receives the argument *types* and returns
     the implementation or `None`. The body is compiled into its caller, so it is cached with the
-    caller.
+    caller. thin: it makes no array, as a `borrowing_kernel`, and stands in its caller whatever LLVM thinks of
+    it: for what only hands on, since what is passed costs by its width.
     """
-    decorator: Callable[[Function], Function] = overload(
-        function,
-        jit_options=dict(COMPILE_OPTIONS, pipeline_class=compiler_of(is_entry=False)),  # type: ignore[arg-type]
-    )
+    options = dict(COMPILE_OPTIONS, pipeline_class=compiler_of(is_entry=False))
+    if thin:
+        options.update(_nrt=False, forceinline=True)
+    decorator: Callable[[Function], Function] = overload(function, jit_options=options)  # type: ignore[arg-type]
     return decorator
 
 

@@ -95,7 +95,7 @@ def _kernels_of(rig_type: Any) -> tuple[Callable[..., Any], ...] | None:
     return _implementations.get(getattr(rig_type, "instance_class", None))  # type: ignore[arg-type]
 
 
-@kernel_overload(rate)
+@kernel_overload(rate, thin=True)
 def _rate(rig, drive, mode, time, state, out):
     kernels = _kernels_of(rig)
     if kernels is None:
@@ -104,7 +104,7 @@ def _rate(rig, drive, mode, time, state, out):
     return lambda rig, drive, mode, time, state, out: implementation(rig, drive, mode, time, state, out)
 
 
-@kernel_overload(event_functions)
+@kernel_overload(event_functions, thin=True)
 def _event_functions(rig, drive, mode, time, state, derivative, out):
     kernels = _kernels_of(rig)
     if kernels is None:
@@ -115,7 +115,7 @@ def _event_functions(rig, drive, mode, time, state, derivative, out):
     )
 
 
-@kernel_overload(mode_transition)
+@kernel_overload(mode_transition, thin=True)
 def _mode_transition(rig, drive, mode, time, state, event, direction):
     kernels = _kernels_of(rig)
     if kernels is None:
@@ -126,7 +126,7 @@ def _mode_transition(rig, drive, mode, time, state, event, direction):
     )
 
 
-@kernel_overload(event_functions_need_rate)
+@kernel_overload(event_functions_need_rate, thin=True)
 def _event_functions_need_rate(rig, mode):
     kernels = _kernels_of(rig)
     if kernels is None:
@@ -135,7 +135,7 @@ def _event_functions_need_rate(rig, mode):
     return lambda rig, mode: implementation(rig, mode)
 
 
-@kernel_overload(free_flight)
+@kernel_overload(free_flight, thin=True)
 def _free_flight(rig, drive, mode, time, end, state, direction):
     flight = _free_flights.get(getattr(rig, "instance_class", None))  # type: ignore[arg-type]
     if flight is None:

@@ -8,7 +8,7 @@ from contact_sim_lab.twins import general_law
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipative
 from contact_sim_pkg.pressure.settings import BeltSettings
 from contact_sim_pkg.rigs.vehicle.model import build
-from contact_sim_pkg.rigs.vehicle.motion.parameters import RigidRing
+from contact_sim_pkg.rigs.vehicle.motion.spring import Spring
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
 
 TIRE = "effects.tire"
@@ -19,8 +19,8 @@ def model(*values, name="tire_half_space"):
 
 
 def test_a_loss_by_damping_or_by_default_reaches_the_contact():
-    assert model().rig.tire_contact.dissipative == NormalDissipative(0.015)
-    assert model(f"{TIRE}.normal_dissipative={{damping: 0.5}}").rig.tire_contact.dissipative == NormalDissipative(0.5)
+    assert model().tire_contact.dissipative == NormalDissipative(0.015)
+    assert model(f"{TIRE}.normal_dissipative={{damping: 0.5}}").tire_contact.dissipative == NormalDissipative(0.5)
     assert model(
         "effects.seat={normal_elastic: {}, normal_dissipative: {}}", name="seat_ride"
     ).rig.seat_contact.dissipative == (NormalDissipative(1.0))
@@ -28,22 +28,22 @@ def test_a_loss_by_damping_or_by_default_reaches_the_contact():
 
 def test_a_loss_by_restitution_gives_that_restitution():
     given = model(f"{TIRE}.normal_dissipative={{restitution: 0.5, reference_speed: 2.0}}")
-    d = given.rig.tire_contact.dissipative.damping * 2.0
+    d = given.tire_contact.dissipative.damping * 2.0
     assert d * 1.5 == pytest.approx(numpy.log((1.0 + d) / (1.0 - 0.5 * d)), rel=1e-9)
 
 
 def test_effects_that_a_scene_does_not_name_are_none():
     plain = model()
-    parts = (plain.rig.rigid_ring, plain.tread, plain.rolling_friction, plain.asperities)
+    parts = (plain.quarter.sidewalls, plain.tread, plain.rolling_friction, plain.asperities)
     assert parts == (None, None, None, None)
     assert plain.tire_field.usual.settings.belt is None
-    assert plain.rig.tire.wheel_mass == 40.0
+    assert plain.quarter.wheel.mass == 40.0
 
 
 def test_the_belt_of_a_rigid_ring_is_no_part_of_the_wheel():
-    made = model(f"{TIRE}.rigid_ring={{belt_mass: 9, stiffness: 4e5, damping: 50}}").rig
-    assert made.rigid_ring == RigidRing(4, 9.0, 4e5, 50.0)
-    assert made.tire.wheel_mass == 31.0
+    made = model(f"{TIRE}.rigid_ring={{belt_mass: 9, stiffness: 4e5, damping: 50}}").quarter
+    assert made.sidewalls == Spring(made.belt.place, made.wheel.place, 4e5, 50.0)
+    assert (made.belt.mass, made.wheel.mass) == (9.0, 31.0)
 
 
 def test_the_numbers_of_belt_brush_tread_and_asperities_arrive():

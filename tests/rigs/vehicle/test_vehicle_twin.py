@@ -32,7 +32,7 @@ def test_the_rig_follows_its_twin_to_the_requested_tolerance(name):
     asked = float(scene.data["integrator"]["relative_tolerance"])
     exact = slow_run(drive)[:-1]
     # A table has kinks in its curvature, every half millimetre
-    contact = drive.model.rig.tire_contact
+    contact = drive.model.tire_contact
     by_table = contact is not None and isinstance(contact.elastic, TabulatedElastic)
     for tolerance, bound in ((1e-6, 2e-5), (1e-8, 2e-7)) if by_table else ((1e-6, 1e-5), (1e-9, 1e-8)):
         states, _forces = fast_run(drive, drive.model.scale * (tolerance / asked))

@@ -20,7 +20,7 @@ from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
-from contact_sim_pkg.rigs.vehicle.motion import entries
+from contact_sim_pkg.rigs.vehicle.motion import columns, entries
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle, rigid_occupant
 from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 
@@ -145,14 +145,14 @@ def test_friction_never_chatters_nor_passes_its_limit_while_the_seat_shakes_and_
     contact = Contact(
         NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), Friction(stiffness, damping, static, static * ratio)
     )
-    rig = Vehicle(9.81, None, None, None, rigid_occupant(50.0), contact)
+    rig = Vehicle(9.81, (), (), rigid_occupant(50.0), contact)
     count = 1000
     times = numpy.arange(count + 1) * 1e-3
     a_x, a_z = shake_x * numpy.sin(19.0 * times), shake_z * numpy.sin(25.0 * times)
     zeros, state = numpy.zeros(count + 1), numpy.zeros(7)
     state[0] = -((50.0 * 9.81 / 2.73e5) ** (2.0 / 3.0))
     work, mode = make_workspace(7, event_count(rig)), numpy.zeros(1, dtype=numpy.int64)
-    samples = (numpy.zeros((count, 7)), numpy.zeros((count, 7)), numpy.zeros((count, entries.FORCES)))
+    samples = (numpy.zeros((count, 7)), numpy.zeros((count, 7)), numpy.zeros((count, columns.FORCES)))
     scale = numpy.array([1e-2, 0.5, 1e-2, 0.5, 1e-2, numpy.inf, numpy.inf]) * 1e-6
     straight = (None, None)
     entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None, straight)
@@ -162,7 +162,7 @@ def test_friction_never_chatters_nor_passes_its_limit_while_the_seat_shakes_and_
         )
         == DONE
     )
-    normal, tangential = samples[2][:, entries.SEAT_NORMAL], samples[2][:, entries.SEAT_TANGENTIAL]
+    normal, tangential = samples[2][:, columns.SEAT_NORMAL], samples[2][:, columns.SEAT_TANGENTIAL]
     assert normal.min() >= 0.0
     assert (numpy.abs(tangential) <= static * normal + 1e-3).all()
 

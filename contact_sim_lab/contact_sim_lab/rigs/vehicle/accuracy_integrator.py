@@ -20,7 +20,7 @@ from contact_sim_lab.rigs.vehicle.scene_drive import (
 from contact_sim_lab.twins.vehicle import normal_force
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.vehicle.model import Model, build
-from contact_sim_pkg.rigs.vehicle.motion import entries as columns
+from contact_sim_pkg.rigs.vehicle.motion import columns
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["tolerance_rows"]
@@ -62,7 +62,7 @@ def _reference(drive: SceneDrive, requested: float) -> tuple[Vector, list[Vector
     """States, normal forces and where they come from: scipy where its twin covers the laws of the
     contacts, own code else.
     """
-    if twin_covers(drive.model.rig):
+    if twin_covers(drive.model):
         states = slow_run(drive)[:-1]
         return states, _forces(drive, states), TWIN
     states, forces = fast_run(drive, drive.model.scale * (TIGHT / requested))
@@ -105,7 +105,11 @@ def _largest(found: list[Vector], exact: list[Vector]) -> float:
 
 def _normal(drive: SceneDrive, forces: Vector) -> list[Vector]:
     rig = drive.model.rig
-    chosen = ((rig.tire, columns.TIRE_NORMAL), (rig.seat, columns.SEAT_NORMAL), (rig.back, columns.BACK_NORMAL))
+    chosen = (
+        (drive.model.quarter, columns.TIRE_NORMAL),
+        (rig.seat, columns.SEAT_NORMAL),
+        (rig.back, columns.BACK_NORMAL),
+    )
     return [forces[:, column] for part, column in chosen if part is not None]
 
 
@@ -115,16 +119,17 @@ def _forces(drive: SceneDrive, states: Vector) -> list[Vector]:
     """
     rig, height = drive.model.rig, drive.height
     rate = numpy.diff(height) / drive.segment
-    tire_law, seat_law = twin_laws(rig)
+    tire_law, seat_law = twin_laws(drive.model)
+    quarter = drive.model.quarter
     found = []
-    if tire_law is not None:
-        tread = (0, 2) if rig.rigid_ring is None else (rig.rigid_ring.offset, rig.rigid_ring.offset + 1)
-        approach, speed = height[:-1] - states[:, tread[0]], rate - states[:, tread[1]]
+    if tire_law is not None and quarter is not None:
+        tread = quarter.tread.place
+        approach, speed = height[:-1] - states[:, tread], rate - states[:, tread + 1]
         found.append(numpy.array([normal_force(tire_law, x, v) for x, v in zip(approach, speed, strict=True)]))
     if seat_law is not None and rig.seat is not None:
         first = rig.seat.offset
         second = first + len(rig.seat.masses)
-        floor = (0.0, 0.0) if rig.tire is None else (states[:, 1], states[:, 3])
+        floor = (0.0, 0.0) if rig.seat.floor is None else (states[:, rig.seat.floor], states[:, rig.seat.floor + 1])
         approach, speed = floor[0] - states[:, first], floor[1] - states[:, second]
         found.append(numpy.array([normal_force(seat_law, x, v) for x, v in zip(approach, speed, strict=True)]))
     return found

@@ -25,7 +25,8 @@ from contact_sim_pkg.laws.parameters import Contact, GeneralDissipative, NormalE
 from contact_sim_pkg.laws.tabulated_elastic import FORCE
 from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import entries
-from contact_sim_pkg.rigs.vehicle.motion.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.motion.columns import FORCES
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Seat
 from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 from contact_sim_pkg.rigs.vehicle.run.drive import rate_at_start
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_heights
@@ -99,7 +100,7 @@ def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
     scale: absolute tolerances [states]. Raises ArithmeticError where a kernel fails.
     """
     count, states = len(drive.height) - 1, len(drive.start)
-    samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
+    samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, FORCES)))
     state, mode = drive.start.copy(), numpy.zeros(1, dtype=numpy.int64)
     rig, a_x, a_z = drive.model.rig, drive.acceleration_x, drive.acceleration_z
     work, cushion = make_workspace(states, event_count(rig)), numpy.zeros(count + 1)
@@ -133,28 +134,34 @@ def slow_run(drive: SceneDrive) -> Vector:
     """Mechanical states [segments + 1, states] at the ends of all segments, by the independent
     twin.
     """
-    quarter, occupant = _twins(drive.model.rig)
-    return states_at_segments(
-        drive.model.rig.gravity, quarter, occupant, drive.start[:-2], drive.segment, drive.height,
+    quarter, occupant = _twins(drive.model)
+    # The twin has the heights of wheel and body before their velocities.
+    order = numpy.arange(len(drive.start) - 2)
+    if quarter is not None:
+        order[[1, 2]] = 2, 1
+    found = states_at_segments(
+        drive.model.rig.gravity, quarter, occupant, drive.start[order], drive.segment, drive.height,
         numpy.zeros(len(drive.height)), drive.acceleration_z,
     )  # fmt: skip
+    return found[:, order]
 
 
-def twin_laws(rig: Vehicle) -> tuple[Law | None, Law | None]:
+def twin_laws(model: Model) -> tuple[Law | None, Law | None]:
     """Laws of tire and seat for the twin; None where the rig has no such part."""
     return (
-        None if rig.tire is None else _law(rig.tire_contact),
-        None if rig.seat is None else _law(rig.seat_contact),
+        None if model.quarter is None else _law(model.tire_contact),
+        None if model.rig.seat is None else _law(model.rig.seat_contact),
     )
 
 
-def twin_covers(rig: Vehicle) -> bool:
+def twin_covers(model: Model) -> bool:
     """Whether the laws of all contacts are among those that the twin has: power laws and
     tables without hysteresis, under an occupant that neither softens nor leans on a seat back.
     """
+    rig = model.rig
     if rig.back is not None or (rig.seat is not None and rig.seat.softening is not None):
         return False
-    present = ((rig.tire, rig.tire_contact), (rig.seat, rig.seat_contact))
+    present = ((model.quarter, model.tire_contact), (rig.seat, rig.seat_contact))
     return all(_is_covered(contact) for part, contact in present if part is not None)
 
 
@@ -184,8 +191,12 @@ def _occupant(seat: Seat, law: Law) -> Occupant:
     return Occupant(seat.masses, seat.ends, seat.springs[0], seat.springs[1], law)
 
 
-def _twins(rig: Vehicle) -> tuple[Quarter | None, Occupant | None]:
-    belt = None if rig.rigid_ring is None else Belt(*rig.rigid_ring[1:])
-    quarter = None if rig.tire is None else Quarter(*rig.tire, _law(rig.tire_contact), belt)
-    occupant = None if rig.seat is None else _occupant(rig.seat, _law(rig.seat_contact))
-    return quarter, occupant
+def _twins(model: Model) -> tuple[Quarter | None, Occupant | None]:
+    seat, quarter = model.rig.seat, None
+    if model.quarter is not None:
+        wheel, body, belt, _contact, _push, sidewalls, suspension, _drive = model.quarter
+        on_belt = None if belt is None or sidewalls is None else Belt(belt.mass, sidewalls.stiffness, sidewalls.damping)
+        quarter = Quarter(
+            wheel.mass, body.mass, suspension.stiffness, suspension.damping, _law(model.tire_contact), on_belt
+        )
+    return quarter, None if seat is None else _occupant(seat, _law(model.rig.seat_contact))

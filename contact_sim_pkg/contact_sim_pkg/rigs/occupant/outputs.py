@@ -14,7 +14,7 @@ from contact_sim_pkg.pressure.mat import spread_force
 from contact_sim_pkg.records.messages import ContactForce, ContactPoints
 from contact_sim_pkg.rigs.backrest.model import Mat
 from contact_sim_pkg.rigs.vehicle.model import Model
-from contact_sim_pkg.rigs.vehicle.motion import entries as columns
+from contact_sim_pkg.rigs.vehicle.motion import columns
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord
 from contact_sim_pkg.run.contact_laws import Cushion
 from contact_sim_pkg.run.contact_patch import contact_patch

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy
 
@@ -23,6 +24,7 @@ from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
     shortest_time,
 )
 from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
+from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
 from contact_sim_pkg.rigs.vehicle.motion.parameters import MasslessNode, Seat, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
 from contact_sim_pkg.rigs.vehicle.seat.cushion import SeatMap, build_pan_cushion, build_seat_map
@@ -41,6 +43,7 @@ from contact_sim_pkg.rigs.vehicle.tire.model import (
     Tread,
     build_tire,
 )
+from contact_sim_pkg.rigs.vehicle.tire.quarter_car import QuarterCar
 from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss
 from contact_sim_pkg.rigs.vehicle.tire.standing import TireAtRest
 from contact_sim_pkg.run.contact_laws import Cushion, elastic_law, friction, hysteresis, normal_loss
@@ -57,6 +60,17 @@ STIFF = 0.1  # of a contact less deep than that: its swings are many and hardly 
 Fields = tuple[FieldGrids | None, FieldGrids | None]  # of tire and seat
 
 
+class Coordinate(NamedTuple):
+    """A coordinate that ``bench/motion`` carries."""
+
+    name: str
+    place: int  # of its position in the state
+    speed: int  # of its velocity
+    mass: float  # [kg]
+    scale: tuple[float, float]  # [m], [m/s] size of its motion, to which the integrator's tolerance is relative
+    is_vertical: bool = True
+
+
 @dataclass(frozen=True)
 class Model:
     """Everything that the simulation of one scene needs."""
@@ -64,7 +78,8 @@ class Model:
     rig: Vehicle
     timing: Timing
     scale: Vector  # [states] error allowed per step
-    bodies: tuple[str, ...]
+    coordinates: tuple[Coordinate, ...]
+    quarter: QuarterCar | None  # None without a tire
     occupant: OccupantModel | None
     lean: Lean | None  # None where the pan alone carries the occupant
     tire_geometry: TireGeometry | None
@@ -88,6 +103,20 @@ class Model:
         return int(self.scale.shape[0])
 
     @property
+    def bodies(self) -> tuple[str, ...]:
+        """Names of the rows of ``bench/motion``: coordinates, and the floor and seat back that they move on."""
+        names = [each.name for each in self.coordinates]
+        floor = [] if self.quarter is not None else ["floor_z"]
+        if self.rig.back is not None:
+            names.insert(-1, "seat_back_x")
+        return (*floor, *names)
+
+    @property
+    def tire_contact(self) -> Contact | None:
+        """Laws between tire and road; None without a tire."""
+        return None if self.quarter is None else self.quarter.contact.law
+
+    @property
     def has_edge(self) -> bool:
         """Whether the road has an edge that the cells of the tire's field do not place."""
         return self.edge is not None and self.edge.is_short
@@ -106,30 +135,31 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
     seat_field, shape = (None, None) if given_seat is None else _seat_field(scene, given_seat, solver)
     tire = build_tire(scene, None if given_seat is None else given_seat.occupant, solver) if with_tire else None
     tire_field = None if tire is None else tire.field
-    # The states of the seat follow those of the quarter car: 4, or 6 with a rigid ring.
-    behind = 0 if tire is None else 4 if tire.rigid_ring is None else 6
-    seat = None if occupant is None else _seat(scene, occupant, lean, offset=behind)
+    quarter = None if tire is None else tire.quarter
+    seat = None if occupant is None else _seat(scene, occupant, lean, quarter)
     cushion = None if occupant is None else build_pan_cushion(scene, rest_of(occupant, pose_of(lean), GRAVITY).pan)
     seat_contact = None if seat is None else _seat_contact(scene, seat, lean, cushion, seat_field, shape)
-    rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
+    masses, elements = ((), ()) if quarter is None else (quarter.masses, quarter.elements)
+    rig = Vehicle(GRAVITY, masses, elements, seat, seat_contact)
     if occupant is not None and seat is not None and seat_contact is not None and lean is not None:
         last = _behind_foam(scene, seat, lean) + (0 if seat.softening is None else 1)
         rig = rig._replace(back=build_back(lean, occupant, seat_contact, GRAVITY, last))
     if tire is not None:
-        rig = rig._replace(tire=tire.tire, rigid_ring=tire.rigid_ring, tire_contact=tire.contact)
         load = standing_load(
             scene.section(tire_schema.TireSection), None if given_seat is None else given_seat.occupant
         )
-        landing = landing_of(tire.contact.elastic, load, tire.tire.wheel_mass, tire.footprint_length)
+        landing = landing_of(tire.quarter.contact.law.elastic, load, tire.quarter.wheel.mass, tire.footprint_length)
         refuse_high_walls(scene, tire.geometry.form, None if tire_field is None else tire_field.usual.settings, landing)
     # A footprint on a road bounds the length of the coupling steps, and so the segments.
     footprint = None if tire is None or tire_field is None else tire.footprint_length
     timing = coupled_timing(scene, tire_field is not None or seat_field is not None, footprint)
+    coordinates = _coordinates(rig, quarter)
     return Model(
         rig=rig,
         timing=timing,
-        scale=_scale(rig, given(scene.integrator.relative_tolerance)),
-        bodies=_bodies(rig),
+        scale=_scale(rig, coordinates, given(scene.integrator.relative_tolerance)),
+        coordinates=coordinates,
+        quarter=quarter,
         occupant=occupant,
         lean=lean,
         tire_geometry=None if tire is None else tire.geometry,
@@ -164,11 +194,11 @@ def _coupling(
         return None
     tolerance = given(scene.integrator.coupling_tolerance)
     occupant = None if rig.seat is None else scene.section(seat_schema.SeatSection).occupant
-    tire_load = 0.0 if rig.tire is None else standing_load(scene.section(tire_schema.TireSection), occupant)
+    tire_load = 0.0 if tire is None else standing_load(scene.section(tire_schema.TireSection), occupant)
     seat_load = 0.0 if occupant is None else occupant_mass(occupant) * GRAVITY
     # Allowed errors follow from the loads at rest.
     allowances = (
-        allowance_of(rig.tire_contact, fields[0], tire_load, tolerance),
+        allowance_of(None if tire is None else tire.quarter.contact.law, fields[0], tire_load, tolerance),
         allowance_of(rig.seat_contact, fields[1], seat_load, tolerance),
     )
     segments = None if tire is None or tire.tread is None else round(tire.tread.step / timing.segment_length)
@@ -179,13 +209,16 @@ def _coupling(
     return CouplingRule(tolerance, allowances, longest, shortest, segments, ways)
 
 
-def _seat(scene: ResolvedScene, occupant: OccupantModel, lean: Lean | None, offset: int) -> Seat:
+def _seat(scene: ResolvedScene, occupant: OccupantModel, lean: Lean | None, quarter: QuarterCar | None) -> Seat:
     ends = numpy.array([link[:2] for link in occupant.links], dtype=numpy.int64).reshape(-1, 2)
     springs = numpy.array([link[2:] for link in occupant.links], dtype=numpy.float64).reshape(-1, 2)
     node = None
     if occupant.masses[0] == 0.0:
         node = MasslessNode(sum(link.damping for link in occupant.links if 0 in link[:2]))
-    seat = Seat(offset, numpy.array(occupant.masses, dtype=numpy.float64), ends, springs.T.copy(), node)
+    # Its states follow those of the quarter car, whose body is the floor.
+    offset, floor = (0, None) if quarter is None else (quarter.states, quarter.body.place)
+    masses = numpy.array(occupant.masses, dtype=numpy.float64)
+    seat = Seat(offset, masses, ends, springs.T.copy(), node, floor=floor)
     effect = scene.effect("seat", seat_schema.SofteningSection)
     if effect is None:
         return seat
@@ -268,38 +301,57 @@ def _link_scale(seat: Seat, load: float) -> Vector:
     return numpy.divide(LINK * load, ending, out=numpy.full_like(ending, numpy.inf), where=ending > 0.0)
 
 
-def _scale(rig: Vehicle, tolerance: float) -> Vector:
-    """Error allowed per step and state; the two works at the end are not controlled."""
-    position, velocity = POSITION_SCALE * tolerance, VELOCITY_SCALE * tolerance
+def _coordinate(name: str, mass: Mass, scale: tuple[float, float]) -> Coordinate:
+    return Coordinate(name, mass.place, mass.place + 1, mass.mass, scale)
+
+
+def _coordinates(rig: Vehicle, quarter: QuarterCar | None) -> tuple[Coordinate, ...]:
+    """What moves, in the order of the state vector, with the size of its motion."""
+    usual = on_seat = (POSITION_SCALE, VELOCITY_SCALE)
     occupant = 0.0 if rig.seat is None else float(rig.seat.masses.sum())
-    on_seat = (POSITION_SCALE, VELOCITY_SCALE)
     if rig.seat is not None:
         touching = float(rig.seat.masses[0]) or occupant  # a massless interface moves with what hangs on it
         on_seat = _contact_scale(rig.seat_contact, occupant * rig.gravity, touching)
-    seat_position, seat_velocity = (size * tolerance for size in on_seat)
-    scale: list[float] = []
-    if rig.tire is not None:
-        mass, touching = rig.tire.wheel_mass + rig.tire.body_mass + occupant, rig.tire.wheel_mass
-        if rig.rigid_ring is not None:
-            mass, touching = mass + rig.rigid_ring.belt_mass, rig.rigid_ring.belt_mass
-        on_road = _contact_scale(rig.tire_contact, mass * rig.gravity, touching)
-        road_position, road_velocity = (size * tolerance for size in on_road)
-        wheel = (position, velocity) if rig.rigid_ring is not None else (road_position, road_velocity)
-        scale += [wheel[0], seat_position, wheel[1], seat_velocity]
-        if rig.rigid_ring is not None:
-            scale += [road_position, road_velocity]
+    found: list[Coordinate] = []
+    if quarter is not None:
+        wheel, body, belt = quarter.wheel, quarter.body, quarter.belt
+        mass = wheel.mass + body.mass + occupant + (0.0 if belt is None else belt.mass)
+        on_road = _contact_scale(quarter.contact.law, mass * rig.gravity, quarter.tread.mass)
+        found += [
+            _coordinate("wheel_z", wheel, on_road if belt is None else usual),
+            _coordinate("body_z", body, on_seat),
+        ]
+        if belt is not None:
+            found.append(_coordinate("belt_z", belt, on_road))
+    if rig.seat is None:
+        return tuple(found)
+    # Each mass by the links that end there, the first by its contact as well.
+    first, count = rig.seat.offset, len(rig.seat.masses)
+    heights, speeds = _link_scale(rig.seat, occupant * rig.gravity)
+    for i, mass in enumerate(rig.seat.masses.tolist()):
+        most, fastest = on_seat if i == 0 else usual
+        size = min(float(heights[i]), most), min(float(speeds[i]), fastest)
+        if i == 0 and rig.seat.node is not None:
+            size = size[0], math.inf  # settled at every instant
+        name = f"occupant{i}_z" if i else "seat_frame_z"
+        found.append(Coordinate(name, first + i, first + count + i, mass, size))
+    if rig.back is not None or (rig.seat_contact is not None and rig.seat_contact.friction is not None):
+        x = first + 2 * count
+        found.append(Coordinate("occupant_x", x, x + 1, occupant, usual, is_vertical=False))
+    return tuple(found)
+
+
+def _scale(rig: Vehicle, coordinates: tuple[Coordinate, ...], tolerance: float) -> Vector:
+    """Error allowed per step and state; the two works at the end are not controlled."""
+    sizes = numpy.zeros(2 * len(coordinates))
+    for each in coordinates:
+        sizes[[each.place, each.speed]] = each.scale
+    scale: list[float] = (tolerance * sizes).tolist()
     if rig.seat is not None:
-        count = len(rig.seat.masses)
-        heights, speeds = tolerance * _link_scale(rig.seat, occupant * rig.gravity)
-        scale += numpy.minimum(heights, [seat_position] + [position] * (count - 1)).tolist()
-        speeds = numpy.minimum(speeds, [seat_velocity] + [velocity] * (count - 1))
-        if rig.seat.node is not None:
-            speeds[0] = numpy.inf  # settled at every instant
-        scale += speeds.tolist()
         rubbing = None if rig.seat_contact is None else rig.seat_contact.friction
         if rubbing is not None or rig.back is not None:
-            spring = POSITION_SCALE if rubbing is None else _spring_scale(rubbing, occupant * rig.gravity)
-            scale += [position, velocity, spring * tolerance]
+            load = float(rig.seat.masses.sum()) * rig.gravity
+            scale.append((POSITION_SCALE if rubbing is None else _spring_scale(rubbing, load)) * tolerance)
         # The variables of foam run from -1 to 1, the mean square of softening links by m^2/s^4.
         further = (
             rig.seat_contact is not None and rig.seat_contact.hysteresis is not None, rig.seat.softening is not None,
@@ -317,20 +369,6 @@ def _spring_scale(friction: Friction, load: float) -> float:
     return min(POSITION_SCALE, reached) if reached > 0.0 else POSITION_SCALE
 
 
-def _bodies(rig: Vehicle) -> tuple[str, ...]:
-    """Names of the coordinates that ``bench/motion`` carries, in order."""
-    names: list[str] = ["wheel_z", "body_z"] if rig.tire is not None else ["floor_z"]
-    if rig.rigid_ring is not None:
-        names.append("belt_z")
-    if rig.seat is not None:
-        names += ["seat_frame_z", *(f"occupant{i}_z" for i in range(1, len(rig.seat.masses)))]
-        if rig.back is not None:
-            names += ["seat_back_x", "occupant_x"]
-        elif rig.seat_contact is not None and rig.seat_contact.friction is not None:
-            names.append("occupant_x")
-    return tuple(names)
-
-
 def standing_state(model: Model, height: float, rate: float = 0.0) -> Vector:
     """State [states] in equilibrium, in [m] and [m/s], under gravity on a road of effective ``height``
     [m] that rises at a ``rate`` [m/s] under the tire: every body rises with it (decision 0034).
@@ -340,17 +378,19 @@ def standing_state(model: Model, height: float, rate: float = 0.0) -> Vector:
     floor = 0.0
     occupant = 0.0 if rig.seat is None else float(rig.seat.masses.sum())
     # Wheel, belt and body from the road up: each spring carries what is above it.
-    if rig.tire is not None and rig.tire_contact is not None:
-        carried = (rig.tire.body_mass + occupant) * rig.gravity
-        on_wheel = carried + rig.tire.wheel_mass * rig.gravity
-        belt = 0.0 if rig.rigid_ring is None else rig.rigid_ring.belt_mass * rig.gravity
-        state[0] = height - approach_of_force(rig.tire_contact.elastic, on_wheel + belt)
-        if rig.rigid_ring is not None:
-            state[rig.rigid_ring.offset] = state[0]
-            state[0] -= on_wheel / rig.rigid_ring.stiffness
-            state[rig.rigid_ring.offset + 1] = rate
-        floor = state[1] = state[0] - carried / rig.tire.suspension_stiffness
-        state[2] = state[3] = rate
+    quarter = model.quarter
+    if quarter is not None:
+        (wheel, wheel_mass), (body, body_mass), belt = quarter.wheel, quarter.body, quarter.belt
+        carried = (body_mass + occupant) * rig.gravity
+        on_wheel = carried + wheel_mass * rig.gravity
+        on_road = on_wheel + (0.0 if belt is None else belt.mass * rig.gravity)
+        state[wheel] = height - approach_of_force(quarter.contact.law.elastic, on_road)
+        if belt is not None and quarter.sidewalls is not None:
+            state[belt.place] = state[wheel]
+            state[wheel] -= on_wheel / quarter.sidewalls.stiffness
+        floor = state[body] = state[wheel] - carried / quarter.suspension.stiffness
+        for each in quarter.masses:
+            state[each.place + 1] = rate
     # The occupant on the cushion, its masses on their springs.
     if rig.seat is not None and rig.seat_contact is not None:
         first, count = rig.seat.offset, len(rig.seat.masses)

@@ -24,7 +24,8 @@ from contact_sim_pkg.records.messages import (
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids
 from contact_sim_pkg.rigs.vehicle.field.driver import FieldRecord
 from contact_sim_pkg.rigs.vehicle.model import Model
-from contact_sim_pkg.rigs.vehicle.motion import entries as columns
+from contact_sim_pkg.rigs.vehicle.motion import columns
+from contact_sim_pkg.rigs.vehicle.motion.spring import spring_force
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import Sheared, Works
 from contact_sim_pkg.rigs.vehicle.tire.standing import TireAtRest
 from contact_sim_pkg.run.contact_patch import contact_patch
@@ -46,7 +47,7 @@ class BlockRecord:
     block: int
     states: Array  # [samples, states]
     rates: Array  # [samples, states]
-    forces: Array  # [samples, columns of rigs/vehicle/motion/entries.py]
+    forces: Array  # [samples, columns of rigs/vehicle/motion/columns.py]
     floor: Array  # [samples, 2], [m/s^2] floor acceleration x, z
     energy: Array = field(default_factory=lambda: numpy.zeros(5))
     start_energy: Array = field(default_factory=lambda: numpy.zeros(5))
@@ -109,7 +110,7 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
     stamps, forces = BlockStamps(record.block, model.timing), record.forces
     outputs: list[Output] = []
     # contacts: force and wrenches of the resultant, and the fields under it
-    if model.rig.tire_contact is not None:
+    if model.quarter is not None:
         shear = forces[:, columns.TIRE_SHEAR : columns.TIRE_SHEAR + 3]
         impulses = {} if model.asperities is None else {"impulses": forces[:, columns.TIRE_PUSH]}
         force = ContactForce(
@@ -171,14 +172,10 @@ def _estimates(outputs: list[Output], missed: Array | None, bodies: tuple[str, .
 
 def _axle_force(model: Model, stamps: BlockStamps, record: BlockRecord) -> AxleForce:
     """Force of the tire on the axle: across the rigid ring, where there is one."""
-    forces, ring, states = record.forces, model.rig.rigid_ring, record.states
-    contact = forces[:, columns.TIRE_NORMAL] + forces[:, columns.TIRE_PUSH]
-    vertical = contact
-    if ring is not None:
-        belt = ring.offset
-        vertical = ring.stiffness * (states[:, belt] - states[:, 0]) + ring.damping * (
-            states[:, belt + 1] - states[:, 2]
-        )
+    forces, sidewalls = record.forces, None if model.quarter is None else model.quarter.sidewalls
+    vertical = forces[:, columns.TIRE_NORMAL] + forces[:, columns.TIRE_PUSH]
+    if sidewalls is not None:
+        vertical = spring_force(sidewalls, record.states.T)
     on_axle = {"longitudinal": -forces[:, columns.TIRE_SLOPE] * forces[:, columns.TIRE_NORMAL]}
     if model.rolling_friction is not None:
         names = ("longitudinal", "lateral", "moment_y", "moment_z", "spin")
@@ -238,31 +235,18 @@ def _motion_rows(model: Model, record: BlockRecord) -> dict[str, Array]:
     """Rows of ``bench/motion`` in the order of ``model.bodies``: position, velocity,
     acceleration.
     """
-    rig, state, rate = model.rig, record.states, record.rates
-    # Places of position and velocity in the state, body by body.
-    indices: list[tuple[int, int]] = []
-    if rig.tire is not None:
-        indices += [(0, 2), (1, 3)]
-    if rig.rigid_ring is not None:
-        indices.append((rig.rigid_ring.offset, rig.rigid_ring.offset + 1))
-    if rig.seat is not None:
-        count = len(rig.seat.masses)
-        indices += [(rig.seat.offset + i, rig.seat.offset + count + i) for i in range(count)]
-        if "occupant_x" in model.bodies:
-            indices.append((rig.seat.offset + 2 * count, rig.seat.offset + 2 * count + 1))
-    position = numpy.array([state[:, p] for p, _ in indices])
-    velocity = numpy.array([state[:, v] for _, v in indices])
-    acceleration = numpy.array([rate[:, v] for _, v in indices])
+    state, rate, moving = record.states, record.rates, model.coordinates
+    position = numpy.array([state[:, each.place] for each in moving])
+    velocity = numpy.array([state[:, each.speed] for each in moving])
+    acceleration = numpy.array([rate[:, each.speed] for each in moving])
     still, forward, upward = numpy.zeros(len(state)), record.floor[:, 0], record.floor[:, 1]
-    vertical = slice(None)
-    if "occupant_x" in model.bodies:
-        acceleration[-1] += forward
-        vertical = slice(None, -1)
-    if rig.tire is None:
+    vertical = numpy.array([each.is_vertical for each in moving])
+    acceleration[~vertical] += forward
+    if model.quarter is None:  # beside the floor that they move on
         acceleration[vertical] += upward
         position, velocity = numpy.vstack([still, position]), numpy.vstack([still, velocity])
         acceleration = numpy.vstack([upward, acceleration])
-    if rig.back is not None:
+    if model.rig.back is not None:
         position, velocity = numpy.insert(position, -1, still, axis=0), numpy.insert(velocity, -1, still, axis=0)
         acceleration = numpy.insert(acceleration, -1, forward, axis=0)
     return {"position": position, "velocity": velocity, "acceleration": acceleration}

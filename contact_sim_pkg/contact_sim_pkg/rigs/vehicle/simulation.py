@@ -14,7 +14,7 @@ from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.rigs.vehicle.field.coupling_rule import request_cautions
 from contact_sim_pkg.rigs.vehicle.field.driver import FieldRecord
 from contact_sim_pkg.rigs.vehicle.model import Model, build
-from contact_sim_pkg.rigs.vehicle.motion import entries as columns
+from contact_sim_pkg.rigs.vehicle.motion import columns
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, block_outputs
 from contact_sim_pkg.rigs.vehicle.run.coupling import Coupling
 from contact_sim_pkg.rigs.vehicle.run.coupling_check import KINDS
@@ -51,9 +51,9 @@ class Simulation:
 
     def _cautions(self) -> tuple[str, ...]:
         """See `cautions_of`."""
-        rig, grids, occupant = self.model.rig, self.model.tire_field, self.model.occupant
+        grids, occupant = self.model.tire_field, self.model.occupant
         ringing = () if occupant is None else ringing_cautions(occupant, self.scene.outputs.force_rate)
-        if rig.tire_contact is None:
+        if self.model.quarter is None:
             return ringing
         standing = self.model.tire_standing
         return (

@@ -182,11 +182,11 @@ def test_a_body_of_its_own_or_not_the_ring_leaves_the_tire_as_stiff():
     for inflation, load in ((160, 2000.0), (220, 4000.0), (280, 6000.0)):
         keys = f"effects.tire.inflation={{pressure: {inflation}e3, ring_stiffness: 1e6}}"
         plain, ringed = (
-            build(resolved("tire_bump", keys, *ring)).rig for ring in ((), ("effects.tire.rigid_ring={}",))
+            build(resolved("tire_bump", keys, *ring)).quarter for ring in ((), ("effects.tire.rigid_ring={}",))
         )
-        assert plain.rigid_ring is None
-        alone = tire_stiffness(plain.tire_contact.elastic, None, load)
-        assert tire_stiffness(ringed.tire_contact.elastic, ringed.rigid_ring, load) == pytest.approx(alone, rel=5e-3)
+        assert plain.sidewalls is None
+        alone = tire_stiffness(plain.contact.law.elastic, None, load)
+        assert tire_stiffness(ringed.contact.law.elastic, ringed.sidewalls, load) == pytest.approx(alone, rel=5e-3)
 
 
 def test_the_arc_is_that_of_fixed_length_under_the_inflation():

@@ -10,7 +10,7 @@ from tests.run.scenes import resolved
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force
 from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.rigs.vehicle.model import build
-from contact_sim_pkg.rigs.vehicle.motion.parameters import RigidRing
+from contact_sim_pkg.rigs.vehicle.motion.spring import Spring
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.rigs.vehicle.tire.static_stiffness import stiffness_cautions, tire_stiffness
 from contact_sim_pkg.scene.load import load_scene
@@ -21,8 +21,8 @@ WEIGHT = 340.0 * 9.81
 
 
 def stiffness(scene, load=WEIGHT):
-    rig = build(scene).rig
-    return tire_stiffness(rig.tire_contact.elastic, rig.rigid_ring, load)
+    model = build(scene)
+    return tire_stiffness(model.tire_contact.elastic, model.quarter.sidewalls, load)
 
 
 def test_the_stiffness_is_the_derivative_of_the_law_in_series_with_the_ring():
@@ -30,7 +30,7 @@ def test_the_stiffness_is_the_derivative_of_the_law_in_series_with_the_ring():
     law = NormalElastic(4e6, 1.5)
     alone = 1.5 * 4e6 ** (2.0 / 3.0) * WEIGHT ** (1.0 / 3.0)
     assert tire_stiffness(law, None, WEIGHT) == pytest.approx(alone, rel=1e-5)
-    ring = RigidRing(4, 7.0, 3e5, 0.0)
+    ring = Spring(4, 0, 3e5, 0.0)
     assert tire_stiffness(law, ring, WEIGHT) == pytest.approx(1.0 / (1.0 / alone + 1.0 / 3e5), rel=1e-5)
 
 
@@ -47,7 +47,7 @@ def test_a_half_space_without_figures_is_as_stiff_as_the_inflated_default():
     """
     found = []
     for carried in ("normal_elastic: {}", "inflation: {}"):
-        law = build(resolved("tire_bump", f"effects.tire={{{carried}}}")).rig.tire_contact.elastic
+        law = build(resolved("tire_bump", f"effects.tire={{{carried}}}")).tire_contact.elastic
         around = approach_of_force(law, WEIGHT) + numpy.array([-1e-4, 1e-4])
         found.append(numpy.diff([elastic_force(law, x) for x in around])[0] / 2e-4)
     assert found[0] == pytest.approx(found[1], rel=0.03)

@@ -43,11 +43,11 @@ def over_cleat(load: float, speed: float, *values: str) -> OverCleat:
         f"road={{kind: cleat, position: {CLEAT}, height: 0.01, length: 0.05, edge: 0.005}}", "block_length=0.1", *values,
     )  # fmt: skip
     model = build(scene)
-    rig = model.rig
-    assert rig.tire is not None
-    carried = rig.tire.body_mass + (0.0 if rig.rigid_ring is None else rig.rigid_ring.belt_mass)
-    held = rig._replace(tire=rig.tire._replace(wheel_mass=HEAVY), gravity=load / (HEAVY + carried))
-    outputs = outputs_with(scene, Simulation(scene, replace(model, rig=held)))
+    assert model.quarter is not None
+    quarter = model.quarter._replace(wheel=model.quarter.wheel._replace(mass=HEAVY))
+    weight = sum(each.mass for each in quarter.masses)
+    held = model.rig._replace(masses=quarter.masses, gravity=load / weight)
+    outputs = outputs_with(scene, Simulation(scene, replace(model, rig=held, quarter=quarter)))
     records = records_of(outputs, "tire/axle")
     time = numpy.arange(sum(len(record.vertical) for record in records)) * records[0].sample_period
 

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from typing import NamedTuple, TypeAlias
 
+import numpy
+
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.held import Held
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry, kernel
@@ -16,19 +18,24 @@ from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.laws.contact_force import contact_energy, contact_force
 from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection
-from contact_sim_pkg.rigs.vehicle.motion import quarter_car, vehicle
+from contact_sim_pkg.rigs.vehicle.motion import vehicle
+from contact_sim_pkg.rigs.vehicle.motion.columns import (
+    BACK_APPROACH,
+    BACK_NORMAL,
+    SEAT_APPROACH,
+    SEAT_HEIGHT,
+    SEAT_NORMAL,
+    SEAT_RATE,
+    SEAT_TANGENTIAL,
+    TIRE_SLOPE,
+)
+from contact_sim_pkg.rigs.vehicle.motion.elements import act, observe
+from contact_sim_pkg.rigs.vehicle.motion.ground import Ground, ground_at
 from contact_sim_pkg.rigs.vehicle.motion.heights import effective_between
 from contact_sim_pkg.rigs.vehicle.motion.leaning import back_approach, back_energy, back_force, pan_friction, slid
+from contact_sim_pkg.rigs.vehicle.motion.masses import energies_of_masses
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle
 from contact_sim_pkg.rigs.vehicle.motion.seat import seat_energies, seat_mass, slide_index
-
-TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
-SEAT_NORMAL, SEAT_TANGENTIAL, SEAT_APPROACH, SEAT_HEIGHT, SEAT_RATE = 4, 5, 6, 7, 8
-TIRE_PUSH = 9
-BACK_NORMAL, BACK_APPROACH = 10, 11
-TIRE_SLOPE = 12  # of the fields: filled in by `run/coupling.py`, as is what follows
-TIRE_SHEAR = 13  # and the columns behind it: those of a sample in `tire/brush/belt_motion.py`
-FORCES = 21
 
 Rates: TypeAlias = "tuple[Vector | None, Vector | None]"
 """Of the heights of road and cushion [m/s]."""
@@ -84,21 +91,18 @@ def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z, 
 @borrowing_kernel
 def _observe(rig, drive, mode, state, out):
     """Forces, approaches and heights of both contacts at the start of the segment."""
-    height, height_rate, cushion, cushion_rate, _a_x, _a_z = quarter_car.drive_at(drive, drive.start)
-    tire_x, tire_v = quarter_car.tire_approach(rig.tire, rig.rigid_ring, height, height_rate, state)
-    seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, rig.seat_contact, rig.back, cushion, cushion_rate, state)
+    ground = ground_at(drive, drive.start)
+    observe(rig.elements, ground, state, out)
+    seat_x, seat_v = vehicle.seat_approach(
+        rig.seat, rig.seat_contact, rig.back, ground.cushion, ground.cushion_rate, state
+    )
     seat_normal = contact_force(rig.seat_contact, seat_x, seat_v, state)
-    out[TIRE_NORMAL] = contact_force(rig.tire_contact, tire_x, tire_v, state)
-    out[TIRE_APPROACH] = tire_x
-    out[TIRE_HEIGHT] = height
-    out[TIRE_RATE] = tire_v
-    out[TIRE_PUSH] = quarter_car.push_at(drive, drive.start) if tire_x > 0.0 else 0.0
     out[SEAT_NORMAL] = seat_normal
     out[SEAT_TANGENTIAL] = -pan_friction(
         vehicle._friction_of(rig.seat_contact), rig.back, rig.seat, mode, seat_normal, state
     )
     out[SEAT_APPROACH] = seat_x
-    out[SEAT_HEIGHT] = cushion
+    out[SEAT_HEIGHT] = ground.cushion
     out[SEAT_RATE] = seat_v
     back_x, back_v = back_approach(rig.back, rig.seat, state)
     out[BACK_NORMAL] = back_force(rig.back, back_x, back_v, state)
@@ -134,7 +138,7 @@ def advance(
     and cushion at the same instants [m/s], with which they are cubics between; None: linear. Every
     ``sample_every``-th segment's start is sampled, the first segment lying ``behind_sample``
     segments behind one: state and rates [samples, states] (rates from the right), forces [samples,
-    FORCES] in the columns ``TIRE_NORMAL ...``. Returns a status of ``compiled/results.py``;
+    FORCES] in the columns of ``motion/columns.py``. Returns a status of ``compiled/results.py``;
     ``mode``, ``state`` and ``work`` change in place.
     """
     return _advance(
@@ -187,28 +191,6 @@ def _advance(
         if status != DONE:
             return status
     return DONE
-
-
-@borrowing_kernel
-def _tire_energies(tire, gravity, state):
-    if tire is None:
-        return 0.0, 0.0, 0.0
-    kinetic = 0.5 * (tire.wheel_mass * state[2] ** 2 + tire.body_mass * state[3] ** 2)
-    potential = gravity * (tire.wheel_mass * state[0] + tire.body_mass * state[1])
-    return kinetic, potential, 0.5 * tire.suspension_stiffness * (state[0] - state[1]) ** 2
-
-
-@borrowing_kernel
-def _rigid_ring_energies(rigid_ring, gravity, state):
-    if rigid_ring is None:
-        return 0.0, 0.0, 0.0
-    belt = rigid_ring.offset
-    kinetic = 0.5 * rigid_ring.belt_mass * state[belt + 1] ** 2
-    return (
-        kinetic,
-        gravity * rigid_ring.belt_mass * state[belt],
-        0.5 * rigid_ring.stiffness * (state[belt] - state[0]) ** 2,
-    )
 
 
 @borrowing_kernel
@@ -267,31 +249,27 @@ def energies(
     return _energies(rig, mode, state, height, cushion)
 
 
-@borrowing_kernel
+@kernel
 def _energies(rig, mode, state, height, cushion):
     """See ``energies``."""
-    kinetic, potential, stored = _tire_energies(rig.tire, rig.gravity, state)
-    belt_kinetic, belt_potential, belt_stored = _rigid_ring_energies(rig.rigid_ring, rig.gravity, state)
-    kinetic += belt_kinetic
-    potential += belt_potential
-    stored += belt_stored
+    ground = Ground(height, 0.0, cushion, 0.0, 0.0, 0.0, 0.0)
+    kinetic, potential = energies_of_masses(rig.masses, rig.gravity, state)
+    _lost, _brought, stored, kept = act(rig.elements, ground, mode, state, numpy.zeros_like(state))
     # The occupant on its cushion, whose friction has a spring and whose foam has a memory.
     seat_kinetic, seat_potential, seat_stored = seat_energies(rig.seat, rig.gravity, state)
-    tire_x, _tire_v = quarter_car.tire_approach(rig.tire, rig.rigid_ring, height, 0.0, state)
-    seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, rig.seat_contact, rig.back, cushion, 0.0, state)
+    seat_x, _seat_v = vehicle.seat_approach(rig.seat, rig.seat_contact, rig.back, cushion, 0.0, state)
     normal = contact_force(rig.seat_contact, seat_x, _seat_v, state)
     slide_kinetic, spring = _slide_energies(
         vehicle._friction_of(rig.seat_contact), rig.back, rig.seat, mode, normal, state
     )
-    in_tire, _none = contact_energy(rig.tire_contact, tire_x, state)
     in_cushion, hysteresis = contact_energy(rig.seat_contact, seat_x, state)
     back_x, _back_v = back_approach(rig.back, rig.seat, state)
     in_back, back_hysteresis = back_energy(rig.back, back_x, state)
-    hysteresis += back_hysteresis
-    stored += seat_stored + spring + hysteresis
-    stored += in_tire + in_cushion + in_back
+    kept += spring + hysteresis + back_hysteresis
+    stored += seat_stored + spring + hysteresis + back_hysteresis
+    stored += in_cushion + in_back
     # The last two states are the works supplied and dissipated; what is still stored is no loss
     # yet.
     last = state.shape[0]
-    dissipated = state[last - 1] - spring - hysteresis
-    return kinetic + seat_kinetic + slide_kinetic, potential + seat_potential, stored, state[last - 2], dissipated
+    kinetic += seat_kinetic + slide_kinetic
+    return kinetic, potential + seat_potential, stored, state[last - 2], state[last - 1] - kept

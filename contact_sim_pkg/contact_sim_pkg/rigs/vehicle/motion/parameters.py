@@ -1,4 +1,4 @@
-"""Parameter tuples of quarter car and seat.
+"""Parameter tuples of the vehicle: its masses and elements, and the seat.
 
 An effect that a scene does not call for is ``None`` in place of its tuple (decision 0001). SI
 units; all numbers are ``float`` unless stated otherwise.
@@ -7,37 +7,17 @@ The tuples are built in ``rigs/vehicle/model.py`` only.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.laws.parameters import Contact
+from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
+from contact_sim_pkg.rigs.vehicle.motion.road import AsperityPush, RoadContact
+from contact_sim_pkg.rigs.vehicle.motion.spring import DriveLine, Spring
 
-
-class Tire(NamedTuple):
-    """Quarter vehicle on a tire; state [wheel_z, body_z, wheel_v, body_v], first in the state
-    vector.
-    """
-
-    wheel_mass: float  # [kg]
-    body_mass: float  # [kg]
-    suspension_stiffness: float  # [N/m]
-    suspension_damping: float  # [N s/m]
-
-
-class RigidRing(NamedTuple):
-    """Belt and tread as one rigid ring that the sidewalls carry; state [belt_z, belt_v] from
-    ``offset``.
-
-    Without load the belt's height equals the wheel's. Tread contact and sidewalls then stand in
-    series.
-    """
-
-    offset: int  # index of belt_z in the state vector
-    belt_mass: float  # [kg], not counted in Tire.wheel_mass
-    stiffness: float  # [N/m] of the sidewalls
-    damping: float  # [N s/m]
+Element: TypeAlias = RoadContact | AsperityPush | Spring | DriveLine
 
 
 class MasslessNode(NamedTuple):
@@ -71,6 +51,7 @@ class Seat(NamedTuple):
     springs: Vector  # [2, links] stiffness [N/m], damping [N s/m]
     node: MasslessNode | None = None  # None where the first mass is above 0
     softening: Softening | None = None
+    floor: int | None = None  # place of what the cushion stands on; None: the frame of reference
 
 
 def rigid_occupant(mass: float, offset: int = 0) -> Seat:
@@ -94,15 +75,15 @@ class Back(NamedTuple):
 
 
 class Vehicle(NamedTuple):
-    """Rig of seat and tire: each part and its contact may be absent (``None``), not both.
+    """Rig of seat and tire: masses and what acts between them, and the occupant on its cushion, who may
+    be absent (``None``).
 
-    Without a tire the motion is relative to the floor, which is then an accelerated frame.
+    Without masses the motion is relative to the floor, which is then an accelerated frame.
     """
 
     gravity: float  # [m/s^2], > 0
-    tire: Tire | None
-    rigid_ring: RigidRing | None
-    tire_contact: Contact | None
+    masses: tuple[Mass, ...]
+    elements: tuple[Element, ...]  # in the order in which forces are added
     seat: Seat | None
     seat_contact: Contact | None
-    back: Back | None = None  # only without a tire
+    back: Back | None = None  # only on a floor that is the frame of reference

@@ -86,16 +86,16 @@ def _accelerated(node, field, force, mass):
 
 
 @borrowing_kernel
-def seat_rates(tire, seat, gravity, acceleration_z, state, out):
+def seat_rates(seat, gravity, acceleration_z, state, out):
     """Rates of the masses under the forces in [N] of cushion and seat back, which stand in the
     places of their accelerations; returns the power that the links take and that the floor's motion
     brings in.
     """
     if seat is None:
         return 0.0, 0.0
-    # Without a tire the seat moves in the frame of the shaken floor.
+    # On no floor of its own the seat moves in the frame of the shaken one.
     field = -gravity
-    if tire is None:
+    if seat.floor is None:
         field -= acceleration_z
     count = seat.masses.shape[0]
     z = seat.offset
@@ -115,7 +115,7 @@ def seat_rates(tire, seat, gravity, acceleration_z, state, out):
         out[z + i] = state[v + i]
         out[v + i] = field + out[v + i] / seat.masses[i]
         brought += seat.masses[i] * state[v + i]
-    if tire is None:
+    if seat.floor is None:
         return lost, -acceleration_z * brought
     return lost, 0.0
 
@@ -197,7 +197,7 @@ def softening_rate(seat, acceleration_z, state, out):
     """Write the rate of the mean square of the seat's acceleration; returns the power in [W] that
     the change of the springs brings in.
 
-    ``acceleration_z`` [m/s^2] of the frame of reference.
+    ``acceleration_z`` [m/s^2] of the floor where that is the frame of reference.
     """
     if seat is None:
         return 0.0
@@ -209,7 +209,9 @@ def _softening_rate(softening, seat, acceleration_z, state, out):
     if softening is None:
         return 0.0
     z = seat.offset
-    acceleration = out[z + seat.masses.shape[0]] + acceleration_z
+    acceleration = out[z + seat.masses.shape[0]]
+    if seat.floor is None:
+        acceleration += acceleration_z
     rate = (acceleration**2 - state[softening.offset]) / softening.time_constant
     out[softening.offset] = rate
     _stiffness, _damping, slope = _softness(softening, state)

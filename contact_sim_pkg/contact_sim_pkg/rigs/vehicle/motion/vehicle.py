@@ -16,7 +16,7 @@ for friction.
 Approaches: tire ``h(t) - z_w`` (belt: ``h(t) - z_r``), h the effective road height; seat ``z_floor
 + h_c(t) - z_0``, h_c that of the cushion.
 Without a tire the floor is the (accelerated) frame of reference: z_floor = 0 and every mass feels
-``-m a_z(t)``. State: [z_w, z_b, v_w, v_b] [z_r, v_r] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [z] [q]
+``-m a_z(t)``. State: [z_w, v_w, z_b, v_b] [z_r, v_r] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [z] [q]
 [z_b] [supplied, dissipated]; z and z_b are the hysteresis variables of foam in cushion and seat back
 (``laws/foam_hysteresis.py``), q the mean square of softening links, the last two are the works in
 [J] that the energy ledger needs. Works of friction and foam are counted whole; what their springs
@@ -41,6 +41,8 @@ from contact_sim_pkg.laws.friction import (
     slip_event,
     stick_event,
 )
+from contact_sim_pkg.rigs.vehicle.motion.elements import act, events, events_of, finish
+from contact_sim_pkg.rigs.vehicle.motion.ground import ground_at
 from contact_sim_pkg.rigs.vehicle.motion.leaning import (
     back_approach,
     back_force,
@@ -53,16 +55,8 @@ from contact_sim_pkg.rigs.vehicle.motion.leaning import (
     slid,
     sliding_in,
 )
+from contact_sim_pkg.rigs.vehicle.motion.masses import accelerate, clear
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle
-from contact_sim_pkg.rigs.vehicle.motion.quarter_car import (
-    body_power,
-    drive_at,
-    push_at,
-    rigid_ring_rates,
-    tire_approach,
-    tire_rates,
-    tread_velocity,
-)
 from contact_sim_pkg.rigs.vehicle.motion.seat import (
     node_rate,
     seat_rates,
@@ -71,20 +65,21 @@ from contact_sim_pkg.rigs.vehicle.motion.seat import (
     softening_rate,
 )
 
-TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, SEAT_REVERSAL = 0, 1, 2, 3, 4, 5
-BACK_APPROACH, BACK_TENSION, BACK_REVERSAL = 6, 7, 8  # with a seat back
+# Behind the events of the elements
+SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, SEAT_REVERSAL = 0, 1, 2, 3
+BACK_APPROACH, BACK_TENSION, BACK_REVERSAL = 4, 5, 6  # with a seat back
 
 
 def event_count(rig: Vehicle) -> int:
     """Number of event functions."""
-    return 6 if rig.back is None else 9
+    return events_of(rig.elements) + (4 if rig.back is None else 7)
 
 
 @borrowing_kernel
-def _floor(tire, state):
-    if tire is None:
+def _of_floor(place, state):
+    if place is None:
         return 0.0, 0.0
-    return state[1], state[3]
+    return state[place], state[place + 1]
 
 
 @borrowing_kernel
@@ -95,25 +90,37 @@ def _node_of(seat):
 
 
 @borrowing_kernel
-def _floor_acceleration(tire, derivative):
+def _floor_acceleration(seat, derivative):
     """Of the floor in its frame of reference in [m/s^2]."""
-    if tire is None:
+    if seat is None:
         return 0.0
-    return derivative[3]
+    return _of_floor(seat.floor, derivative)[1]
 
 
 @borrowing_kernel
-def seat_approach(tire, seat, contact, back, cushion, cushion_rate, state):
+def seat_approach(seat, contact, back, cushion, cushion_rate, state):
     """Approach in [m] and its rate in [m/s]; separated where there is no seat. Settles a massless
     seat interface.
     """
     if seat is None:
         return -1.0, 0.0
-    floor, floor_rate = _floor(tire, state)
+    floor, floor_rate = _of_floor(seat.floor, state)
     velocity = floor_rate + cushion_rate
     approach = floor + cushion - pan_motion(back, seat, state)[0]
     settle_node(seat.node, seat, contact, approach, velocity + sliding_in(back, seat, state), pan_cosine(back), state)
     return approach, velocity - pan_motion(back, seat, state)[1]
+
+
+@borrowing_kernel
+def _load_floor(place, force, out):
+    if place is not None:
+        out[place + 1] -= force
+
+
+@borrowing_kernel
+def _load_floor_of(seat, force, out):
+    if seat is not None:
+        _load_floor(seat.floor, force, out)
 
 
 @borrowing_kernel
@@ -125,41 +132,40 @@ def _friction_of(contact):
 
 @borrowing_kernel
 def _rate(rig, drive, mode, time, state, out):
-    height, height_rate, cushion, cushion_rate, a_x, a_z = drive_at(drive, time)
-    tire_x, tire_v = tire_approach(rig.tire, rig.rigid_ring, height, height_rate, state)
-    tire_force = contact_force(rig.tire_contact, tire_x, tire_v, state)
-    push = push_at(drive, time) if tire_x > 0.0 else 0.0
-    on_wheel, lost_in_sidewalls = rigid_ring_rates(rig.rigid_ring, rig.gravity, tire_force + push, state, out)
-    seat_x, seat_v = seat_approach(rig.tire, rig.seat, rig.seat_contact, rig.back, cushion, cushion_rate, state)
+    ground = ground_at(drive, time)
+    clear(rig.masses, out)
+    lost, brought, _stored, _kept = act(rig.elements, ground, mode, state, out)
+    # The occupant on the cushion, which stands on the floor.
+    seat_x, seat_v = seat_approach(rig.seat, rig.seat_contact, rig.back, ground.cushion, ground.cushion_rate, state)
     seat_force = contact_force(rig.seat_contact, seat_x, seat_v, state)
     rub = pan_friction(_friction_of(rig.seat_contact), rig.back, rig.seat, mode, seat_force, state)
     back_x, back_v = back_approach(rig.back, rig.seat, state)
     leaning = back_force(rig.back, back_x, back_v, state)
+    _load_floor_of(rig.seat, seat_force, out)
     # Rates of the bodies; that of a massless interface last, for it follows from all others.
-    lost = lost_in_sidewalls
-    lost += tire_rates(rig.tire, rig.gravity, on_wheel, seat_force, a_z, state, out)
+    accelerate(rig.masses, -rig.gravity, state, out)
+    brought += finish(rig.elements, ground, state, out)
     push_up(rig.back, rig.seat, seat_force, rub, leaning, out)
-    lost_in_links, brought = seat_rates(rig.tire, rig.seat, rig.gravity, a_z, state, out)
+    lost_in_links, brought_z = seat_rates(rig.seat, rig.gravity, ground.acceleration_z, state, out)
     rubbed, brought_x = forward_rates(
-        _friction_of(rig.seat_contact), rig.back, rig.seat, mode, (seat_force, rub, leaning), a_x, state, out
-    )
+        _friction_of(rig.seat_contact), rig.back, rig.seat, mode, (seat_force, rub, leaning), ground.acceleration_x,
+        state, out,
+    )  # fmt: skip
     lost += lost_in_links + rubbed
-    lost += contact_lost_power(rig.tire_contact, tire_x, tire_v, tire_force, state, out)
     lost += contact_lost_power(rig.seat_contact, seat_x, seat_v, seat_force, state, out)
     lost += back_lost_power(rig.back, back_x, back_v, leaning, state, out)
     node_rate(
         _node_of(rig.seat), rig.seat, rig.seat_contact, seat_x, seat_v,
-        _floor_acceleration(rig.tire, out) + sliding_in(rig.back, rig.seat, out), pan_cosine(rig.back), state, out,
+        _floor_acceleration(rig.seat, out) + sliding_in(rig.back, rig.seat, out), pan_cosine(rig.back), state, out,
     )  # fmt: skip
-    brought += softening_rate(rig.seat, a_z if rig.tire is None else 0.0, state, out)
+    brought += softening_rate(rig.seat, ground.acceleration_z, state, out)
     last = state.shape[0]
-    out[last - 2] = brought + brought_x + tire_force * height_rate + seat_force * cushion_rate
-    out[last - 2] += body_power(rig.tire, a_z, state) + push * tread_velocity(rig.tire, rig.rigid_ring, state)
+    out[last - 2] = brought + brought_z + brought_x + seat_force * ground.cushion_rate
     out[last - 1] = lost
 
 
 @borrowing_kernel
-def _friction_event(friction, contact, back, tire, seat, mode, approach, approach_rate, state, derivative):
+def _friction_event(friction, contact, back, seat, mode, approach, approach_rate, state, derivative):
     if friction is None:
         return 1.0
     if mode[0] == SEPARATED:
@@ -168,37 +174,34 @@ def _friction_event(friction, contact, back, tire, seat, mode, approach, approac
     normal = contact_force(contact, approach, approach_rate, state)
     if mode[0] == STICK:
         return stick_event(friction, normal, state[slide_index(seat) + 2], velocity)
-    approach_acceleration = _floor_acceleration(tire, derivative) - pan_motion(back, seat, derivative)[1]
+    approach_acceleration = _floor_acceleration(seat, derivative) - pan_motion(back, seat, derivative)[1]
     normal_rate = contact_force_rate(contact, approach, approach_rate, approach_acceleration, state, derivative)
     return slip_event(friction, mode[0], velocity, slid(back, seat, derivative), normal, normal_rate)
 
 
 @borrowing_kernel
-def _back_events(back, seat, state, out):
+def _back_events(back, seat, state, first, out):
     """Event functions of the seat back, behind the others; none without one."""
     if back is None:
         return
     approach, approach_rate = back_approach(back, seat, state)
-    out[BACK_APPROACH] = approach
-    out[BACK_TENSION] = contact_tension_event(back.contact, approach, approach_rate, state)
-    out[BACK_REVERSAL] = contact_reversal_event(back.contact, approach, approach_rate)
+    out[first + BACK_APPROACH] = approach
+    out[first + BACK_TENSION] = contact_tension_event(back.contact, approach, approach_rate, state)
+    out[first + BACK_REVERSAL] = contact_reversal_event(back.contact, approach, approach_rate)
 
 
 @borrowing_kernel
 def _event_functions(rig, drive, mode, time, state, derivative, out):
-    height, height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
-    tire_x, tire_v = tire_approach(rig.tire, rig.rigid_ring, height, height_rate, state)
-    seat_x, seat_v = seat_approach(rig.tire, rig.seat, rig.seat_contact, rig.back, cushion, cushion_rate, state)
-    out[TIRE_APPROACH] = tire_x
-    out[TIRE_TENSION] = contact_tension_event(rig.tire_contact, tire_x, tire_v, state)
-    out[SEAT_APPROACH] = seat_x
-    out[SEAT_TENSION] = contact_tension_event(rig.seat_contact, seat_x, seat_v, state)
-    out[SEAT_REVERSAL] = contact_reversal_event(rig.seat_contact, seat_x, seat_v)
-    out[SEAT_FRICTION] = _friction_event(
-        _friction_of(rig.seat_contact), rig.seat_contact, rig.back, rig.tire, rig.seat, mode, seat_x, seat_v, state,
-        derivative,
-    )  # fmt: skip
-    _back_events(rig.back, rig.seat, state, out)
+    ground, first = ground_at(drive, time), events_of(rig.elements)
+    events(rig.elements, ground, state, 0, out)
+    seat_x, seat_v = seat_approach(rig.seat, rig.seat_contact, rig.back, ground.cushion, ground.cushion_rate, state)
+    out[first + SEAT_APPROACH] = seat_x
+    out[first + SEAT_TENSION] = contact_tension_event(rig.seat_contact, seat_x, seat_v, state)
+    out[first + SEAT_REVERSAL] = contact_reversal_event(rig.seat_contact, seat_x, seat_v)
+    out[first + SEAT_FRICTION] = _friction_event(
+        _friction_of(rig.seat_contact), rig.seat_contact, rig.back, rig.seat, mode, seat_x, seat_v, state, derivative
+    )
+    _back_events(rig.back, rig.seat, state, first, out)
 
 
 @borrowing_kernel
@@ -235,13 +238,13 @@ def _friction_transition(friction, contact, back, seat, mode, approach, approach
 
 @borrowing_kernel
 def _mode_transition(rig, drive, mode, time, state, event, direction):
-    _height, _height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
-    seat_x, seat_v = seat_approach(rig.tire, rig.seat, rig.seat_contact, rig.back, cushion, cushion_rate, state)
+    ground, of_seat = ground_at(drive, time), event - events_of(rig.elements)
+    seat_x, seat_v = seat_approach(rig.seat, rig.seat_contact, rig.back, ground.cushion, ground.cushion_rate, state)
     _friction_transition(
-        _friction_of(rig.seat_contact), rig.seat_contact, rig.back, rig.seat, mode, seat_x, seat_v, state, event,
+        _friction_of(rig.seat_contact), rig.seat_contact, rig.back, rig.seat, mode, seat_x, seat_v, state, of_seat,
         direction,
     )  # fmt: skip
-    return 1.0 if event == SEAT_FRICTION else direction
+    return 1.0 if of_seat == SEAT_FRICTION else direction
 
 
 @borrowing_kernel

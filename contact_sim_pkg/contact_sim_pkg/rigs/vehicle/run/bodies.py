@@ -14,6 +14,7 @@ from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.rigs.vehicle.model import Model, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import entries
+from contact_sim_pkg.rigs.vehicle.motion.columns import FORCES
 from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 from contact_sim_pkg.rigs.vehicle.run.drive import BlockDrive
 from contact_sim_pkg.run.errors import RunError
@@ -64,10 +65,9 @@ class Bodies:
 
     def __init__(self, model: Model) -> None:
         """Make the buffers."""
-        rig, self.model = model.rig, model
-        ring, seat = rig.rigid_ring, rig.seat
+        seat, self.model = model.rig.seat, model
         # States: height of what touches the road, and of who sits
-        self._tread = None if rig.tire is None else 0 if ring is None else ring.offset
+        self._tread = None if model.quarter is None else model.quarter.tread.place
         self._seated = None if seat is None else seat.offset
         self.reset()
 
@@ -79,7 +79,7 @@ class Bodies:
         self.work = make_workspace(model.states, event_count(model.rig))
         points, samples = timing.segments + 1, timing.segments // timing.sample_every
         self.sampled: Sampled = (
-            numpy.zeros((samples, model.states)), numpy.zeros((samples, model.states)), numpy.zeros((samples, entries.FORCES))
+            numpy.zeros((samples, model.states)), numpy.zeros((samples, model.states)), numpy.zeros((samples, FORCES))
         )  # fmt: skip
         height, height_rate, cushion, cushion_rate, level = numpy.zeros((5, points))
         self._moving = hold(
@@ -97,21 +97,12 @@ class Bodies:
 
     def lift(self, height: float) -> None:
         """Move the whole rig up by ``height`` [m]."""
-        rig = self.model.rig
-        vertical = [0, 1] if rig.rigid_ring is None else [0, 1, rig.rigid_ring.offset]
-        if rig.seat is not None:
-            vertical += range(rig.seat.offset, rig.seat.offset + len(rig.seat.masses))
-        self.state[vertical] += height
+        self.state[[each.place for each in self.model.coordinates if each.is_vertical]] += height
 
     def weight(self) -> float:
         """Load [N] of the tire at rest."""
         rig = self.model.rig
-        assert rig.tire is not None
-        mass = rig.tire.wheel_mass + rig.tire.body_mass
-        if rig.rigid_ring is not None:
-            mass += rig.rigid_ring.belt_mass
-        if rig.seat is not None:
-            mass += float(rig.seat.masses.sum())
+        mass = sum(each.mass for each in rig.masses) + (0.0 if rig.seat is None else float(rig.seat.masses.sum()))
         return mass * rig.gravity
 
     def start(self, first: BlockDrive, corrections: Corrections) -> None:
@@ -176,15 +167,14 @@ class Bodies:
 
     def tread_rate(self) -> float:
         """Vertical speed [m/s] of tire or belt; 0 without a tire."""
-        rig = self.model.rig
-        if rig.tire is None:
-            return 0.0
-        return float(self.state[2 if rig.rigid_ring is None else rig.rigid_ring.offset + 1])
+        return 0.0 if self._tread is None else self.state.item(self._tread + 1)
 
     def axle_deflection(self, approach: float) -> float:
         """Deflection [m] of the axle at an ``approach`` [m] of tire or belt."""
-        ring = self.model.rig.rigid_ring
-        return approach if ring is None else approach + float(self.state[ring.offset] - self.state[0])
+        sidewalls = None if self.model.quarter is None else self.model.quarter.sidewalls
+        if sidewalls is None:
+            return approach
+        return approach + (self.state.item(sidewalls.first) - self.state.item(sidewalls.second))
 
     def seat_approach(self, cushion: float) -> float:
         """Approach in [m] of the occupant to a cushion of height ``cushion`` [m]; 0 without
@@ -192,5 +182,5 @@ class Bodies:
         """
         if self._seated is None:
             return 0.0
-        floor = 0.0 if self._tread is None else self.state.item(1)
+        floor = 0.0 if self.model.quarter is None else self.state.item(self.model.quarter.body.place)
         return floor + cushion - self.state.item(self._seated)

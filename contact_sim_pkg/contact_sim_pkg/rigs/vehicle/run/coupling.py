@@ -40,15 +40,8 @@ from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
 )
 from contact_sim_pkg.rigs.vehicle.field.driver import ContactField, FieldRecord, Turn
 from contact_sim_pkg.rigs.vehicle.model import Model
-from contact_sim_pkg.rigs.vehicle.motion.entries import (
-    FORCES,
-    SEAT_NORMAL,
-    TIRE_NORMAL,
-    TIRE_SHEAR,
-    TIRE_SLOPE,
-    lay_slopes,
-    raise_to,
-)
+from contact_sim_pkg.rigs.vehicle.motion.columns import FORCES, SEAT_NORMAL, TIRE_NORMAL, TIRE_SHEAR, TIRE_SLOPE
+from contact_sim_pkg.rigs.vehicle.motion.entries import lay_slopes, raise_to
 from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord
 from contact_sim_pkg.rigs.vehicle.run.bodies import LINEAR, Bodies, Corrections, CouplingStep, Saved
 from contact_sim_pkg.rigs.vehicle.run.coupling_check import CouplingCheck, Middle, MissedSoFar, middle_of
@@ -83,10 +76,9 @@ class Coupling:
 
     def __init__(self, model: Model) -> None:
         """Make the buffers and contact fields of ``model``."""
-        rig = model.rig
         self.model, self.bodies = model, Bodies(model)
-        self.tire = RoadField(model.tire_field, rig.tire_contact, model.tire_geometry, model.tread)
-        self.seat = CushionField(model.seat_field, rig.seat_contact, model.seat_shape)
+        self.tire = RoadField(model.tire_field, model.tire_contact, model.tire_geometry, model.tread)
+        self.seat = CushionField(model.seat_field, model.rig.seat_contact, model.seat_shape)
         self.fields: tuple[ContactField, ContactField] = (self.tire, self.seat)
         friction, grids = model.rolling_friction, model.tire_field
         self.shear = None if friction is None or grids is None else RollingShear(friction, grids.wide.settings)

@@ -271,13 +271,11 @@ def _can_be_halved(settings: FieldSettings) -> bool:
 
 def _swing_of(model: Model) -> tuple[float, float]:
     """Mass [kg] of what touches the road, and the period [s] of its swing on its springs at rest."""
-    rig = model.rig
-    if rig.tire is None or rig.tire_contact is None or model.coupling is None:
+    quarter = model.quarter
+    if quarter is None or model.coupling is None:
         return 1.0, 0.0
-    mass, beside = rig.tire.wheel_mass, rig.tire.suspension_stiffness
-    if rig.rigid_ring is not None:
-        mass, beside = rig.rigid_ring.belt_mass, rig.rigid_ring.stiffness
-    law, load = rig.tire_contact.elastic, model.coupling.allowances[0].load
+    mass, beside = quarter.tread.mass, (quarter.sidewalls or quarter.suspension).stiffness
+    law, load = quarter.contact.law.elastic, model.coupling.allowances[0].load
     stiffness = float(elastic_stiffness(law, float(approach_of_force(law, load)))) + beside
     return mass, 2.0 * math.pi * math.sqrt(mass / stiffness)
 

@@ -20,7 +20,7 @@ from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids, make_gr
 from contact_sim_pkg.rigs.vehicle.field.coupling_rule import coupled_timing, uniform_segments
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import stiffened
 from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
-from contact_sim_pkg.rigs.vehicle.motion.parameters import RigidRing, Tire
+from contact_sim_pkg.rigs.vehicle.motion.spring import Spring
 from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection
 from contact_sim_pkg.rigs.vehicle.tire import schema
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm, body_of
@@ -28,6 +28,7 @@ from contact_sim_pkg.rigs.vehicle.tire.footprint import hertz_weights
 from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load, tire_lattice
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, LoadFriction, Sidewalls, TreadViscoelasticity, WheelSpin
+from contact_sim_pkg.rigs.vehicle.tire.quarter_car import QuarterCar, quarter_car
 from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss, rolling_loss
 from contact_sim_pkg.rigs.vehicle.tire.standing import (
     TireAtRest,
@@ -127,9 +128,7 @@ class RollingFriction:
 class TireParts:
     """The tire of a rig, its contact and the effects in it."""
 
-    tire: Tire
-    rigid_ring: RigidRing | None
-    contact: Contact
+    quarter: QuarterCar
     geometry: TireGeometry
     footprint_length: float  # [m] along the travel under the standing load, by the field where there is one
     field: FieldGrids | None
@@ -148,21 +147,18 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None, solver: t
     """
     given_tire, body = scene.section(schema.TireSection), body_of(scene)
     load = standing_load(given_tire, occupant)
-    rigid_ring, table = _rigid_ring(scene), None if body.extent is None else tire_table(body, solver)
+    table = None if body.extent is None else tire_table(body, solver)
     geometry = _geometry(scene, body, table, load)
     tread = _tread(scene, body, geometry)
-    tire = Tire(
-        given_tire.wheel_mass - (0.0 if rigid_ring is None else rigid_ring.belt_mass), given_tire.body_mass,
-        given_tire.suspension_stiffness, given_tire.suspension_damping,
-    )  # fmt: skip
     law, length, field = _elastic(scene, body, table, load, geometry, tread, solver)
     contact = Contact(law, normal_loss(scene, "tire", law, load / GRAVITY), None)
     asperities = _asperities(scene, geometry, load)
-    deflection = float(approach_of_force(law, load)) + (0.0 if rigid_ring is None else load / rigid_ring.stiffness)
+    ring = scene.effect("tire", schema.RigidRingSection)
+    quarter = quarter_car(given_tire, ring, contact, pushed=asperities is not None)
+    sidewalls = quarter.sidewalls
+    deflection = float(approach_of_force(law, load)) + (0.0 if sidewalls is None else load / sidewalls.stiffness)
     return TireParts(
-        tire=tire,
-        rigid_ring=rigid_ring,
-        contact=contact,
+        quarter=quarter,
         geometry=geometry,
         footprint_length=length,
         field=field,
@@ -170,21 +166,21 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None, solver: t
         rolling_friction=_rolling_friction(scene, deflection, body.form.radius_rolling, geometry),
         rolling_loss=_rolling_loss(scene, body),
         asperities=asperities,
-        standing=_standing(scene, body, table, rigid_ring, load, solver),
+        standing=_standing(scene, body, table, sidewalls, load, solver),
     )
 
 
 def _standing(
-    scene: ResolvedScene, body: TireBody, table: TireTable | None, rigid_ring: RigidRing | None, load: float,
+    scene: ResolvedScene, body: TireBody, table: TireTable | None, sidewalls: Spring | None, load: float,
     solver: type | None,
 ) -> TireAtRest | None:  # fmt: skip
     """The tire at rest, a tread with memory relaxed: `body` is that for long, as its table."""
     if table is not None:
-        return of_table(table, rigid_ring, load)
+        return of_table(table, sidewalls, load)
     settings = _field_settings(scene, body)
     if settings is None or body.belt is None:  # a belt needs a field
-        return of_half_space(body, rigid_ring, load)
-    return of_field(make_grids(settings._replace(solver=solver), "tire"), body.form, rigid_ring, load)
+        return of_half_space(body, sidewalls, load)
+    return of_field(make_grids(settings._replace(solver=solver), "tire"), body.form, sidewalls, load)
 
 
 def _elastic(
@@ -211,13 +207,6 @@ def _elastic(
 
 def _field_settings(scene: ResolvedScene, body: TireBody) -> FieldSettings | None:
     return field_settings(scene.effect("tire", schema.TireField), body.modulus, body.belt)
-
-
-def _rigid_ring(scene: ResolvedScene) -> RigidRing | None:
-    rigid_ring = scene.effect("tire", schema.RigidRingSection)
-    if rigid_ring is None:
-        return None
-    return RigidRing(4, rigid_ring.belt_mass, given(rigid_ring.stiffness), given(rigid_ring.damping))
 
 
 def _tread(scene: ResolvedScene, body: TireBody, geometry: TireGeometry) -> Tread | None:

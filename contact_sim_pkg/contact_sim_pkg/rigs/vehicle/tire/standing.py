@@ -17,7 +17,7 @@ from contact_sim_pkg.laws.parameters import ElasticLaw, NormalElastic
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, power_law
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.field.contact_field import TANGENT_TOLERANCE, FieldError, FieldGrids, fit_tangent
-from contact_sim_pkg.rigs.vehicle.motion.parameters import RigidRing
+from contact_sim_pkg.rigs.vehicle.motion.spring import Spring
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm
 from contact_sim_pkg.rigs.vehicle.tire.force_table import Footprint, TireTable, footprint_of, gap_over_level_road
 from contact_sim_pkg.rigs.vehicle.tire.static_stiffness import tire_stiffness
@@ -37,21 +37,21 @@ class TireAtRest(NamedTuple):
     mean_pressure: float  # [Pa]
 
 
-def of_table(table: TireTable, rigid_ring: RigidRing | None, load: float) -> TireAtRest | None:
+def of_table(table: TireTable, sidewalls: Spring | None, load: float) -> TireAtRest | None:
     """An inflated tire under a ``load`` [N]; None beyond its ``table``."""
-    return None if load > table.force[-1] else _at_rest(table.law(), table.footprint_at(load), rigid_ring, load)
+    return None if load > table.force[-1] else _at_rest(table.law(), table.footprint_at(load), sidewalls, load)
 
 
-def of_half_space(body: TireBody, rigid_ring: RigidRing | None, load: float) -> TireAtRest:
+def of_half_space(body: TireBody, sidewalls: Spring | None, load: float) -> TireAtRest:
     """A half-space without belt under a ``load`` [N], in closed form (Johnson, Contact Mechanics, 4.2), also where
     the run has a field of it.
     """
     along, across = hertz_semi_axes(body, load)
     footprint = Footprint(2.0 * along, 2.0 * across, math.pi * along * across)
-    return _at_rest(hertz_law(body), footprint, rigid_ring, load)
+    return _at_rest(hertz_law(body), footprint, sidewalls, load)
 
 
-def of_field(grids: FieldGrids, form: TireForm, rigid_ring: RigidRing | None, load: float) -> TireAtRest | None:
+def of_field(grids: FieldGrids, form: TireForm, sidewalls: Spring | None, load: float) -> TireAtRest | None:
     """A tire whose field is solved on ``grids`` under a ``load`` [N] and 5 % more; None where neither grid holds it."""
     for field in grids.both():
         gap, settings = crown_of(form, field.settings), field.settings
@@ -60,7 +60,7 @@ def of_field(grids: FieldGrids, form: TireForm, rigid_ring: RigidRing | None, lo
             field.solve_load(gap, load, min(TANGENT_TOLERANCE, settings.tolerance))
         except FieldError:
             continue
-        return _at_rest(law, footprint_of(field.pressure, settings.cell_x, settings.cell_y), rigid_ring, load)
+        return _at_rest(law, footprint_of(field.pressure, settings.cell_x, settings.cell_y), sidewalls, load)
     return None
 
 
@@ -85,7 +85,7 @@ def crown_of(form: TireForm, grid: FieldSettings) -> NDArray[numpy.float64]:
     return gap_over_level_road(form, x, y)
 
 
-def _at_rest(law: ElasticLaw, footprint: Footprint, rigid_ring: RigidRing | None, load: float) -> TireAtRest:
-    sidewalls = 0.0 if rigid_ring is None else load / rigid_ring.stiffness
-    deflection = float(approach_of_force(law, load)) + sidewalls
-    return TireAtRest(load, deflection, tire_stiffness(law, rigid_ring, load), *footprint, load / footprint.area)
+def _at_rest(law: ElasticLaw, footprint: Footprint, sidewalls: Spring | None, load: float) -> TireAtRest:
+    beside = 0.0 if sidewalls is None else load / sidewalls.stiffness
+    deflection = float(approach_of_force(law, load)) + beside
+    return TireAtRest(load, deflection, tire_stiffness(law, sidewalls, load), *footprint, load / footprint.area)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force
 from contact_sim_pkg.laws.parameters import ElasticLaw
-from contact_sim_pkg.rigs.vehicle.motion.parameters import RigidRing
+from contact_sim_pkg.rigs.vehicle.motion.spring import Spring
 
 __all__ = ["stiffness_cautions", "tire_stiffness"]
 
@@ -18,13 +18,13 @@ STEP = 1e-3
 """Of the approach, to both sides of it."""
 
 
-def tire_stiffness(law: ElasticLaw, rigid_ring: RigidRing | None, load: float) -> float:
-    """Stiffness dF/dz [N/m] of the whole tire at a ``load`` [N]: its contact law, in series with a
-    rigid ring on its sidewalls.
+def tire_stiffness(law: ElasticLaw, sidewalls: Spring | None, load: float) -> float:
+    """Stiffness dF/dz [N/m] of the whole tire at a ``load`` [N]: its contact law, in series with the
+    sidewalls of a rigid ring.
     """
     approach = float(approach_of_force(law, load))
     rise = float(elastic_force(law, (1.0 + STEP) * approach) - elastic_force(law, (1.0 - STEP) * approach))
-    compliance = 2.0 * STEP * approach / rise + (0.0 if rigid_ring is None else 1.0 / rigid_ring.stiffness)
+    compliance = 2.0 * STEP * approach / rise + (0.0 if sidewalls is None else 1.0 / sidewalls.stiffness)
     return 1.0 / compliance
 
 

@@ -102,8 +102,8 @@ def test_the_axle_of_a_heavier_run_stands_deeper_by_the_load_over_the_stiffness(
         motion = decode(BodyMotion, messages["bench/motion"][0])
         places.append(motion.position[motion.bodies.index("wheel_z"), 0])
     assert stands.stiffness == pytest.approx(0.04 * LOAD / (places[0] - places[1]), rel=5e-3)
-    ring = build(resolved(*scene)).rig.rigid_ring
-    weight = 0.0 if ring is None else ring.belt_mass * 9.81 / ring.stiffness
+    quarter = build(resolved(*scene)).quarter
+    weight = 0.0 if quarter.belt is None else quarter.belt.mass * 9.81 / quarter.sidewalls.stiffness
     assert stands.deflection == pytest.approx(weight - sum(places) / 2.0, rel=5e-3)
 
 

@@ -1,0 +1,66 @@
+"""Masses and elements of a quarter car: wheel and body on their suspension, and the belt on its sidewalls where a
+rigid ring is called for.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from contact_sim_pkg.laws.parameters import Contact
+from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Element
+from contact_sim_pkg.rigs.vehicle.motion.road import AsperityPush, RoadContact
+from contact_sim_pkg.rigs.vehicle.motion.spring import DriveLine, Spring
+from contact_sim_pkg.rigs.vehicle.tire.schema import RigidRingSection, TireSection
+from contact_sim_pkg.scene.schema.fields import given
+
+__all__ = ["QuarterCar", "quarter_car"]
+
+WHEEL, BODY, BELT = 0, 2, 4
+"""In the state, where a quarter car comes first."""
+
+
+class QuarterCar(NamedTuple):
+    """Parts of a quarter car by name; an effect that the scene does not call for is None."""
+
+    wheel: Mass
+    body: Mass
+    belt: Mass | None  # without load as high as the wheel
+    contact: RoadContact
+    push: AsperityPush | None
+    sidewalls: Spring | None  # between belt and wheel
+    suspension: Spring
+    drive_line: DriveLine
+
+    @property
+    def masses(self) -> tuple[Mass, ...]:
+        """Those that there are."""
+        return tuple(each for each in (self.wheel, self.body, self.belt) if each is not None)
+
+    @property
+    def elements(self) -> tuple[Element, ...]:
+        """Those that there are, from the road up."""
+        chain = (self.contact, self.push, self.sidewalls, self.suspension, self.drive_line)
+        return tuple(each for each in chain if each is not None)
+
+    @property
+    def tread(self) -> Mass:
+        """What touches the road."""
+        return self.wheel if self.belt is None else self.belt
+
+    @property
+    def states(self) -> int:
+        """Number of states."""
+        return 2 * len(self.masses)
+
+
+def quarter_car(section: TireSection, ring: RigidRingSection | None, law: Contact, *, pushed: bool) -> QuarterCar:
+    """The quarter car of a scene on a contact ``law``; ``pushed``: by the road's asperities."""
+    belt = None if ring is None else Mass(BELT, ring.belt_mass)
+    wheel = Mass(WHEEL, section.wheel_mass - (0.0 if belt is None else belt.mass))
+    body, tread = Mass(BODY, section.body_mass), WHEEL if belt is None else BELT
+    sidewalls = None if ring is None else Spring(BELT, WHEEL, given(ring.stiffness), given(ring.damping))
+    return QuarterCar(
+        wheel, body, belt, RoadContact(tread, law), AsperityPush(tread) if pushed else None, sidewalls,
+        Spring(WHEEL, BODY, section.suspension_stiffness, section.suspension_damping), DriveLine(BODY, body.mass),
+    )  # fmt: skip
