@@ -28,7 +28,7 @@ from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, SE
 from contact_sim_pkg.pressure.field.window import Part
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt, widened
 from contact_sim_pkg.rigs.vehicle.field.envelopment import yielding_of
-from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening
+from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening, line_loads
 from contact_sim_pkg.scene.errors import Fault, SceneError
 
 Field = NDArray[numpy.float64]
@@ -85,7 +85,10 @@ class PressureField:
         self.whole: Held[Part] = self._field.whole
         self._row: int | None = None  # of the road under row 0, at the last solve
         self.pressure: Field = self._field.pressure
+        self.closer = 1.0  # times the tolerance
+        self.looser_sidewalls = 1.0  # times what they may miss
         self.load = self._approach = 0.0
+        self._opened: Field = numpy.empty((settings.rows, settings.cols))
         self.unsettled = 0.0  # [m] by which the sidewalls open the gap further than it was solved with
         self.iterations = 0
         self.residual = 0.0
@@ -113,14 +116,16 @@ class PressureField:
             self.softening.place(origin + self.settings.rows // 2 * self.settings.cell_x)
 
     def solve(self, gap: Field, approach: float) -> float:
-        """Load [N] at ``gap`` [rows, cols] [m] (undeformed, at zero approach) and ``approach`` [m].
+        """Load [N] at ``gap`` [rows, cols] [m] (undeformed, at zero approach) and ``approach`` [m], to ``closer`` times
+        the tolerance of the settings.
 
         0 without contact. Starts from the previous solution. Raises FieldError where the contact
         reaches the edge or the solver does not converge.
         """
         s = self.settings
         for opened in self._passes(gap, s.tolerance):
-            self._accept(self._field.solve_at_approach(opened, approach, s.tolerance, s.maximum_iterations), gap)
+            result = self._field.solve_at_approach(opened, approach, self.closer * s.tolerance, s.maximum_iterations)
+            self._accept(result, gap)
         return self.load
 
     def solve_load(self, gap: Field, load: float, tolerance: float | None = None) -> float:
@@ -139,7 +144,10 @@ class PressureField:
         """The gap [rows, cols] [m] as the sidewalls open it beside what they yield with the load, of any grid with the cells
         of this one.
         """
-        return gap if self.softening is None else gap + self.softening.opening[self.softening.rows(len(gap))][:, None]
+        if self.softening is None:
+            return gap
+        self.softening.open(gap, self._opened)
+        return self._opened
 
     def _passes(self, gap: Field, tolerance: float) -> Iterator[Field]:
         """Gaps to be solved one after the other, until the sidewalls bear what they were taken to bear: to
@@ -153,8 +161,10 @@ class PressureField:
         lowest = float(gap.min())
         for count in range(SOFTENING_PASSES):
             yield self.opened(gap)
-            self.unsettled = self.softening.follow(self.pressure.sum(axis=1) * self.settings.cell_y)
-            allowed = OF_SIDEWALLS * tolerance if count < FEW_PASSES else max(OF_SIDEWALLS * tolerance, NOISE)
+            self.unsettled = self.softening.follow(line_loads(self.pressure, self.settings.cell_y))
+            allowed = self.looser_sidewalls * OF_SIDEWALLS * tolerance
+            if count >= FEW_PASSES:
+                allowed = max(allowed, NOISE)
             if abs(self.unsettled) <= allowed * max(self._approach - lowest, SHALLOW):
                 return
         raise FieldError(

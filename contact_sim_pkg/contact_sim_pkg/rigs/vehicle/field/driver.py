@@ -80,6 +80,8 @@ class ContactField(ABC):
         self._is_first = True  # there is one solution alone
         self.as_predicted = False  # no field needs to be solved before the next published one
         self.published: FieldRecord | None = None
+        self._solved_on: PressureField | None = None  # the grid of that
+        self.closer = 1.0  # times the tolerance of the field
         self.travel = 0.0  # [m] of the contact along the road
 
     def reset(self) -> None:
@@ -214,8 +216,10 @@ class ContactField(ABC):
         gap = self.gap(field.settings)
         origin_x, origin_y = self.origin(field.settings)
         field.roll_to(self.road_row(field.settings), origin_x)
+        field.closer = self.closer
         field.solve(gap, approach)
         self.published = FieldRecord(field.pressure, origin_x, origin_y, approach, self.travel, field.residual)
+        self._solved_on = field
         level = self.level_height(field)
         if level is not None:  # the law is exact, the field its map
             self._carry(approach + level, field, is_level=True)

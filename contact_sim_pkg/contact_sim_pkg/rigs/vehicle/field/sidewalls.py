@@ -25,10 +25,11 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.held import Held, hold
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
+from contact_sim_pkg.pressure.field.outside import total_of_row
 from contact_sim_pkg.pressure.settings import InflatedBelt
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import arc_force, inflated_influence, membrane_stiffness
 
-__all__ = ["Softening"]
+__all__ = ["Softening", "line_loads"]
 
 Field = NDArray[numpy.float64]
 
@@ -121,15 +122,9 @@ class Softening:
         """
         if middle == self._placed:
             return
-        moved, self._placed = (middle - self._placed) / self._cell_x, middle
-        if self.load.any():  # what the ring bears stays with it too
-            number = numpy.arange(len(self.load), dtype=numpy.float64)
-            for each in (self.load, self.opening, self._borne.line, self._borne.yielded):
-                each[:] = numpy.interp(number + moved, number, each)
-        angle = self._angle + middle / self._radius
-        below = 0.5 + (0.5 * math.pi - abs(angle)) * self._radius / self._cell_x
-        self._ring.lower[:] = numpy.clip(below, 0.0, 1.0)
-        self._ring.lowered[:] = numpy.maximum(numpy.cos(angle), 0.0) * self._ring.lower
+        moved = 0.0 if math.isnan(self._placed) else (middle - self._placed) / self._cell_x
+        self._placed = middle
+        _place(*self._held, self._angle, moved, middle, self._cell_x, self._radius)
 
     def rows(self, count: int) -> slice:
         """Place of a grid of so many rows in `load`, `gap` and `bent`."""
@@ -153,6 +148,10 @@ class Softening:
         along[:count] = self._ring.yields[len(self.load) - 1 :][:count]
         return along
 
+    def open(self, gap: Field, opened: Field) -> None:
+        """Write a ``gap`` [rows, cols] [m] into ``opened`` as D opens it."""
+        _open(self._held[1], gap, self.rows(len(gap)).start, opened)
+
     @property
     def gap(self) -> Field:
         """How far the load moves the belt [m]."""
@@ -163,8 +162,7 @@ class Softening:
         found with: of the ring's translation, which stays with the wheel; what the belt's memory does in it is
         `remembered`.
         """
-        taken = self._borne.taken + self._borne.yielded
-        return float(line @ numpy.gradient(taken[self.rows(len(line))])) - self.remembered()
+        return float(_climb(self._held[1], line, self.rows(len(line)).start)) - self.remembered()
 
     def remembered(self) -> float:
         """Force [N] against the travel, negative where it takes energy, of `load` on the slope of `bent`."""
@@ -270,6 +268,66 @@ def _soften(ring: Held[_Ring], borne: Held[_Borne], total: float) -> None:
     road, and into ``missed`` D [N/m] of the belt as it lies there.
     """
     _soften_kernel(ring.value, borne.value, total)
+
+
+@entry
+def line_loads(pressure: Field, cell_y: float) -> Field:
+    """Line load [rows] [N/m] of a pressure field [rows, cols] [Pa] on cells ``cell_y`` [m] wide."""
+    line = numpy.empty(pressure.shape[0])
+    for i in range(len(line)):
+        line[i] = total_of_row(pressure[i]) * cell_y
+    return line
+
+
+@entry
+def _place(
+    ring_held: Held[_Ring], borne_held: Held[_Borne], angles: Field, moved: float, middle: float, cell_x: float, radius: float
+) -> None:  # fmt: skip
+    """As `Softening.place`, ``moved`` by so many rows; ``angles`` [rows]: of rows about the ``middle`` one."""
+    ring, borne = ring_held.value, borne_held.value
+    # What the ring bears stays with it, straight from row to row
+    if moved != 0.0:
+        _shift(borne.load, moved, borne.closer)
+        _shift(borne.opening, moved, borne.closer)
+        _shift(borne.line, moved, borne.closer)
+        _shift(borne.yielded, moved, borne.closer)
+    for i in range(angles.size):
+        angle = angles[i] + middle / radius
+        below = 0.5 + (0.5 * math.pi - abs(angle)) * radius / cell_x
+        ring.lower[i] = min(max(below, 0.0), 1.0)
+        ring.lowered[i] = max(math.cos(angle), 0.0) * ring.lower[i]
+
+
+@borrowing_kernel
+def _shift(values: Field, moved: float, before: Field) -> None:
+    """Take ``values`` from ``moved`` rows farther on, those at the ends from there; ``before`` is scratch."""
+    last = values.size - 1
+    for i in range(values.size):
+        before[i] = values[i]
+    for i in range(values.size):
+        place = min(max(i + moved, 0.0), float(last))
+        k = min(int(place), last - 1)
+        values[i] = before[k] + (before[k + 1] - before[k]) * (place - k)
+
+
+@entry
+def _open(borne_held: Held[_Borne], gap: Field, first: int, opened: Field) -> None:
+    """As `Softening.open`, row 0 of the ``gap`` being row ``first``."""
+    opening = borne_held.value.opening
+    for i in range(gap.shape[0]):
+        for j in range(gap.shape[1]):
+            opened[i, j] = gap[i, j] + opening[first + i]
+
+
+@entry
+def _climb(borne_held: Held[_Borne], line: Field, first: int) -> float:
+    """Force [N] of a ``line`` load [rows] [N/m] on the differences of what opens the gap under it, from row ``first`` on."""
+    borne, last, climb = borne_held.value, len(line) - 1, 0.0
+    for i in range(len(line)):
+        behind, ahead = first + max(i - 1, 0), first + min(i + 1, last)
+        rise = borne.taken[ahead] + borne.yielded[ahead] - (borne.taken[behind] + borne.yielded[behind])
+        climb += line[i] * rise / max(ahead - behind, 1)
+    return climb
 
 
 @entry

@@ -86,6 +86,9 @@ class Coupling:
         self._allowances = (Allowance(), Allowance()) if rule is None else rule.allowances
         self._shortest = 1 if rule is None else rule.shortest  # segments
         self._by_error = rule is not None and rule.segments is None
+        # An edge is of first order in the cells, the slope on it first; bristles need a map at each step
+        if self._by_error and self.shear is None and model.edge is None:
+            self.tire.use_level(self._allowances[0].height)
         self._check = CouplingCheck(model, self.tire, self.seat) if self._by_error else None
         self._way = MeasuredWay(*((math.inf, 0.0) if rule is None else (*rule.ways, rule.tolerance)))
         self.reset()
@@ -117,7 +120,7 @@ class Coupling:
             self.tire.place(drive.road, float(drive.travel[0]))
             approach, rolled = self.tire.stand(bodies.weight()), self.tire.roll_in(bodies.weight(), drive.speed)
             bodies.lift(bodies.tire_approach(0.0) - (approach if rolled is None else rolled))
-        self.tire.begin(self._solve_tire(first, 0, 0))
+        self.tire.begin(self._solve_tire(first, 0, 0, is_published=True))
         if drive.speed != 0.0:
             self.tire.store()
         self._slope = self.tire.effective_slope()
@@ -301,6 +304,7 @@ class Coupling:
         solved = [step.last or not field.as_predicted for field in self.fields]
         ends = found = (self.tire.predicted(step.segments), self.seat.predicted(step.segments))
         turns, error = self._turns(ends, step), 0.0
+        self.tire.begin_instant()
         for passes_left in range(most, -1, -1):
             if passes_left < most:
                 self.bodies.restore(saved)
@@ -309,7 +313,10 @@ class Coupling:
             # Between published fields the last corrections are kept, unless the field is
             # viscoelastic.
             if passes_left or step.last or not most or self.tire.is_viscoelastic:
-                found = self._solve(step, solved, ends)
+                # The first passes go by the force alone
+                found = self._solve(
+                    step, solved, ends, is_published=step.last and (passes_left < most or not self.tire.goes_by_level)
+                )
                 turns = self._turns(found, step)
             if passes_left == most:
                 (tire, seat), (of_tire, of_seat) = turns, self._allowances
@@ -319,6 +326,9 @@ class Coupling:
             if not passes_left or self._settled(ends, found, step.duration):
                 break
             ends = found
+        if step.last and self.tire.is_between and not error > 1.0:
+            found = self._solve_tire(step.drive, -1, step.block, is_published=True), found[1]
+            turns = self._turns(found, step)
         return StepOutcome(error, ends, bends, found, turns)
 
     def _settled(self, ends: Corrections, found: Corrections, duration: float) -> bool:
@@ -347,23 +357,26 @@ class Coupling:
     def _corrections(self) -> Corrections:
         return self.tire.correction, self.seat.correction
 
-    def _solve(self, step: CouplingStep, solved: list[bool], expected: Corrections) -> Corrections:
+    def _solve(
+        self, step: CouplingStep, solved: list[bool], expected: Corrections, *, is_published: bool
+    ) -> Corrections:
         """Corrections [m] by the fields at the end of the coupling step; ``expected`` where none is
         solved.
         """
-        tire = self._solve_tire(step.drive, -1, step.block) if solved[0] else expected[0]
+        tire = expected[0]
+        if solved[0]:
+            tire = self._solve_tire(step.drive, -1, step.block, is_published=is_published)
         return tire, self._solve_seat(step.block) if solved[1] else expected[1]
 
-    def _solve_tire(self, drive: BlockDrive, point: int, block: int) -> float:
+    def _solve_tire(self, drive: BlockDrive, point: int, block: int, *, is_published: bool) -> float:
         """Solve the tire's field at the present state; returns its correction [m], 0 without a
         field.
         """
         if self.tire.grids is None:
             return 0.0
         self.tire.place(drive.road, float(drive.travel[point]))
-        return self.tire.solve(
-            self.bodies.tire_approach(0.0), self.bodies.tire_approach(float(drive.smooth[point])), block
-        )
+        solve = self.tire.solve_published if is_published else self.tire.solve_between
+        return solve(self.bodies.tire_approach(0.0), self.bodies.tire_approach(float(drive.smooth[point])), block)
 
     def _solve_seat(self, block: int) -> float:
         """Solve the seat's field at the present state; returns its correction [m], 0 without a
@@ -393,5 +406,7 @@ class Coupling:
             change = outcome.found[place] - ends[place]
             force, stiffness, jump, energy = law_at(field.contact.elastic, approaches[place], change)
             self.missed.add_estimate(place, allowed.missed_force(force, stiffness, turn.height, of_slope * turn.rate))
+            if step.last and field is self.tire:
+                self.missed.add_estimate(place, allowed.missed_force(force, stiffness, self.tire.renew_level(), 0.0))
             self.bodies.supply(energy)
             record.field_jump = max(record.field_jump, abs(jump))

@@ -26,6 +26,7 @@ from contact_sim_pkg.rigs.vehicle.field.driver import ContactField
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.run.bodies import Bodies, CouplingStep
 from contact_sim_pkg.rigs.vehicle.seat.cushion_field import CushionField
+from contact_sim_pkg.rigs.vehicle.tire.coarse_level import CoarseLevel, can_be_halved, halved
 from contact_sim_pkg.rigs.vehicle.tire.road_field import RoadField
 from contact_sim_pkg.run.errors import RunError
 
@@ -50,9 +51,6 @@ KINDS = ("normal", "along", "peak", "area", "speed")
 """Of the errors of a contact: normal force [N], force along the travel [N], largest pressure [Pa],
 area [m^2], speed [m/s] of the body that touches.
 """
-
-LEAST_HALF = 8
-"""Rows and columns of a grid of half as many cells: with fewer it says nothing of the other."""
 
 SAMPLED = 0.85
 """Of the error in the middle of a step, where it is largest: what the samples show of it."""
@@ -138,10 +136,7 @@ class Halved:
     def __init__(self, settings: FieldSettings, contact: str, *, at_edge: bool) -> None:
         """Make the grid; it has the same extent. ``at_edge``: of the road that no grid resolves."""
         self._order = HALVED_AT_EDGE if at_edge else HALVED
-        half = settings._replace(
-            rows=settings.rows // 2, cols=settings.cols // 2, cell_x=2.0 * settings.cell_x, cell_y=2.0 * settings.cell_y
-        )
-        self._settings, self._field = settings, PressureField(half, contact)
+        self._settings, self._field = settings, PressureField(halved(settings), contact)
         self.reset()
 
     def reset(self) -> None:
@@ -190,10 +185,15 @@ class CouplingCheck:
     def __init__(self, model: Model, tire: RoadField, seat: CushionField) -> None:
         """Make the fields for a ``model`` whose run has the fields ``tire`` and ``seat``."""
         self._tire = RoadField(_closer(model.tire_field, "tire"), tire.contact, model.tire_geometry, None)
+        self._run, self._level = tire, None
+        grids = self._tire.grids
+        if tire.level is not None and grids is not None and model.tire_geometry is not None:
+            self._level = CoarseLevel(grids.usual.settings, grids.usual.contact, model.tire_geometry, math.inf)
+        self._order = HALVED_AT_EDGE if model.has_edge else HALVED
         self._mass, self._swing = _swing_of(model)
         self._seat = CushionField(_closer(model.seat_field, "seat"), seat.contact, model.seat_shape)
         self._halves = tuple(
-            None if grids is None or not _can_be_halved(grids.usual.settings)
+            None if grids is None or not can_be_halved(grids.usual.settings)
             else Halved(grids.usual.settings, name, at_edge=model.has_edge)
             for grids, name in ((model.tire_field, "tire"), (model.seat_field, "seat"))
         )  # fmt: skip
@@ -202,7 +202,7 @@ class CouplingCheck:
     def reset(self) -> None:
         """Reset all but the buffers."""
         self._pause, self._since, self._usual, self._way = FIRST_PAUSE, 0, 0.0, math.inf
-        for field in (self._tire, self._seat, *self._halves):
+        for field in (self._tire, self._level, self._seat, *self._halves):
             if field is not None:
                 field.reset()
 
@@ -227,7 +227,10 @@ class CouplingCheck:
         tire, seat = UNKNOWN, UNKNOWN
         tire_grid = seat_grid = NOTHING
         try:
-            if self._tire.grids is not None:
+            by_level = self._look_by_level(bodies, step, slopes, laid[0])
+            if by_level is not None:
+                tire, tire_grid = by_level
+            elif self._tire.grids is not None:
                 self._tire.place(drive.road, float(drive.travel[half]))
                 smooth, approach = float(drive.smooth[half]), bodies.tire_approach(0.0)
                 found = self._tire.solve(approach, bodies.tire_approach(smooth), step.block)
@@ -247,6 +250,25 @@ class CouplingCheck:
             return Middle(UNKNOWN, UNKNOWN, NOTHING, NOTHING)
         return Middle(tire, seat, tire_grid, seat_grid)
 
+    def _look_by_level(
+        self, bodies: Bodies, step: CouplingStep, slopes: tuple[float, float], laid: float
+    ) -> tuple[Missed, Missed] | None:
+        """Errors at the tire by the coarse level, on whose height ``laid`` [m] the bodies were moved, and of the grid by
+        the difference of the levels at the last published field; None where the fine field is solved at each step.
+        """
+        level, contact = self._run.level, self._run.contact
+        if self._level is None or level is None or contact is None or not level.is_quiet:
+            return None
+        half, drive, approach = middle_of(step), step.drive, bodies.tire_approach(0.0)
+        coarse = self._level.at(drive.road, float(drive.travel[half]), approach, contact.elastic)
+        if coarse is None:
+            return None
+        found, load = level.with_offset(coarse), self._level.field.load
+        tire = _missed(contact, bodies.tire_approach(laid), found.height - approach - laid, step)
+        slope = slopes[0] + (slopes[1] - slopes[0]) * half / step.segments
+        tire = tire._replace(along=abs(found.slope - slope) * load, speed=tire.normal * self._speed_of(step.duration))
+        return tire, Missed(peak=level.peak_differs / self._order, area=level.area_differs / self._order)
+
     def _speed_of(self, duration: float) -> float:
         """Speed [m/s] of wheel or belt for each newton that the most unlucky step misses in its middle:
         the usual one misses less, two thirds of that on average, now up, now down, as far back as the
@@ -261,12 +283,6 @@ class CouplingCheck:
     @staticmethod
     def _load(field: ContactField) -> float:
         return 0.0 if field.published is None else float(field.published.pressure.sum()) * field.cell_area
-
-
-def _can_be_halved(settings: FieldSettings) -> bool:
-    """Whether half as many cells each way are whole ones, and enough to see a contact."""
-    sides = settings.rows, settings.cols
-    return not any(side % 2 for side in sides) and min(sides) >= 2 * LEAST_HALF
 
 
 def _swing_of(model: Model) -> tuple[float, float]:

@@ -136,28 +136,29 @@ def tire_gap(
     form: TireForm,
     first: int,
     travel: float,
+    times: int,
     out: Vector,
 ) -> bool:
     """Undeformed gap in [m] of the tire whose lowest point stands at height 0 over the road,
-    written into ``out`` [rows, cols].
+    written into ``out`` [rows, cols], on every node, or on every second one where ``times`` is 2, and so on.
 
     Height of the ``form`` minus that of the road; row 0 of ``out`` is lattice row ``first``, x
     counts from ``travel`` [m]. Cells coincide with road nodes, so no height is interpolated; the
     road may be wider than ``out`` by an even number of columns. Returns False where the lattice
     does not hold the grid.
     """
-    rows, cols = out.shape
-    if first < first_row or first + rows > first_row + height.shape[0] or cols > height.shape[1]:
+    rows, cols, last = out.shape[0], times * out.shape[1], first + times * out.shape[0]
+    if first < first_row or last > first_row + height.shape[0] or cols > height.shape[1]:
         return False
     # The middle columns of road and grid are the same.
     margin = (height.shape[1] - cols) // 2
-    middle, across = 0.5 * (cols - 1), numpy.empty(cols)
-    for j in range(cols):
-        across[j] = height_across(form, (j - middle) * cell_y)
+    middle, across = 0.5 * (cols - 1), numpy.empty(out.shape[1])
+    for j in range(len(across)):
+        across[j] = height_across(form, (times * j - middle) * cell_y)
     for i in range(rows):
-        along = height_along(form, (first + i) * cell_x - travel)
-        row, road = out[i], height[first + i - first_row, margin : margin + cols]
-        for j in range(cols):
+        along = height_along(form, (first + times * i) * cell_x - travel)
+        row, road = out[i], height[first + times * i - first_row, margin : margin + cols : times]
+        for j in range(len(across)):
             row[j] = along + across[j] - road[j]
     return True
 

@@ -11,15 +11,21 @@ from numpy.typing import NDArray
 from contact_sim_pkg.laws.parameters import Contact, TabulatedElastic
 from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt
-from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, FieldGrids, PressureField
+from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, FieldGrids, PressureField, approach_at
 from contact_sim_pkg.rigs.vehicle.field.driver import AT_REST, ContactField, FieldRecord, Gap
 from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening
-from contact_sim_pkg.rigs.vehicle.tire.footprint import clear_beyond, level_under, mean_slope, tire_gap, touches_beyond
+from contact_sim_pkg.rigs.vehicle.tire.coarse_level import CoarseLevel, LevelSolution, can_be_halved, slope_under
+from contact_sim_pkg.rigs.vehicle.tire.footprint import clear_beyond, level_under, tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
 from contact_sim_pkg.run.errors import RunError
 
 Line = NDArray[numpy.float64]
+
+CLOSER = 0.5
+"""Of the field's tolerance, where it was not solved since the last published field: started from farther away it
+ends farther from what it is solved for.
+"""
 
 MOST_STEPS = 600
 """Of a tread that rolls in before the start; slower than that it is nearly relaxed."""
@@ -42,6 +48,12 @@ class RoadField(ContactField):
             field.settings.rows: numpy.empty((field.settings.rows, field.settings.cols)) for field in grids.both()
         }  # fmt: skip
         self._tread_state: TreadState | None = None
+        self.level: CoarseLevel | None = None
+        self._between: LevelSolution | None = None  # the last solution, where it is not that of the fine field
+        self._coarse: LevelSolution | None = None  # of the coarse level at this instant
+        self._offset: tuple[LevelSolution, LevelSolution] | None = (
+            None  # of fine and coarse at the last published field
+        )
         if grids is not None:
             self._pressed = numpy.zeros((grids.wide.settings.rows, grids.wide.settings.cols))
         if tread is not None and grids is not None:
@@ -54,6 +66,9 @@ class RoadField(ContactField):
     def reset(self) -> None:
         """See `ContactField`."""
         super().reset()
+        self._between = self._coarse = self._offset = None
+        if self.level is not None:
+            self.level.reset()
         if self._tread_state is not None:
             self._tread_state.reset()
 
@@ -62,6 +77,83 @@ class RoadField(ContactField):
         self._road, self.travel = road, travel
         if self._tread_state is not None and self.grids is not None:
             self._tread_state.move_to(self.road_row(self.grids.wide.settings))
+
+    def use_level(self, allowed: float) -> None:
+        """Solve half as many cells each way between published fields, as far as that misses little of an ``allowed``
+        height [m]; a tread with memory and odd grids need their own cells.
+        """
+        if self.grids is None or self._geometry is None or self._tread_state is not None:
+            return
+        usual = self.grids.usual
+        if can_be_halved(usual.settings):
+            self.level = CoarseLevel(usual.settings, usual.contact, self._geometry, allowed)
+
+    def solve(self, approach: float, geometric: float, block: int) -> float:
+        """See `ContactField`."""
+        self._between = None
+        return super().solve(approach, geometric, block)
+
+    def solve_between(self, approach: float, geometric: float, block: int) -> float:
+        """As `solve` at an instant whose field is not published: by the coarse level where that will do."""
+        if not self.goes_by_level or not self._solve_coarse(approach):
+            return self.solve(approach, geometric, block)
+        assert self.level is not None
+        assert self._coarse is not None
+        self._between = self.level.with_offset(self._coarse)
+        return self._between.height - geometric
+
+    def solve_published(self, approach: float, geometric: float, block: int) -> float:
+        """As `solve` at an instant whose field is published, with the coarse one beside it."""
+        if self._coarse is None:
+            self._solve_coarse(approach)
+        self.closer = CLOSER if self.goes_by_level else 1.0
+        correction = self.solve(approach, geometric, block)
+        self.closer = 1.0
+        found, field, self._offset = self.published, self._solved_on, None
+        if self._coarse is not None and found is not None and field is not None and field.load > 0.0:
+            assert self.contact is not None
+            assert self._geometry is not None
+            height = approach_at(self.contact.elastic, field.load) - field.unsettled
+            slope = slope_under(self._geometry.form, field, found.pressure, found.origin_x)
+            self._offset = LevelSolution(height, slope), self._coarse
+            if self.level is not None:
+                self.level.compare(field.pressure)
+        return correction
+
+    def begin_instant(self) -> None:
+        """Forget the coarse level's solution: it was of another instant."""
+        self._coarse = None
+
+    @property
+    def goes_by_level(self) -> bool:
+        """Whether the coarse level is solved between published fields."""
+        return self.level is not None and self.level.is_quiet
+
+    @property
+    def is_between(self) -> bool:
+        """Whether the last solution is the coarse level's, so that its field is none to publish."""
+        return self._between is not None
+
+    def _solve_coarse(self, approach: float) -> bool:
+        """Solve the coarse level at an ``approach`` [m]; whether there is one and it could be."""
+        self._coarse = None
+        if self.level is not None and self.contact is not None:
+            self._coarse = self.level.at(self._road, self.travel, approach, self.contact.elastic)
+        return self._coarse is not None
+
+    def renew_level(self) -> float:
+        """Take the offset of the coarse level at a published field; returns by how much [m] the one before missed it."""
+        if self.level is None or self._offset is None:
+            return 0.0
+        return self.level.renew(*self._offset)
+
+    def pop_iterations(self) -> int:
+        """See `ContactField`; those of the coarse level count."""
+        iterations = super().pop_iterations()
+        if self.level is not None:
+            iterations += self.level.field.iterations
+            self.level.field.iterations = 0
+        return iterations
 
     def stand(self, load: float) -> float:
         """See `ContactField`; a viscoelastic tread is relaxed."""
@@ -141,7 +233,8 @@ class RoadField(ContactField):
         out = self._gaps[settings.rows]
         # Height of the tire over the road.
         inside = tire_gap(
-            road.height, road.first_row, settings.cell_x, settings.cell_y, geometry.form, self.road_row(settings), self.travel, out
+            road.height, road.first_row, settings.cell_x, settings.cell_y, geometry.form, self.road_row(settings), self.travel,
+            1, out,
         )  # fmt: skip
         if not inside:
             raise RunError(
@@ -232,15 +325,14 @@ class RoadField(ContactField):
         height of the unloaded tire over its lowest point, and what softening sidewalls add to it: that
         is the force against the travel. On level road it is 0 for an elastic tread.
         """
-        found, geometry = self.published, self._geometry
-        if found is None or geometry is None:
+        if self._between is not None:
+            return self._between.slope
+        found, geometry, field = self.published, self._geometry, self._solved_on
+        if found is None or geometry is None or field is None:
             return 0.0
         if self._slope_of[0] is not found:
-            slope = mean_slope(geometry.form, found.pressure, found.origin_x, geometry.lattice.cell_x)
-            softening, line = self._softening, found.pressure.sum(axis=1) * geometry.lattice.cell_y
-            if softening is not None and line.any():
-                slope += softening.climb(line) / float(line.sum()) / geometry.lattice.cell_x
-            self._slope_of = found, 0.0 if found.is_level else slope
+            slope = 0.0 if found.is_level else slope_under(geometry.form, field, found.pressure, found.origin_x)
+            self._slope_of = found, slope
         return self._slope_of[1]
 
     def rolling_force(self) -> float:
