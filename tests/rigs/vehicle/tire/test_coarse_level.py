@@ -33,14 +33,14 @@ def fields_on_a_rough_road():
     """The field of a tire with its level, and a block of rough road of 0.2 m."""
     scene = resolved("tire_rough_road", "duration=0.1", "travel={speed: 20}")
     model = Simulation(scene).model
-    field = RoadField(model.tire_field, model.rig.tire_contact, model.tire_geometry, None)
+    field = RoadField(model.tire_field, model.tire_contact, model.tire_geometry, None)
     field.use_level(ALLOWED)
     return field, model, make_sources(scene)["road/patch"].block(0)
 
 
 def force_at(height, model):
     """Force [N] of the tire's table at a height [m], straight between its points."""
-    law = model.rig.tire_contact.elastic
+    law = model.tire_contact.elastic
     depths = numpy.linspace(0.0, 0.04, 4001)
     return float(numpy.interp(height, depths, [elastic_force(law, depth) for depth in depths]))
 
@@ -48,7 +48,7 @@ def force_at(height, model):
 def test_the_coarse_force_and_its_offset_are_the_fine_force():
     """From place to place a half-grid with the offset so far errs by less than 2e-3 of the force: 4 to 6 N of 3.4 kN."""
     field, model, road = fields_on_a_rough_road()
-    law, depth, errors, slopes = model.rig.tire_contact.elastic, 0.017, [], []
+    law, depth, errors, slopes = model.tire_contact.elastic, 0.017, [], []
     for number, travel in enumerate(numpy.linspace(0.0, 0.19, 30)):
         field.place(road, float(travel))
         row = round(travel / road.cell_x) - road.first_row
@@ -116,6 +116,19 @@ def test_the_offset_is_a_mean_of_those_of_published_fields():
     found = made.with_offset(coarse)
     assert found.height - coarse.height == pytest.approx(weights @ offsets, rel=1e-6)
     assert found.slope - coarse.slope == pytest.approx(10.0 * (weights @ offsets), rel=1e-6)
+
+
+def test_a_level_is_left_out_where_nothing_lies_between_published_fields():
+    """One solution between two published fields does not pay for the coarse one beside each; two do."""
+    made = level()
+    made.renew(LevelSolution(0.0171, 0.0), LevelSolution(0.017, 0.0))
+    made.renew(LevelSolution(0.0171, 0.0), LevelSolution(0.017, 0.0))
+    for between, worth in ((2, True), (1, False), (2, True)):
+        for _ in range(20):
+            for _ in range(between):
+                made.count(is_published=False)
+            made.count(is_published=True)
+        assert made.is_worth == made.is_quiet == worth
 
 
 def test_a_level_on_level_road_is_the_law():

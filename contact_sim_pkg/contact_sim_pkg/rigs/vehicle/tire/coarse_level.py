@@ -48,6 +48,11 @@ SHARE, UNLUCKY, NEWEST = 0.65, 3.0, 0.125
 newest in that square.
 """
 
+FEWEST_BETWEEN, NEWEST_COUNT = 1.5, 0.125
+"""Solutions from one published field to the next that pay for the coarse one beside each, and weight of the newest number
+in their mean.
+"""
+
 NEWEST_OFFSET = 0.25
 """Weight of the newest offset in their mean: from one published field to the next they scatter about it, which the last
 one alone would double.
@@ -104,12 +109,29 @@ class CoarseLevel:
         self.field.reset()
         self._offset: LevelSolution | None = None  # fine less coarse, mean of published fields
         self._square = math.nan  # mean of what it missed squared [m^2]
+        self._between, self._usual_between = (
+            0,
+            FEWEST_BETWEEN,
+        )  # solutions since the last published field, and their mean
         self.peak_differs = self.area_differs = 0.0  # [Pa], [m^2] of fine and coarse field at the last published one
 
     @property
     def is_quiet(self) -> bool:
         """Whether the offset is known, and misses so little that the coarse field will do."""
-        return self._offset is not None and UNLUCKY * math.sqrt(self._square) <= self._most
+        return self._offset is not None and self.is_worth and UNLUCKY * math.sqrt(self._square) <= self._most
+
+    @property
+    def is_worth(self) -> bool:
+        """Whether so many fields lie between published ones that coarse ones save more than those beside these cost."""
+        return self._usual_between >= FEWEST_BETWEEN
+
+    def count(self, *, is_published: bool) -> None:
+        """Count a solution of the run."""
+        if not is_published:
+            self._between += 1
+            return
+        self._usual_between += NEWEST_COUNT * (self._between - self._usual_between)
+        self._between = 0
 
     def at(self, road: Any, travel: float, approach: float, law: ElasticLaw) -> LevelSolution | None:
         """Solve at an ``approach`` [m] with the wheel at ``travel`` [m]; None where the coarse field does not carry, or

@@ -95,6 +95,8 @@ class RoadField(ContactField):
 
     def solve_between(self, approach: float, geometric: float, block: int) -> float:
         """As `solve` at an instant whose field is not published: by the coarse level where that will do."""
+        if self.level is not None:
+            self.level.count(is_published=False)
         if not self.goes_by_level or not self._solve_coarse(approach):
             return self.solve(approach, geometric, block)
         assert self.level is not None
@@ -104,8 +106,10 @@ class RoadField(ContactField):
 
     def solve_published(self, approach: float, geometric: float, block: int) -> float:
         """As `solve` at an instant whose field is published, with the coarse one beside it."""
-        if self._coarse is None:
-            self._solve_coarse(approach)
+        if self.level is not None:
+            self.level.count(is_published=True)
+            if self._coarse is None and self.level.is_worth:
+                self._solve_coarse(approach)
         self.closer = CLOSER if self.goes_by_level else 1.0
         correction = self.solve(approach, geometric, block)
         self.closer = 1.0
@@ -331,8 +335,9 @@ class RoadField(ContactField):
         if found is None or geometry is None or field is None:
             return 0.0
         if self._slope_of[0] is not found:
-            slope = 0.0 if found.is_level else slope_under(geometry.form, field, found.pressure, found.origin_x)
-            self._slope_of = found, slope
+            # Computed on level road as well: a run compiles nothing that its preparation there has not
+            slope = slope_under(geometry.form, field, found.pressure, found.origin_x)
+            self._slope_of = found, 0.0 if found.is_level else slope
         return self._slope_of[1]
 
     def rolling_force(self) -> float:
