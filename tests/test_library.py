@@ -38,6 +38,13 @@ def test_a_faster_wheel_is_pressed_harder_by_a_bump(tmp_path):
     assert forces == sorted(forces)
 
 
+def test_a_controlled_floor_leaves_less_force_on_the_seat(tmp_path):
+    """A gain of 0.3 at resonance, where the seat goes along with the floor at twice its acceleration: a quarter less."""
+    text = run_example("controlled_floor.py", tmp_path)
+    held, controlled = (float(each) for each in re.findall(r"seat ± +(\d+\.\d+) N", text))
+    assert 0.6 * held < controlled < 0.85 * held
+
+
 def test_the_pressure_of_a_sphere_is_that_of_hertz(tmp_path):
     """E* = 5 MPa, R = 50 mm, 3 N: a = 2.823 mm, delta = a^2/R = 0.15937 mm, p0 = 3 F/(2 pi a^2) = 179.7 kPa."""
     text = run_example("pressure_of_a_sphere.py", tmp_path)

@@ -68,9 +68,9 @@ def test_the_scene_s_own_floor_given_by_hand_is_the_same_run(seat):
     own = [bits(seat.step().outputs) for _ in range(5)]
     seat.reset()
     for block in range(5):
-        given = seat._sources["platform/vibration"].block(block)
-        values = numpy.stack([given.acceleration_x, given.acceleration_z], axis=1)
-        assert bits(seat.step(vibration=values).outputs) == own[block]
+        assert bits(seat.step(vibration=seat.vibration()).outputs) == own[block]
+    seat.reset()
+    assert bits(seat.step(0.05, vibration=seat.vibration(0.05)).outputs) == [*itertools.chain.from_iterable(own)]
 
 
 def test_the_commands_of_a_loop_given_at_once_are_the_same_run(seat):

@@ -165,6 +165,21 @@ class ContactBench:
         self._block, self._is_broken = first + count, False
         return Step(first * self.block_length, self.time, outputs)
 
+    def vibration(self, duration: float | None = None) -> NDArray[numpy.float64]:
+        """The scene's own vibration of the next step, forward and upward [samples + 1, 2], m/s²: to be changed and given to
+        `step`.
+
+        Raises ValueError where the scene has none, or the duration is no whole number of blocks.
+        """
+        self._refuse_still()
+        blocks = [self._sources[VIBRATION].block(self._block + number) for number in range(self._count(duration))]
+        parts = [numpy.stack([each.acceleration_x, each.acceleration_z], axis=1) for each in blocks]
+        return numpy.concatenate([*(each[:-1] for each in parts), parts[-1][-1:]])
+
+    def _refuse_still(self) -> None:
+        if VIBRATION not in self._sources:
+            raise ValueError(f"{self.scene.name} has no vibration; its inputs are {', '.join(self.inputs) or 'none'}")
+
     def _count(self, duration: float | None) -> int:
         if duration is None:
             return 1
@@ -175,8 +190,8 @@ class ContactBench:
 
     def _vibration(self, count: int, given: ArrayLike) -> Any:
         """Of a block by its number, and by its number in the step: the given acceleration."""
-        if VIBRATION not in self._sources or self.scene.vibration is None:
-            raise ValueError(f"{self.scene.name} has no vibration; its inputs are {', '.join(self.inputs) or 'none'}")
+        self._refuse_still()
+        assert self.scene.vibration is not None
         rate = self.scene.vibration.sample_rate
         samples = round(rate * self.block_length)
         values: NDArray[numpy.float64] = numpy.asarray(given, dtype=numpy.float64)
