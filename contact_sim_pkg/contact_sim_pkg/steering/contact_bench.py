@@ -173,7 +173,10 @@ class ContactBench:
         """
         self._refuse_still()
         blocks = [self._sources[VIBRATION].block(self._block + number) for number in range(self._count(duration))]
-        parts = [numpy.stack([each.acceleration_x, each.acceleration_z], axis=1) for each in blocks]
+        parts = [
+            numpy.stack([each.acceleration_x, each.acceleration_z], axis=1)
+            for each in blocks if isinstance(each, VibrationBlock)
+        ]  # fmt: skip
         return numpy.concatenate([*(each[:-1] for each in parts), parts[-1][-1:]])
 
     def _refuse_still(self) -> None:
