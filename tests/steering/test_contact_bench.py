@@ -7,7 +7,10 @@ import pytest
 
 from contact_sim_pkg import ContactBench, load_scene
 from contact_sim_pkg.bag.block_encoder import encode_block
+from contact_sim_pkg.run.block_simulation import Resettable
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.observers import _Observed
+from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.scene_outputs import outputs_of
 
 SCENES = [
@@ -43,6 +46,29 @@ def test_another_seed_is_another_run_and_the_same_seed_the_same():
     again = bits(bench.step(0.04).outputs)
     bench.reset()
     assert bits(bench.step(0.04).outputs) == again
+
+
+def test_one_that_is_observed_is_made_anew(monkeypatch):
+    """What an observer remembers nobody knows; the simulation beneath could go back."""
+
+    class Counting:
+        def prepare(self):
+            pass
+
+        def observe(self, outputs):
+            return []
+
+    monkeypatch.setattr(
+        "contact_sim_pkg.steering.contact_bench.make_simulation",
+        lambda scene: _Observed(make_simulation(scene), {"effects.block.counting": (Counting(), "")}),
+    )
+    bench = ContactBench("block_fall", "duration=0.1")
+    assert not isinstance(bench._simulation, Resettable)
+    first = bits(bench.step(0.1).outputs)
+    before = bench._simulation
+    bench.reset()
+    assert bench._simulation is not before
+    assert bits(bench.step(0.1).outputs) == first
 
 
 @pytest.fixture(scope="module")

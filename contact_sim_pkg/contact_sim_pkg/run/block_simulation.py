@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeAlias
+from typing import Protocol, TypeAlias, runtime_checkable
 
 from contact_sim_pkg.bag.block_encoder import Message, Output, encode_block
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
@@ -50,12 +50,17 @@ class BlockSimulation(Protocol):
     def prepare(self) -> None:
         """Compile or load every kernel that the scene needs: a run compiles nothing."""
 
-    def reset(self) -> None:
-        """Before the first block again, with the bits of a new simulation. After `prepare`."""
-
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``, in order from 0, with the blocks of every input topic.
 
         Raises RunError where a block is out of order, does not fit the scene, or the physics ends
         in a named failure.
         """
+
+
+@runtime_checkable
+class Resettable(Protocol):
+    """A simulation that can go back to its start; one that cannot is made anew."""
+
+    def reset(self) -> None:
+        """Before the first block again, with the bits of a new simulation. After `prepare`."""

@@ -43,6 +43,9 @@ class Observer(Protocol):
 class _Observed:
     """A simulation and those who look at it; all else is the simulation's."""
 
+    reset = None
+    """It is made anew: nobody knows what an observer remembers."""
+
     def __init__(self, simulation: BlockSimulation, observers: Mapping[str, tuple[Observer, str]]) -> None:
         """``observers``: of an effect by its dotted name, with the topic that it announces."""
         self._simulation, self._observers = simulation, observers
@@ -55,14 +58,6 @@ class _Observed:
         self._simulation.prepare()
         for observer, _topic in self._observers.values():
             observer.prepare()
-
-    def reset(self) -> None:
-        """Of all. Raises RunError for an observer that does not say how: nobody knows what it remembers."""
-        for effect, (observer, _topic) in self._observers.items():
-            if not hasattr(observer, "reset"):
-                raise RunError(f"{effect} has an observer without `reset`; make a new simulation")
-            observer.reset()
-        self._simulation.reset()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """The block of the simulation, with what was seen in it.

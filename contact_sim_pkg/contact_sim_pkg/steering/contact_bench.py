@@ -13,7 +13,7 @@ from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.messages import VibrationBlock
 from contact_sim_pkg.report.export.table import has_columns, table_of_records
 from contact_sim_pkg.report.export.time_series import Series, series_of
-from contact_sim_pkg.run.block_simulation import InputBlock
+from contact_sim_pkg.run.block_simulation import InputBlock, Resettable
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
@@ -123,9 +123,9 @@ class ContactBench:
             name, values = self._name
             self._build(_resolved(name, (*values, f"seed={seed}")))
             return
-        try:
+        if isinstance(self._simulation, Resettable):
             self._simulation.reset()
-        except RunError:  # an observer of a plug-in that has no way back
+        else:  # of a plug-in
             self._build(self.scene)
         self._block, self._is_broken = 0, False
 

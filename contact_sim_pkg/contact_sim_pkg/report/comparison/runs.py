@@ -123,8 +123,11 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
 
 
 def _common_parts(recordings: Sequence[Recording]) -> list[Part]:
-    """Parts that all runs have, of the same values; a mat has none."""
-    first, *others = [parts_of(each) for each in recordings if each.scene]
+    """Parts that all runs have, of the same values; a mat, and a bag without its scene, have none."""
+    of_runs = [parts_of(each) for each in recordings if each.scene]
+    if not of_runs:
+        return []
+    first, *others = of_runs
     named = [{(part.name, part.value) for part in parts} for parts in others]
     return [part for part in first if all((part.name, part.value) in each for each in named)]
 
