@@ -39,7 +39,9 @@ def test_a_faster_wheel_is_pressed_harder_by_a_bump(tmp_path):
 
 
 def test_a_controlled_floor_leaves_less_force_on_the_seat(tmp_path):
-    """A gain of 0.3 at resonance, where the seat goes along with the floor at twice its acceleration: a quarter less."""
+    """The loop leaves T / (1 + 0.3 T) of a transmissibility T: 0.77 of T = 1, where the seat goes along with the floor, and
+    0.63 at the peak of 1.94.
+    """
     text = run_example("controlled_floor.py", tmp_path)
     held, controlled = (float(each) for each in re.findall(r"seat ± +(\d+\.\d+) N", text))
     assert 0.6 * held < controlled < 0.85 * held

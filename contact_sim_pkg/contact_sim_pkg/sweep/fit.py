@@ -18,7 +18,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
@@ -26,6 +25,7 @@ from scipy import optimize, signal, stats
 
 from contact_sim_pkg.scene.schema.accuracy import requested
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
+from contact_sim_pkg.sweep.fit_result import LEAST_PROBABILITY, Compared, Fit, Fitted
 from contact_sim_pkg.sweep.measured import Points, Series
 from contact_sim_pkg.sweep.pool import Workers
 from contact_sim_pkg.sweep.spectrum import log_density, loud
@@ -43,8 +43,6 @@ STARTS = 4
 """Cases a parameter, drawn over the ranges, of which the best is the start."""
 LEVEL = 0.90
 LAGS = 20
-LEAST_PROBABILITY = 1e-3
-"""Of a whitened residual that is noise: below it the scene does not follow the recording."""
 EXACT = 2e-3
 """Of a recording's own standard deviation: what is left below it is numerical, chance has no part in it."""
 MOST_ROUNDS = 4
@@ -54,62 +52,6 @@ UNSEEN = 3.0
 """Times that by which differences of two steps disagree: what moves the residual less is not seen."""
 LEFT_OUT = 0.02
 """Of a series' time at either end, beyond the shift."""
-
-
-class Fitted(NamedTuple):
-    """A key, what it is, and between what."""
-
-    key: str
-    value: float
-    low: float
-    high: float
-    """of the 90 % interval; nan where it is not identifiable"""
-    remark: str
-    """at a bound, or not identifiable; empty else"""
-
-
-class Compared(NamedTuple):
-    """What was measured beside what the fitted scene gives."""
-
-    name: str
-    """with its unit"""
-    across: Field
-    """time [s], frequency [Hz], or number of the case"""
-    measured: Field
-    fitted: Field
-    axis: str
-    """what ``across`` is"""
-
-
-class Fit(NamedTuple):
-    """Result of a fit."""
-
-    parameters: list[Fitted]
-    misfit: float
-    """standard deviation of the residual, in the unit of what was measured, or of its scatter where that is known"""
-    unit: str
-    probability: float
-    """of so large or so coloured a residual if the scene is right; nan where nothing says it"""
-    shift: float
-    """[s] by which the recording is late; 0 for points"""
-    cases: int
-    """runs, those that had run before included"""
-    values: Values
-    """of the fitted scene"""
-    compared: list[Compared]
-    """a metric each, a series or its spectrum"""
-    coarse: float = 0.0
-    """accuracy that the runs request, where what is left of a series may be their own error; 0 where it is more"""
-
-    @property
-    def follows(self) -> bool:
-        """Whether the scene can follow what was measured, as far as its runs are accurate enough to say it."""
-        return not self.probability < LEAST_PROBABILITY or self.coarse > 0.0
-
-    @property
-    def is_identified(self) -> bool:
-        """Whether each key has an interval."""
-        return all(math.isfinite(each.low) for each in self.parameters)
 
 
 Model = Callable[[Sequence[Field]], list[Field]]

@@ -8,13 +8,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from matplotlib.ticker import MaxNLocator
+
 from contact_sim_pkg.files import new_file
 from contact_sim_pkg.report.answer import Answer
 from contact_sim_pkg.report.drawing import ACCENT, MUTED, Margins, Picture, draw_series, new_figure, picture, style
 from contact_sim_pkg.report.place import is_page
-from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.report.tables import Table
-from contact_sim_pkg.sweep.fit import Compared, Fit, Fitted
+from contact_sim_pkg.sweep.fit_result import Compared, Fit, Fitted
 from contact_sim_pkg.sweep.page import Call, Part, page_of_parts
 
 __all__ = ["answer_of_fit", "coarse_sentence", "write_fit_page"]
@@ -64,16 +65,20 @@ def coarse_sentence(found: Fit) -> str:
     )
 
 
+def _digits(value: float) -> str:
+    """Enough of them to tell an interval of a thousandth."""
+    return f"{value:.6g}" if math.isfinite(value) else NONE
+
+
 def _said(fitted: Fitted) -> str:
-    interval = f" ({number(fitted.low)} to {number(fitted.high)})" if math.isfinite(fitted.low) else ""
-    return f"{fitted.key} {number(fitted.value)}{interval}" + (f", {fitted.remark}" if fitted.remark else "")
+    interval = f" ({_digits(fitted.low)} to {_digits(fitted.high)})" if math.isfinite(fitted.low) else ""
+    return f"{fitted.key} {_digits(fitted.value)}{interval}" + (f", {fitted.remark}" if fitted.remark else "")
 
 
 def _keys(parameters: Sequence[Fitted]) -> Table:
     rows = [
-        (each.key, number(each.value), *(number(end) if math.isfinite(end) else NONE for end in (each.low, each.high)), each.remark)
-        for each in parameters
-    ]  # fmt: skip
+        (each.key, *(_digits(value) for value in (each.value, each.low, each.high)), each.remark) for each in parameters
+    ]
     return Table("Keys with their 90 % intervals.", ("key", "value", "from", "to", "remark"), rows)
 
 
@@ -95,7 +100,9 @@ def _compared(compared: Compared, name: str) -> Picture:
     if is_density:
         for axes in (above, below):
             axes.set_yscale("log")
-    above.legend(loc="upper right", ncols=2)
+    if marks:
+        below.xaxis.set_major_locator(MaxNLocator(integer=True))
+    above.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.1)
     above.set_ylabel(
         compared.name.replace(" of ", " of\n").replace("/", "/\n", 1) if len(compared.name) > 24 else compared.name
     )

@@ -115,7 +115,7 @@ def verdict_line(rows: Sequence[Mapping[str, Any]], above: Above = NOTHING) -> s
     metrics = [metric_of(row) for row in rows]
     outside = [f"{each.name} {value_text(each)} ({_limit(each)})" for each in metrics if each.verdict == OUTSIDE]
     undecided = [f"{each.name} {value_text(each)} ({_limit(each)})" for each in metrics if each.verdict == UNDECIDED]
-    doubts = list(dict.fromkeys(text for each in metrics for text in each.broken))
+    doubtful = list(dict.fromkeys(text for each in metrics for text in each.broken))
     sure = [each.verdict for each in metrics if not each.broken]
     counts = {verdict: sure.count(verdict) for verdict in (GOOD, USUAL, NO_BAND)}
     checks = [each for each in metrics if each.band is not None and each.band.kind == CLOSED_FORM]
@@ -125,9 +125,9 @@ def verdict_line(rows: Sequence[Mapping[str, Any]], above: Above = NOTHING) -> s
     parts = [
         f"OUTSIDE: {', '.join(outside)}" if outside else "",
         f"UNDECIDED: {', '.join(undecided)}" if undecided else "",
-        f"DOUBTFUL: {len(metrics) - len(sure)} of {len(metrics)} metrics, {'; '.join(doubts)}" if doubts else "",
+        f"DOUBTFUL: {len(metrics) - len(sure)} of {len(metrics)} metrics, {'; '.join(doubtful)}" if doubtful else "",
         f"{'DOUBTFUL: ' if above.is_doubtful else ''}{above.text}" if above.text else "",
-        f"{'the rest ' if outside or undecided or doubts or above.is_doubtful else 'nothing outside its band: '}{rest}"
+        f"{'the rest ' if outside or undecided or doubtful or above.is_doubtful else 'nothing outside its band: '}{rest}"
         if rest
         else "",
     ]

@@ -29,8 +29,8 @@ class DriveLine(NamedTuple):
 
 def spring_force(spring: Spring, state: Vector) -> Any:
     """Force [N] on the second end; state: [states], or [states, samples] in columns."""
-    stretch, closing = state[spring.first] - state[spring.second], state[spring.first + 1] - state[spring.second + 1]
-    return spring.stiffness * stretch + spring.damping * closing
+    extension, closing = state[spring.first] - state[spring.second], state[spring.first + 1] - state[spring.second + 1]
+    return spring.stiffness * extension + spring.damping * closing
 
 
 _force = borrowing_kernel(spring_force)
@@ -39,10 +39,10 @@ _force = borrowing_kernel(spring_force)
 @borrowing_kernel
 def _act(spring, ground, mode, state, out):
     force = _force(spring, state)
-    stretch, closing = state[spring.first] - state[spring.second], state[spring.first + 1] - state[spring.second + 1]
+    extension, closing = state[spring.first] - state[spring.second], state[spring.first + 1] - state[spring.second + 1]
     out[spring.first + 1] -= force
     out[spring.second + 1] += force
-    return spring.damping * closing * closing, 0.0, 0.5 * spring.stiffness * stretch * stretch, 0.0
+    return spring.damping * closing * closing, 0.0, 0.5 * spring.stiffness * extension * extension, 0.0
 
 
 @borrowing_kernel
