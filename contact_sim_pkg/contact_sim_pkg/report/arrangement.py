@@ -77,6 +77,6 @@ def folds_of(parts: Sequence[Part]) -> list[Entry]:
         entry for part in parts
         for entry in (
             *(Entry(each.name, each.description) for each in (*part.shown, *part.folded)),
-            *(Entry(f"fold-{key}", f"Table: {each.header[0] or part.title}") for key, each in part.folded_tables),
+            *(Entry(f"fold-{key}", f"Table: {each.title or each.header[0] or part.title}") for key, each in part.folded_tables),
         )
     ]  # fmt: skip

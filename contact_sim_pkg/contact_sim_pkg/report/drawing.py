@@ -139,6 +139,12 @@ def new_figure(
     return figure, [each for row in axes for each in row]
 
 
+def legend_above(axes: Axes) -> None:
+    """The legend in one row above the axes, whose curves may run anywhere."""
+    handles, _ = axes.get_legend_handles_labels()
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=max(len(handles), 1), borderaxespad=0.0)
+
+
 def style() -> AbstractContextManager[None]:
     """Context in which figures are made and rendered."""
     return matplotlib.rc_context(dict(STYLE))

@@ -52,9 +52,9 @@ class Film(NamedTuple):
         return found
 
     @property
-    def heaviest(self) -> int:
-        """The frame with the largest load."""
-        return int(self.load.argmax())
+    def highest(self) -> int:
+        """The frame with the largest pressure."""
+        return int(self.peak.argmax())
 
 
 class FilmReader:

@@ -12,3 +12,5 @@ class Table(NamedTuple):
     caption: str
     header: tuple[str, ...]
     rows: Sequence[tuple[str, ...]]
+    title: str = ""
+    """what a fold is called that holds it; its first heading where it has none"""

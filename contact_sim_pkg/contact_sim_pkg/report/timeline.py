@@ -26,7 +26,7 @@ INTERVALS = 1000
 
 
 class MapView(NamedTuple):
-    """A film as the page shows it before its script runs: the frame with the largest load."""
+    """A film as the page shows it before its script runs: the frame with the largest pressure."""
 
     name: str
     picture: str
@@ -50,8 +50,8 @@ def map_views(recording: Recording) -> list[MapView]:
 
 
 def map_view(name: str, film: Film) -> MapView:
-    """A film at its largest load."""
-    place = film.heaviest
+    """A film at its largest pressure."""
+    place = film.highest
     _, rows, cols = film.frames.shape
     length, width = 1e3 * rows * film.cell_x, 1e3 * cols * film.cell_y
     said = frame_text(film.time[place], film.load[place], film.peak[place])

@@ -148,8 +148,8 @@ def _places(film: Film, x: FloatArray, y: FloatArray) -> PlaceArray:
 
 
 def _view(name: str, difference: Difference, films: tuple[Film, Film]) -> MapView:
-    """The difference at the largest load of the first film."""
-    time = float(films[0].time[films[0].heaviest])
+    """The difference at the largest pressure of the first film."""
+    time = float(films[0].time[films[0].highest])
     frame, kilo = difference.frame(films, time), 1e-3 * films[0].largest / 255.0
     picture = as_text(png_of(difference.as_bytes(frame), _colours()))
     end = number(kilo * difference.largest)

@@ -5,7 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from contact_sim_pkg.records.report import LedgerScope
-from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Margins, Picture, draw_series, new_figure, picture
+from contact_sim_pkg.report.drawing import (
+    ACCENT,
+    INK,
+    MUTED,
+    Margins,
+    Picture,
+    draw_series,
+    legend_above,
+    new_figure,
+    picture,
+)
 from contact_sim_pkg.report.energy import AT_REST, relative_residual, residual_scale, throughput
 from contact_sim_pkg.report.series import CostSeries, LedgerSeries
 from contact_sim_pkg.report.signal.decimate import envelope
@@ -22,7 +32,7 @@ def energy_balance(ledger: LedgerSeries, scope: LedgerScope | None = None) -> Pi
     axes[0].plot(*envelope(ledger.time, ledger.dissipated), color=ACCENT, label="dissipated")
     axes[0].plot(*envelope(ledger.time, held), color=MUTED, linestyle=(0, (4, 2)), label="kinetic + potential + stored")
     axes[0].set_ylabel("energy, J")
-    axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3)  # above the curves, which may run anywhere
+    legend_above(axes[0])
     scale = residual_scale(ledger)
     at_rest = throughput(ledger) < AT_REST
     named = (

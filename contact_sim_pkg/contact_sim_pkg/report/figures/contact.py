@@ -26,6 +26,7 @@ from contact_sim_pkg.report.drawing import (
     WITH_BARS,
     Picture,
     draw_series,
+    legend_above,
     new_figure,
     picture,
 )
@@ -185,7 +186,7 @@ def footprint_over_time(key: str, name: str, field: FieldSeries) -> Picture:
     for values, colour, label in ((field.lame_a, ACCENT, "a, along"), (field.lame_b, INK, "b, across")):
         axes[2].plot(*_with_gaps(field.time, values * 1e3, touching), color=colour, linewidth=0.9, label=label)
     axes[2].set_ylabel("semi-axes, mm")
-    axes[2].legend(loc="upper right", ncols=2)
+    legend_above(axes[2])
     usual = float(np.percentile([field.lame_a, field.lame_b], 99.0))
     axes[2].set_ylim(top=1.5e3 * max(usual, 1e-3))
     axes[3].plot(*_with_gaps(field.time, field.lame_n, touching), color=ACCENT, linewidth=0.9)

@@ -70,7 +70,7 @@
   const steps = films.reduce((most, {time}) => (time && time.length > most.length ? time : most), new Float32Array(0));
 
   // one time for maps, slider and curves
-  let plots = [], axis = time, moving = false;
+  let plots = [], axis = time, moving = false, peak = null;
   const show = (at, from) => {
     if (moving) return;
     moving = true;
@@ -83,11 +83,12 @@
     moving = false;
   };
   if (slider && steps.length) {
-    const first = films[0], heaviest = first.load.indexOf(first.load.reduce((most, load) => Math.max(most, load)));
+    const first = films[0], highest = first.peak.indexOf(first.peak.reduce((most, peak) => Math.max(most, peak)));
     slider.max = steps.length - 1;
     slider.disabled = false;
     slider.addEventListener("input", () => show(steps[slider.value], slider));
-    show(first.time[heaviest]);
+    peak = first.time[highest];
+    show(peak);
   }
 
   const view = document.getElementById("view");
@@ -117,6 +118,8 @@
     view.append(choice);
   }
   plots = data.groups.map(draw);
+  // the curves begin at the instant of the maps
+  if (peak !== null) requestAnimationFrame(() => show(peak, slider));
   bench.keep(view, height, () => plots);
   document.documentElement.dataset.ready = performance.now().toFixed(0);
 })();

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.report.drawing import ACCENT, INK, Picture, draw_series, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, INK, Picture, draw_series, legend_above, new_figure, picture
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.rigs.roller.model import build_roller
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries
@@ -21,13 +21,35 @@ MAP_ROWS = 25
 SPECTRUM_PARTS = 60
 
 
+def pressure_and_volume(roller: RollerSeries) -> Picture:
+    """Largest pressure and, where the scene reports it more than once, the dangerous volume of any stress over time."""
+    pressure = roller.contact.peak_pressure * 1e-6
+    several = len(roller.volumes) > 1
+    figure, axes = new_figure(3.2 if several else 2.0, 2 if several else 1, sharex=True)
+    draw_series(axes[0], roller.time, pressure, color=ACCENT, linewidth=0.9)
+    axes[0].set_ylabel("p₀, MPa")
+    axes[0].set_ylim(bottom=0.0)
+    caption = f"Largest pressure, {pressure.min():.5g} to {pressure.max():.5g} MPa."
+    if several:
+        volumes = roller.dangerous_volumes() * 1e9
+        axes[1].plot(
+            [each.time for each in roller.volumes], volumes, color=OTHER, marker="o", markersize=3, linewidth=0.9
+        )
+        axes[1].set_ylabel("volume, mm³")
+        axes[1].set_ylim(bottom=0.0)
+        caption += f" Volume in which a stress is above its limit, measured {len(volumes)} times: at most {volumes.max():.4g} mm³."
+    axes[-1].set_xlabel("simulated time, s")
+    figure.align_ylabels(axes)
+    return picture("roller-pressure", figure, "Largest pressure and dangerous volume over time", caption)
+
+
 def contact_over_time(roller: RollerSeries) -> Picture:
     """Semi-axes, area, pressure, approach and load over time: the paper's figure 10."""
     c, time = roller.contact, roller.time
     figure, axes = new_figure(4.8, 5, sharex=True)
     for values, colour, label in ((c.along_x, ACCENT, "nearer to x"), (c.along_y, OTHER, "nearer to y")):
         axes[0].plot(*envelope(time, values * 1e3), color=colour, label=label, linewidth=0.9)
-    axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False)
+    legend_above(axes[0])
     axes[0].set_ylabel("semi-axes, mm")
     area = np.pi * c.along_x * c.along_y
     rows = (

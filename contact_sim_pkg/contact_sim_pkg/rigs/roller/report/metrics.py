@@ -88,7 +88,7 @@ def _volumes(make: Any, roller: RollerSeries) -> Iterator[Metric]:
     """The largest dangerous volume of any stress."""
     if not roller.volumes:
         return
-    volumes = [float((each.with_bending if len(each.with_bending) else each.volume)[-1]) for each in roller.volumes]
+    volumes = roller.dangerous_volumes()
     place = int(np.argmax(volumes))
     share = 100.0 * volumes[place] / roller.volumes[place].working_volume
     yield make("volume", "dangerous volume, largest", 1e9 * volumes[place], "mm³", topic=f"{ROLLER}/volumes",

@@ -9,6 +9,7 @@ from contact_sim_pkg.rigs.roller.report.figures import (
     contact_over_time,
     load_spectrogram,
     motion_over_time,
+    pressure_and_volume,
     stability_map,
 )
 from contact_sim_pkg.rigs.roller.report.figures_programme import programme_over_time
@@ -27,7 +28,8 @@ def roller_sections(number: int, recording: Recording) -> list[Section]:
         return [contact_section(number, "roller", recording)]
     scene = recording.scene
     first = [
-        programme_over_time(roller, scene), contact_over_time(roller), motion_over_time(roller), load_spectrogram(roller),
+        programme_over_time(roller, scene), pressure_and_volume(roller), contact_over_time(roller), motion_over_time(roller),
+        load_spectrogram(roller),
     ]  # fmt: skip
     stable, table = stability_map(roller, scene), stability_table(roller.stability, float(scene["block_length"]))
     return [

@@ -28,6 +28,11 @@ class RollerSeries(NamedTuple):
     volumes: list[RollerVolumes]
     stability: list[RollerStability]
 
+    def dangerous_volumes(self) -> FloatArray:
+        """[m^3] [reports] of any stress, with the bending of the shaft where it bends."""
+        kinds = ((each.with_bending if len(each.with_bending) else each.volume) for each in self.volumes)
+        return np.array([float(each[-1]) for each in kinds])
+
 
 def roller_of(recording: Recording) -> RollerSeries | None:
     """Roller of a recording; None where the bag holds no state of it."""

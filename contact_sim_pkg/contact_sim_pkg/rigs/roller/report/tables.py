@@ -30,7 +30,9 @@ def stability_table(stability: list[RollerStability], block_length: float) -> Ta
         )
         for each in stability[:MOST_ROWS]
     ]  # fmt: skip
-    return Table(f"Tilt and yaw under each load of the run{_left_out(len(stability))}", header, rows)
+    return Table(
+        f"Tilt and yaw under each load of the run{_left_out(len(stability))}", header, rows, "stability under each load"
+    )
 
 
 def volume_tables(volumes: list[RollerVolumes]) -> list[Table]:
@@ -54,8 +56,8 @@ def _tables(volumes: list[RollerVolumes], what: str, of: Callable[[RollerVolumes
     ]
     working = f"{volumes[0].working_volume * 1e9:.4g} mm³"
     return [
-        Table(f"Dangerous volumes {what}, mm³{left}", header, sizes),
-        Table(f"The same over the working volume of {working}, %{left}", header, shares),
+        Table(f"Dangerous volumes {what}, mm³{left}", header, sizes, f"dangerous volumes {what}"),
+        Table(f"The same over the working volume of {working}, %{left}", header, shares, f"their shares, {what}"),
     ]
 
 

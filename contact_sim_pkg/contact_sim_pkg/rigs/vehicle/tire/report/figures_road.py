@@ -19,6 +19,7 @@ from contact_sim_pkg.report.drawing import (
     Margins,
     Picture,
     draw_series,
+    legend_above,
     new_figure,
     picture,
 )
@@ -104,7 +105,7 @@ def along_the_road(key: str, name: str, rolling: Rolling, section: RoadSection) 
 
 def force_over_road(key: str, name: str, rolling: Rolling, section: RoadSection) -> Picture:
     """Normal force raw and filtered over the distance, and the road below."""
-    figure, axes = new_figure(2.5, 2, sharex=True, height_ratios=[3.0, 2.0])
+    figure, axes = new_figure(2.6, 2, margins=Margins(shared=0.28), sharex=True, height_ratios=[3.0, 2.0])
     band = _draw_force(axes[0], rolling, section)
     _draw_road(axes[1], rolling, section)
     axes[0].set_ylabel("force, kN")
@@ -142,9 +143,9 @@ def _draw_force(axes: Axes, rolling: Rolling, section: RoadSection) -> str:
         label=label,
     )  # fmt: skip
     axes.add_collection(bands, autolim=False)
-    axes.set_ylim(0.0, 1.22 * float(contact.normal[inside].max(initial=1.0)) * 1e-3)
+    axes.set_ylim(0.0, 1.05 * float(contact.normal[inside].max(initial=1.0)) * 1e-3)
     axes.set_ylabel("normal force, kN")
-    axes.legend(loc="upper right", ncols=4)
+    legend_above(axes)
     return band
 
 
@@ -209,9 +210,7 @@ def _draw_road(axes: Axes, rolling: Rolling, section: RoadSection) -> None:
         label="as the tire feels it",
     )
     axes.set_ylabel("height, mm")
-    axes.legend(loc="upper right", ncols=3)
-    low_end, high_end = axes.get_ylim()
-    axes.set_ylim(low_end, high_end + 0.25 * (high_end - low_end))
+    legend_above(axes)
 
 
 def _force_sentence(rolling: Rolling, section: RoadSection) -> str:

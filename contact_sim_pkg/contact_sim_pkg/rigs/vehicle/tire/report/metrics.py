@@ -64,7 +64,7 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     standing, conditions = standing_load_of(recording.scene), _conditions(recording)
     ride = _Ride(
         recording, contact, standing, Maker(TIRE, f"{TIRE}/force", window, conditions).make,
-        str(conditions.get("road", "")).startswith("class"), _has_one_obstacle(recording.scene), errors_of(recording), conditions,
+        str(conditions.get("road", "")).startswith("class"), has_one_obstacle(recording.scene), errors_of(recording), conditions,
     )  # fmt: skip
     field = recording.fields.get(TIRE)
     stands = standing_of(recording)
@@ -92,7 +92,7 @@ def largest_forces(recording: Recording) -> list[Metric]:
     return found
 
 
-def _has_one_obstacle(scene: Mapping[str, Any]) -> bool:
+def has_one_obstacle(scene: Mapping[str, Any]) -> bool:
     """Whether the road of a scene is even but for one obstacle."""
     road = scene.get("road")
     known: RoadKind | None = kind_known("road", road) if isinstance(road, Mapping) else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contact_sim_pkg.report.drawing import Picture
 from contact_sim_pkg.report.figures.contact import contact_section
 from contact_sim_pkg.report.figures.peaks import peak_curves
-from contact_sim_pkg.report.page import Section
+from contact_sim_pkg.report.page import FREQUENCY, Section
 from contact_sim_pkg.report.series import FieldSeries, Recording
 from contact_sim_pkg.report.signal.peaks import filtered_signals, peak_rows
 from contact_sim_pkg.rigs.vehicle.tire.report.axle_series import axle_of
@@ -24,6 +24,8 @@ from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import (
     whole_way,
 )
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_shear import friction_over_slip, friction_over_time, shear_maps
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_spectrum import load_spectrum
+from contact_sim_pkg.rigs.vehicle.tire.report.metrics import has_one_obstacle
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
@@ -34,12 +36,14 @@ FRICTION_KEY = "friction"
 
 
 def tire_sections(number: int, recording: Recording) -> list[Section]:
-    """Contact, rolling tire and friction. Call inside `drawing.style()`; the recording has a
+    """Contact, rolling tire, friction and load by frequency. Call inside `drawing.style()`; the recording has a
     contact of this name.
     """
     rolling = _rolling_section(recording)
     friction = Section(FRICTION_KEY, "Friction of the tire", _friction_pictures(recording))
-    return [contact_section(number, TIRE, recording), rolling, friction]
+    spectrum = None if has_one_obstacle(recording.scene) else load_spectrum(KEY, TIRE, recording.contacts[TIRE])
+    by_frequency = Section("tire-load", "Load of the tire", [spectrum] if spectrum else [], part=FREQUENCY)
+    return [contact_section(number, TIRE, recording), rolling, friction, by_frequency]
 
 
 def _rolling_section(recording: Recording) -> Section:
