@@ -186,11 +186,12 @@ class Bag(reader.Bag):
 
         return metrics(self)
 
-    def report(self, out: str | Path | None = None, *, overwrite: bool = False) -> Path:
+    def report(self, out: str | Path | None = None, *, check: bool = False, overwrite: bool = False) -> Path:
         """Write the report of the bag, one HTML page that needs nothing beside it: that of `bench report`.
 
         Args:
             out: file to write; None: `report.html` beside the bag, which goes with a temporary bag.
+            check: whether a finer run is made beside parts of it, so that the page has the accuracy that was delivered.
             overwrite: whether another file of that name is replaced; a page of the bench is made again anyway.
 
         Returns:
@@ -203,8 +204,13 @@ class Bag(reader.Bag):
         from contact_sim_pkg.report.reading import scenes_fit
         from contact_sim_pkg.report.report import write_report
 
+        checked = None
+        if check:
+            from contact_sim_pkg.compare.delivered import check_bag
+
+            checked = check_bag(self.path, doing)
         with scenes_fit([self]):
-            return write_report(self, None if out is None else Path(out), overwrite=overwrite)
+            return write_report(self, None if out is None else Path(out), check=checked, overwrite=overwrite)
 
     def _repr_html_(self) -> str:
         rows = [

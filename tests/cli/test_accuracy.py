@@ -11,6 +11,7 @@ from contact_sim_lab.records.work_precision import WorkPrecision
 from contact_sim_lab.rigs.vehicle.work_precision import road as work_precision_road
 from contact_sim_pkg.cli.accuracy import command
 from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.scene.errors import SceneError
 
 
@@ -107,6 +108,25 @@ def test_a_run_and_its_bag_are_checked_alike(capsys, tmp_path):
     assert again["delivered"] == check["delivered"]
     assert main(["accuracy", str(bag)]) == 0
     assert "block force: requested 1e-3, delivered " in capsys.readouterr().out
+
+
+def test_a_page_has_what_a_check_found(capsys, tmp_path):
+    """Beside what was requested: the largest error of each kind, of the bodies that of the worst."""
+    bag, page = tmp_path / "bag", tmp_path / "page.html"
+    assert main(["run", "block_slope", "--offline", "--duration", "0.1", "--out", str(bag)]) == 0
+    assert main(["report", str(bag), "--out", str(page)]) == 0
+    assert "not checked" in page.read_text(encoding="utf-8")
+    assert main(["report", str(bag), "--out", str(page), "--check"]) == 0
+    text = page.read_text(encoding="utf-8")
+    capsys.readouterr()
+    assert main(["accuracy", str(bag), "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["delivered"]
+    assert "not checked" not in text
+    for kind in ("force", "motion"):
+        worst = number_of(max(row["error"] for row in rows if row["kind"] == kind))
+        assert f"<td>{worst}</td>" in text
+    assert main(["report", str(bag), str(bag), "--check"]) == 2
+    assert "--check is of one BAG" in capsys.readouterr().err
 
 
 def test_a_run_ends_with_its_estimate_and_strict_makes_a_miss_a_failure(tmp_path, capsys):

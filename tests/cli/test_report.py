@@ -14,6 +14,7 @@ OPTIONS = {
     "--out": ["--out", "FILE"],
     "--format": ["--format", "png", "tire-load"],
     "--require": ["--require", "tire.load < 1 N"],
+    "--check": ["--check"],
     "--skip-bad": ["--skip-bad"],
     "--across-versions": ["--across-versions"],
     "--overwrite": ["--overwrite"],
@@ -27,6 +28,7 @@ TAKEN = {
 """Options by the kind of input; a bag of others has a page of its topics, without figures and metrics."""
 REFUSED = {
     "--format": "--format|has no figure 'tire-load'; it has none",
+    "--check": "--check|holds no scene",
     "--require": "--require|tire.load: the list has no such metric; it has none",
 }
 

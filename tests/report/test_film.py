@@ -39,7 +39,7 @@ def film_of(fields):
 def test_few_fields_are_all_kept_and_cut_to_what_is_loaded():
     film = film_of([field(10.0, 50.0), field(20.0, 100.0, (3, 2))])
     assert film.time == pytest.approx([0.0, 0.01])
-    assert film.heaviest == 1
+    assert film.highest == 1
     assert film.largest == 100.0
     # rows 1 to 4 and cols 0 to 3: one cell round those that are ever loaded
     assert film.frames.shape == (2, 4, 4)
@@ -56,8 +56,8 @@ def test_of_many_fields_the_largest_load_and_peak_are_kept():
     film = film_of(fields)
     assert film.time.size <= MOST_FRAMES + 2
     assert (np.diff(film.time) > 0.0).all()
-    assert film.time[film.heaviest] == pytest.approx(1.01)
-    assert film.time[film.peak.argmax()] == pytest.approx(2.03)
+    assert film.time[film.load.argmax()] == pytest.approx(1.01)
+    assert film.time[film.highest] == pytest.approx(2.03)
     assert film.frames.max() == 255
 
 

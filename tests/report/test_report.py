@@ -30,7 +30,7 @@ PARTS = ["Time and maps", "Frequency", "Contact", "Against published", "Trust", 
 
 def test_a_car_with_a_tire_field_has_every_part(car_page):
     assert car_page.headings == PARTS
-    assert car_page.tags.count("figcaption") == 4 + 2 + 2 + 2 + 1 + 1 + 1  # a map is one of them
+    assert car_page.tags.count("figcaption") == 4 + 2 + 3 + 2 + 1 + 1 + 1  # a map is one of them
     assert {"Pressure maps of the tire contact", "Normal force and approach of the seat contact over time"} <= set(
         car_page.folds
     )

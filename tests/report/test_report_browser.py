@@ -35,7 +35,7 @@ def shown(request, page, tab):
 
 def test_every_picture_is_drawn(shown):
     name, found = shown
-    pictures = {"car": 12, "seat": 6, "rolling": 11, "backrest": 11, "car-car": 7, "backrest-backrest-backrest": 6}
+    pictures = {"car": 13, "seat": 6, "rolling": 11, "backrest": 11, "car-car": 7, "backrest-backrest-backrest": 6}
     assert found["pictures"] == pictures[name]
     assert found["texts"] > 100
 

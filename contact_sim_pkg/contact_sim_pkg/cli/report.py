@@ -30,6 +30,7 @@ from contact_sim_pkg.cli.output.working import displayed_elsewhere
     help="One figure of the page in place of it, for print: PNG of 300 dpi, or SVG; an unknown NAME lists them.",
 )
 @require_option
+@click.option("--check", is_flag=True, help="With what accuracy was delivered: a finer run beside parts of it.")
 @click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
 @click.option("--across-versions", is_flag=True, help="Compare bags of different versions.")
 @overwrite_option
@@ -38,6 +39,7 @@ def command(
     out: Path | None,
     printed: tuple[str, str] | None,
     wanted: tuple[str, ...],
+    check: bool,
     skip_bad: bool,
     across_versions: bool,
     overwrite: bool,
@@ -47,7 +49,7 @@ def command(
     Up to six bags of one rig are compared on one page, each with the first. A pressure mat (its file, or the bag of
     `bench import`) and a run are laid over each other.
     """
-    _refuse_unused(len(bags), printed is not None, bool(wanted), across_versions)
+    _refuse_unused(len(bags), printed is not None, bool(wanted), check, across_versions)
     from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.bag.versions import differences_from, differences_of_bags, installed_versions
     from contact_sim_pkg.cli.bags.mats import bag_of
@@ -74,6 +76,11 @@ def command(
     ]
     for line in filter(None, others):
         say(line, err=True)
+    checked = None
+    if check:
+        from contact_sim_pkg.cli.output.checked import check_of_bag
+
+        checked = check_of_bag(bags[0])
     begin = "report: reading the bag" if len(bags) == 1 else "report: comparing the bags"
     with displayed_elsewhere(), RunDisplay(1.0, begin, "section") as display:
 
@@ -102,6 +109,7 @@ def command(
                     out,
                     overwrite=overwrite,
                     requirements=requirements,
+                    check=checked,
                     on_section=on_section,
                     on_read=on_read,
                 )
@@ -112,11 +120,13 @@ def command(
     say(f"report: {page}")
 
 
-def _refuse_unused(bags: int, printed: bool, wanted: bool, across_versions: bool) -> None:
+def _refuse_unused(bags: int, printed: bool, wanted: bool, check: bool, across_versions: bool) -> None:
     """UsageError for an option that the number of bags, or another option, gives no meaning."""
     if printed and bags > 1:
         raise click.UsageError("--format prints a figure of one BAG.")
     if printed and wanted:
         raise click.UsageError("--require judges the tiles of a page; a figure of --format has none.")
+    if check and (printed or bags > 1):
+        raise click.UsageError("--check is of one BAG and stands on its page.")
     if across_versions and bags == 1:
         raise click.UsageError("--across-versions compares several BAGs.")

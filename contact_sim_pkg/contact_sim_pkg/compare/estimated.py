@@ -16,7 +16,7 @@ from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.run.outputs import Estimate
 from contact_sim_pkg.scene.schema.accuracy import requested
 
-__all__ = ["Above", "above", "above_request", "accuracy_lines", "accuracy_numbers"]
+__all__ = ["MOTION", "Above", "above", "above_request", "accuracy_lines", "accuracy_numbers"]
 
 MOTION = "motion"
 WORDS = {"force": "force", "motion": "motion", "peak": "peak pressure", "area": "area"}

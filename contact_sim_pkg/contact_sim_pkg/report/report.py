@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
@@ -29,6 +30,9 @@ from contact_sim_pkg.report.sketch import Part, conditions_of, drawing_of
 from contact_sim_pkg.report.timeline import map_views, page_data
 from contact_sim_pkg.report.trust import commands_of, topic_table, trust_tables
 
+if TYPE_CHECKING:
+    from contact_sim_pkg.compare.delivered import Check
+
 TEMPLATE = "report.html.j2"
 
 OnSection = Callable[[int, int, str], object]
@@ -41,6 +45,7 @@ def write_report(
     *,
     overwrite: bool = False,
     requirements: Sequence[Requirement] = (),
+    check: Check | None = None,
     on_section: OnSection = lambda *_: None,
     on_read: OnRead = lambda _: None,
 ) -> Path:
@@ -51,6 +56,7 @@ def write_report(
         out: file to write; a page of this command is made again, another
             file only by `overwrite`; `report.html` in the bag's directory where it is None.
         requirements: limits of one's own, which the tiles are judged by.
+        check: what accuracy the run delivered, of `check_bag`.
         on_section: called before each section.
         on_read: called while the bag is read, with the share that has been.
 
@@ -63,14 +69,17 @@ def write_report(
     """
     path = free_place([bag], out, overwrite=overwrite)
     # Everything is read before the file is touched
-    page = render(read_recording(bag, on_read), on_section, requirements)
+    page = render(read_recording(bag, on_read), on_section, requirements, check)
     with new_page(path, [bag], overwrite=overwrite) as file:
         file.write(page.encode())
     return path
 
 
 def render(
-    recording: Recording, on_section: OnSection = lambda *_: None, requirements: Sequence[Requirement] = ()
+    recording: Recording,
+    on_section: OnSection = lambda *_: None,
+    requirements: Sequence[Requirement] = (),
+    check: Check | None = None,
 ) -> str:
     """The page as text. Everything that comes from the bag is escaped."""
     metrics = required(metrics_of(recording), requirements)
@@ -78,7 +87,7 @@ def render(
     lead = leading(_lead_names(recording), drawn)
     published = published_table(metrics)
     parts = arranged(drawn, len(lead), {
-        "published": [] if published is None else [published], TRUST: trust_tables(recording, metrics),
+        "published": [] if published is None else [published], TRUST: trust_tables(recording, metrics, check),
     })  # fmt: skip
     of_rig = rig_reports.parts_of(recording)
     conditions = conditions_of([Part("", f"{recording.duration:.4g} s"), *of_rig])
