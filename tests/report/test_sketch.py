@@ -4,7 +4,19 @@ import re
 from itertools import pairwise
 from xml.etree import ElementTree
 
-from contact_sim_pkg.report.sketch import Part, conditions_of, drawing_of, mass, parts_of_scene, spring_and_damper
+import pytest
+
+from contact_sim_pkg.report.sketch import (
+    Part,
+    Sketch,
+    conditions_of,
+    drawing_of,
+    floor_part,
+    mass,
+    parts_of_scene,
+    road_parts,
+    spring_and_damper,
+)
 
 
 def heights(drawing):
@@ -36,3 +48,27 @@ def test_conditions_are_the_parts_as_one_line():
 def test_a_rig_that_lists_no_parts_has_its_excitation_contacts_and_masses():
     scene = {"road": {"kind": "none of ours"}, "effects": {"blade": {}}, "mower": {"deck_mass": 12.5, "width": 0.5}}
     assert conditions_of(parts_of_scene(scene)) == "road none of ours · blade contact · mower deck mass 12.5 kg"
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ([[0.0, 20.0], [1.0, 12.0]], "20 → 12 m/s"),
+        ([[0.0, 20.0], [1.0, 20.0]], "20 m/s"),
+        ([[0.0, 10.0], [1.0, 20.0], [2.0, 15.0]], "10 to 20 m/s"),
+    ],
+)
+def test_a_speed_says_which_way_it_goes(points, said):
+    parts = road_parts({"road": {"kind": "flat"}, "travel": {"points": points}})
+    assert [each.value for each in parts if each.name == "speed"] == [said]
+
+
+def test_the_arrow_of_a_floor_lies_along_its_axis():
+    """Its line is level for x and upright for z."""
+    for axis, along in (("x", 1), ("z", 0)):
+        (part,) = floor_part({"vibration": {"kind": "sine", "axis": axis}})
+        sketch = Sketch()
+        part.glyph(sketch, 0.0)
+        line = re.search(r'class="move" points="([-\d.]+),([-\d.]+) ([-\d.]+),([-\d.]+)"', sketch.svg(0.0, ""))
+        first, last = line.groups()[:2], line.groups()[2:]
+        assert first[along] == last[along]

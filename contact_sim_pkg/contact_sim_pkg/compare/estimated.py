@@ -125,10 +125,10 @@ def above(numbers: Mapping[str, Any]) -> list[str]:
     for place, kinds in numbers["estimated"].items():
         for kind, error in kinds.items():
             least, effect = numbers["not_below"].get(place, {}).get(kind, (0.0, ""))
-            if error is not None and error > asked:
-                found.append(f"{_named(place, kind)} {number_of(error)}")
-            elif least > asked:
+            if least > max(asked, error or 0.0):
                 found.append(f"{_named(place, kind)}, not below {number_of(least)} with {effect}")
+            elif error is not None and error > asked:
+                found.append(f"{_named(place, kind)} {number_of(error)}")
     return found
 
 

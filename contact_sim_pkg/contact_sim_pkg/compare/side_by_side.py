@@ -51,6 +51,8 @@ class ComparedMetric(NamedTuple):
     """half the 95 % interval in each run, in `unit`; nan where it is not known"""
     limit: Band | None = None
     """limit of the first run that has one: which way is better"""
+    instants: tuple[str, ...] = ()
+    """`at 0.990 s`, where a run says when its event was, else empty"""
 
     @property
     def uncertainty(self) -> float:
@@ -172,6 +174,7 @@ def _side(runs: Sequence[Metric | None]) -> ComparedMetric:
         tuple(math.nan if each is None else each.error for each in runs),
         tuple(math.nan if each is None else each.spread for each in runs),
         next((each.band for each in runs if each and each.band and each.band.kind in (LIMIT, REQUIRED)), None),
+        tuple("" if each is None else each.instant for each in runs),
     )  # fmt: skip
 
 

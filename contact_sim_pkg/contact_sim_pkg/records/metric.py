@@ -5,6 +5,7 @@ does not hold, how sure it is, where and when it was taken; and a figure that so
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -20,6 +21,7 @@ EVENT, STATIONARY, STATE, SELF_CHECK = "event", "stationary", "state", "self-che
 """What a metric is a number of: what happens once in its window (largest, smallest, duration); what all of the window
 shows alike, and a longer one more surely; how something stands; the run beside a closed form.
 """
+INSTANT = re.compile(r"at \d+(\.\d+)? s\b")
 ROUNDING = 1e-9
 """of an end of a band: forty cells of 3.75 mm are 150 mm"""
 
@@ -82,6 +84,12 @@ class Metric(NamedTuple):
     """event, stationary, state or self-check; empty where who made it does not say"""
     error: float = math.nan
     """numerical error as the run estimates it, in `unit`; nan where nothing is estimated"""
+
+    @property
+    def instant(self) -> str:
+        """`at 0.990 s`, where the remark says when an event was, else empty."""
+        found = INSTANT.search(self.remark)
+        return found[0] if found else ""
 
 
 def judged(value: float, band: Band | None) -> str:

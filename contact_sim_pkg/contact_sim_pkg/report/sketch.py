@@ -126,10 +126,14 @@ def rough_road(sketch: Sketch, y: float) -> float:
 def shaken(sketch: Sketch, y: float) -> float:
     """A floor that moves up and down."""
     sketch.box(AXIS - 48.0, y, AXIS + 48.0, y + 8.0, "soft")
-    x = AXIS - 54.0
-    sketch.path([(x - 4.0, y + 14.0), (x, y + 20.0), (x + 4.0, y + 14.0)], "move")
-    sketch.path([(x, y + 20.0), (x, y - 12.0)], "move")
-    sketch.path([(x - 4.0, y - 6.0), (x, y - 12.0), (x + 4.0, y - 6.0)], "move")
+    _both_ways(sketch, (AXIS - 54.0, y - 12.0), (AXIS - 54.0, y + 20.0))
+    return y + 8.0
+
+
+def shaken_along(sketch: Sketch, y: float) -> float:
+    """A floor that moves to and fro."""
+    sketch.box(AXIS - 48.0, y, AXIS + 48.0, y + 8.0, "soft")
+    _both_ways(sketch, (AXIS - 20.0, y - 10.0), (AXIS + 20.0, y - 10.0))
     return y + 8.0
 
 
@@ -200,6 +204,18 @@ def pushed(sketch: Sketch, y: float) -> float:
     return y + 36.0
 
 
+def _both_ways(sketch: Sketch, first: tuple[float, float], last: tuple[float, float]) -> None:
+    """An arrow with two heads, upright or level."""
+    sketch.path([first, last], "move")
+    for (x, y), sign in ((first, 1.0), (last, -1.0)):
+        ends = (
+            [(x - 4.0, y + 6.0 * sign), (x + 4.0, y + 6.0 * sign)]
+            if first[0] == last[0]
+            else [(x + 6.0 * sign, y - 4.0), (x + 6.0 * sign, y + 4.0)]
+        )
+        sketch.path([ends[0], (x, y), ends[1]], "move")
+
+
 def at(scene: Mapping[str, Any], keys: str, text: str = "{:g}", scale: float = 1.0) -> str:
     """The value at dotted ``keys`` times ``scale`` as ``text``; empty where the scene has none."""
     value: Any = scene
@@ -246,10 +262,9 @@ def floor_part(scene: Mapping[str, Any]) -> list[Part]:
         return []
     file = str(given.get("file") or "").rpartition("/")[2]
     kind = str(given.get("kind", "")).replace("_", " ")
-    value = listed(
-        kind, file, at(given, "frequency", "{:g} Hz"), at(given, "amplitude", "{:g} m/s²"), str(given.get("axis", ""))
-    )
-    return [Part("floor", value, shaken)]
+    axis = str(given.get("axis", ""))
+    value = listed(kind, file, at(given, "frequency", "{:g} Hz"), at(given, "amplitude", "{:g} m/s²"), axis)
+    return [Part("floor", value, shaken if "z" in axis or not axis else shaken_along)]
 
 
 def _speed(scene: Mapping[str, Any]) -> list[Part]:
@@ -262,8 +277,10 @@ def _speed(scene: Mapping[str, Any]) -> list[Part]:
     )
     if not speeds:
         return []
-    low, high = min(speeds), max(speeds)
-    return [Part("speed", f"{low:g} m/s" if low == high else f"{low:g} to {high:g} m/s")]
+    first, last, low, high = speeds[0], speeds[-1], min(speeds), max(speeds)
+    if {first, last} == {low, high}:  # rises or falls all along
+        return [Part("speed", f"{first:g} m/s" if low == high else f"{first:g} → {last:g} m/s")]
+    return [Part("speed", f"{low:g} to {high:g} m/s")]
 
 
 def _folded(text: str) -> list[str]:

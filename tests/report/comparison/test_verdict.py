@@ -66,7 +66,10 @@ def test_tiles_are_what_moved_most_with_the_leading_ones_and_no_self_check():
 def test_a_tile_has_values_change_and_a_word_of_each_run():
     (tile,) = moved_tiles(NAMES, [side("SEAT", 60.0, 50.0, math.nan, spread=3.0, limit=AT_MOST)], ())
     assert (tile.letter, tile.value, tile.unit) == ("A", "60", "%")
-    assert tile.moved[0] == ("B", "50", "-10 ± 4.24", "-16.7 %", "better", "good")
-    assert tile.moved[1] == ("C", "–", "", "", "absent", "usual")
+    assert tile.moved[0] == ("B", "50", "", "-10 ± 4.24", "-16.7 %", "better", "good")
+    assert tile.moved[1] == ("C", "–", "", "", "", "absent", "usual")
     (plain,) = moved_tiles(NAMES[:2], [side("x", 1.0, 2.0)], ())
-    assert plain.moved[0][4:] == ("higher", "no-band")
+    assert plain.moved[0][5:] == ("higher", "no-band")
+    event = side("F_z", 1.0, 2.0)._replace(instants=("at 0.990 s", ""))
+    (shown,) = moved_tiles(NAMES[:2], [event], ())
+    assert (shown.instant, shown.moved[0].instant) == ("at 0.990 s", "")

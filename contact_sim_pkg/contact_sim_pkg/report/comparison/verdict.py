@@ -24,6 +24,8 @@ class Moved(NamedTuple):
 
     letter: str
     value: str
+    instant: str
+    """of an event, `at 0.990 s`"""
     change: str
     """with its uncertainty where that is known"""
     share: str
@@ -42,6 +44,7 @@ class MovedTile(NamedTuple):
     letter: str
     value: str
     """of the first run"""
+    instant: str
     moved: list[Moved]
 
 
@@ -159,10 +162,10 @@ def _moved(side: ComparedMetric) -> float:
 
 def _tile(letters: Sequence[str], side: ComparedMetric) -> MovedTile:
     pairs = [side.against_first(place) for place in range(1, len(letters))]
-    moved = []
-    for letter, each in zip(letters[1:], pairs, strict=True):
+    moved, (first, *others) = [], side.instants or ("",) * len(letters)
+    for letter, each, instant in zip(letters[1:], pairs, others, strict=True):
         word = each.comparison or ("absent" if math.isnan(each.change) else "higher" if each.change > 0.0 else "lower")
         change = _with_uncertainty(each) if math.isfinite(each.change) and each.change else ""
         share = f"{signed(100.0 * each.relative)} %" if math.isfinite(each.relative) and each.change else ""
-        moved.append(Moved(letter, number(each.values[1]), change, share, word, TONES.get(word, "usual")))
-    return MovedTile(side.name, printed_unit(side.unit), letters[0], number(side.values[0]), moved)
+        moved.append(Moved(letter, number(each.values[1]), instant, change, share, word, TONES.get(word, "usual")))
+    return MovedTile(side.name, printed_unit(side.unit), letters[0], number(side.values[0]), first, moved)

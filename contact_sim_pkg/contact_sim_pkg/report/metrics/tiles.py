@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -13,8 +12,6 @@ from contact_sim_pkg.report.rows import SUPERSCRIPT, number
 from contact_sim_pkg.report.tables import Table
 
 __all__ = ["Tile", "doubts_of", "metric_table", "printed_unit", "published_table", "tiles_of"]
-
-INSTANT = re.compile(r"at \d+(\.\d+)? s\b")
 
 
 class Bar(NamedTuple):
@@ -85,18 +82,13 @@ def _tile(metric: Metric) -> Tile:
     spreads = {"numerical": metric.error, "random": metric.spread}
     space = "\N{NO-BREAK SPACE}"
     given = [f"±{space}{number(value)}{space}{name}" for name, value in spreads.items() if math.isfinite(value)]
+    instant = [metric.instant.replace(" ", space)] if metric.instant else []
     return Tile(
         label=metric.name, value=number(metric.value) if defined else "–", unit=printed_unit(metric.unit) if defined else "",
-        spread=", ".join([*given, *_instant(metric)]) if defined else "", verdict=verdict_text(metric),
+        spread=", ".join([*given, *instant]) if defined else "", verdict=verdict_text(metric),
         tone="doubtful" if metric.broken else metric.verdict.replace(" ", "-"),
         band="" if band is None else band.text, bar=_bar(metric),
     )  # fmt: skip
-
-
-def _instant(metric: Metric) -> list[str]:
-    """`at 0.990 s`, where the remark says when an event was."""
-    found = INSTANT.search(metric.remark)
-    return [found[0].replace(" ", "\N{NO-BREAK SPACE}")] if found else []
 
 
 def _bar(metric: Metric) -> Bar | None:

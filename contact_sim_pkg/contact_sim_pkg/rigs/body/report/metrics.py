@@ -44,7 +44,9 @@ def _impulses(
     """
     found, block = bursts(contact, rests), recording.scene.get("block") or {}
     yield make("contacts", "contacts", len(found), "")
-    yield make("impulse_largest", "largest impulse", max(found, default=0.0), "N s", count=len(found))
+    largest = max(found, key=lambda each: each.impulse, default=None)
+    yield make("impulse_largest", "largest impulse", largest.impulse if largest else 0.0, "N s", count=len(found),
+               remark=f"at {largest.start:.3f} s" if largest else "")  # fmt: skip
     total = float(contact.normal.sum()) * contact.sample_period
     name = next((each for each in motion.velocity if each.endswith("z")), "")
     if not name or not block.get("mass") or (block.get("ground") or {}).get("slope") or any(block.get("force") or ()):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from contact_sim_pkg.report.series import ContactSeries, MotionSeries
@@ -22,12 +24,21 @@ def rest_from(motion: MotionSeries) -> float | None:
     return float(motion.time[moves[-1]] + motion.sample_period) if moves[-1] < len(motion.time) - 1 else None
 
 
-def bursts(contact: ContactSeries, rests: float | None = None) -> list[float]:
-    """Normal impulse in [N s] of each run of samples with a force, up to the instant in [s] from which the body
-    ``rests``: what it weighs after it is no impulse of an impact.
+class Burst(NamedTuple):
+    """A run of samples with a force."""
+
+    start: float
+    """[s]"""
+    impulse: float
+    """[N s], normal"""
+
+
+def bursts(contact: ContactSeries, rests: float | None = None) -> list[Burst]:
+    """Each run of samples with a force, up to the instant in [s] from which the body ``rests``: what it weighs after it
+    is no impulse of an impact.
     """
     moving = np.ones(contact.time.size, bool) if rests is None else contact.time < rests - 0.5 * contact.sample_period
     carries = np.concatenate([[False], (contact.normal > 0.0) & moving, [False]])
     edges = np.flatnonzero(np.diff(carries.astype(np.int8)))
     sums = np.concatenate([[0.0], np.cumsum(contact.normal)]) * contact.sample_period
-    return [float(sums[last] - sums[first]) for first, last in edges.reshape(-1, 2)]
+    return [Burst(float(contact.time[first]), float(sums[last] - sums[first])) for first, last in edges.reshape(-1, 2)]

@@ -84,11 +84,13 @@ def largest_forces(recording: Recording) -> list[Metric]:
     window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period
     make, errors, largest = Maker(TIRE, f"{TIRE}/force", window).make, errors_of(recording), float(contact.normal.max())
     found = [make("fz_largest", "F_z of the tire, largest", largest, "N", count=contact.normal.size, basis=EVENT,
-                  error=errors.largest(TIRE, "force") * largest)]  # fmt: skip
+                  error=errors.largest(TIRE, "force") * largest,
+                  remark=f"at {contact.time[contact.normal.argmax()]:.3f} s")]  # fmt: skip
     if axle is not None:
         along = np.abs(axle.longitudinal)
         found.append(make("fx_largest", "F_x of the tire, largest", along.max(), "N", topic=f"{TIRE}/axle", count=along.size,
-                          basis=EVENT, error=errors.largest(TIRE, "force") * largest))  # fmt: skip
+                          basis=EVENT, error=errors.largest(TIRE, "force") * largest,
+                          remark=f"at {axle.time[along.argmax()]:.3f} s"))  # fmt: skip
     return found
 
 
