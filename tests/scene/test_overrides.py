@@ -4,6 +4,7 @@ import pytest
 
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.overrides import set_duration, set_pace, set_rate, set_road, set_value, set_vibration
+from contact_sim_pkg.scene.resolve import load_resolved
 
 
 @pytest.mark.parametrize(
@@ -152,3 +153,14 @@ def test_a_relative_file_counts_from_the_current_folder(maker, tmp_path, monkeyp
 def test_the_kind_of_a_road_file_follows_from_its_name_and_content(maker, tmp_path, name, text, kind):
     (tmp_path / name).write_text(text)
     assert maker.load("tire", overrides=[set_road(tmp_path / name)]).road.kind == kind
+
+
+@pytest.mark.parametrize("assignment", ["road.file=own.csv", "road={kind: profile, file: own.csv}"])
+def test_a_file_counts_from_the_current_folder(tmp_path, monkeypatch, assignment):
+    """Where it is there; else the name stays, for the folder of the scene."""
+    monkeypatch.chdir(tmp_path)
+    assert "/" not in str(set_value(assignment).node)
+    (tmp_path / "own.csv").write_text("x,z\n0,0\n60,0\n", encoding="utf-8")
+    values = [assignment] if "kind" in assignment else ["road={kind: profile, file: other.csv}", assignment]
+    scene = load_resolved("tire_bump", *values)
+    assert scene.files["road.file"] == tmp_path / "own.csv"

@@ -16,6 +16,8 @@ from contact_sim_pkg.scene.yaml.nodes import ListNode, MappingNode, Mark, Node, 
 
 TIED_TO_FILE = {"road": ("start", "sha256", "header_line"), "vibration": ("start", "sha256", "rate", "time_column")}
 """Keys that say something about one file and go when another file takes its place."""
+FILE = "file"
+"""Key of an input file, in whatever section."""
 REMOVED = "null"
 """Value of `--set` that takes a key out of the scene, an effect for instance."""
 
@@ -40,7 +42,8 @@ class Override:
 
 def set_value(assignment: str, option: str = "--set ") -> Override:
     """`--set a.b.c=value`; the value is read as YAML, items of lists are counted from 0. `null`
-    removes the key. `option` stands before the assignment in a sentence on a fault.
+    removes the key. A key `file` counts from the current folder, or, where nothing is there, from that of the scene.
+    `option` stands before the assignment in a sentence on a fault.
 
     Raises:
         SceneError: no `=`, an empty key, or a value that is not YAML.
@@ -51,7 +54,18 @@ def set_value(assignment: str, option: str = "--set ") -> Override:
     if not equals or not all(keys):
         raise SceneError([Fault(option, 0, 0, "", "is not of the form a.b.c=value")])
     node = None if text.strip() == REMOVED else parse_value(text, option)
-    return Override(option, keys, node)
+    return Override(option, keys, _from_here(keys[-1], node))
+
+
+def _from_here(key: str, node: Node | None) -> Node | None:
+    """A node with the files of the current folder by their whole path: the value of a key `file`, or of one below."""
+    if isinstance(node, MappingNode):
+        for below, value in node.entries.items():
+            node.entries[below] = _from_here(below, value) or value
+    elif key == FILE and isinstance(node, ScalarNode) and Path(node.raw).is_file():
+        absolute = str(Path(node.raw).absolute())
+        return ScalarNode(node.mark, absolute, absolute, quoted=True)
+    return node
 
 
 def set_duration(text: str | float) -> Override:
