@@ -43,12 +43,13 @@ class Observer(Protocol):
 class _Observed:
     """A simulation and those who look at it; all else is the simulation's."""
 
-    reset = None
-    """It is made anew: nobody knows what an observer remembers."""
+    reset = STATE = None
+    """It is made anew, and not saved: nobody knows what an observer remembers."""
 
     def __init__(self, simulation: BlockSimulation, observers: Mapping[str, tuple[Observer, str]]) -> None:
         """``observers``: of an effect by its dotted name, with the topic that it announces."""
         self._simulation, self._observers = simulation, observers
+        self.undeclared = ", ".join(observers)
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._simulation, name)

@@ -16,6 +16,7 @@ from contact_sim_pkg.report.export.time_series import Series, series_of
 from contact_sim_pkg.run.block_simulation import InputBlock, Resettable
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.rigs import make_simulation
+from contact_sim_pkg.run.saved_state import load_state, save_state
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
@@ -129,6 +130,20 @@ class ContactBench:
             self._build(self.scene)
         self._block, self._is_broken = 0, False
 
+    def save(self) -> bytes:
+        """The state between two steps, as bytes: `load` goes on from it with the same bits, here, in another bench of
+        the scene, or in another process. Raises StateError where a part of the scene declares no state.
+        """
+        self._refuse_broken()
+        return save_state(self._simulation, self._block, self.scene)
+
+    def load(self, data: bytes) -> None:
+        """Go back, or on, to a state that was saved. Raises StateError, and changes nothing, where the bytes are damaged,
+        or of another scene, bench, version or processor.
+        """
+        self._block = load_state(data, self._simulation, self.scene)
+        self._is_broken = False
+
     def step(self, duration: float | None = None, vibration: ArrayLike | None = None) -> Step:
         """Simulate on, and return what the topics hold.
 
@@ -143,8 +158,7 @@ class ContactBench:
             RunError: the scene is over, or the physics ended in a named failure; then only `reset` goes on.
         """
         count = self._count(duration)
-        if self._is_broken:
-            raise RunError("the run ended in a failure; reset the bench")
+        self._refuse_broken()
         if self._block + count > self.blocks:
             raise RunError(
                 f"the scene ends at {self.blocks * self.block_length:g} s, it is {self.time:g} s; give it a longer duration"
@@ -178,6 +192,10 @@ class ContactBench:
             for each in blocks if isinstance(each, VibrationBlock)
         ]  # fmt: skip
         return numpy.concatenate([*(each[:-1] for each in parts), parts[-1][-1:]])
+
+    def _refuse_broken(self) -> None:
+        if self._is_broken:
+            raise RunError("the run ended in a failure; reset the bench, or load a state")
 
     def _refuse_still(self) -> None:
         if VIBRATION not in self._sources:

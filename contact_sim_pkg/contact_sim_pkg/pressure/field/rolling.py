@@ -46,6 +46,7 @@ from contact_sim_pkg.pressure.field.solver import (
     solve_at_load,
 )
 from contact_sim_pkg.pressure.field.window import GridWindow, Part, copy_window, make_part, write_window
+from contact_sim_pkg.records.state import State
 
 __all__ = ["RollingField"]
 
@@ -86,6 +87,15 @@ class RollingField:
     solves there; `pressure` [Pa] is the field. A solve without `roll` repeats the instant: it
     starts from the last field, which it replaces.
     """
+
+    STATE = State(
+        ("pressure",),
+        (
+            "_last.value", "_before.value", "_instants", "_cells", "_box", "_lengths", "_taken", "_same", "_half",
+            "_cells_of_half",
+        ),
+        ("_last.value", "_before.value"),
+    )  # fmt: skip
 
     def __init__(self, half_space: HalfSpace) -> None:
         """Take the whole grid; tables of a window's size are made when it first comes (about 1 ms)

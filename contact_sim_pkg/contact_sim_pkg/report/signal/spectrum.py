@@ -10,6 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_sim_pkg.records.state import State
+
 SEGMENT_TIME = 4.0
 """[s] a segment of a long record: 0.25 Hz resolution, fine for a seat's resonance at 4 Hz (1 Hz
 wide or more).
@@ -93,6 +95,8 @@ class Welch:
     segment removed. It keeps one segment of samples and the sums over all of them, so the parts do
     not change the result. Source: Welch 1967, IEEE Trans. Audio Electroacoust. 15.
     """
+
+    STATE = State(("_segment", "_filled", "_sums", "segments"))
 
     def __init__(self, signals: int, length: int, sample_rate: float) -> None:
         """Begin without a sample.

@@ -23,6 +23,7 @@ from contact_sim_pkg.integrate.dormand_prince import (
 )
 from contact_sim_pkg.laws.parameters import Friction, NormalElastic
 from contact_sim_pkg.laws.restitution import LOWEST_RESTITUTION, damping_of_restitution
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody, contact_count, fitted_ground, load_acceleration
 from contact_sim_pkg.rigid.bodies.body_state import IntegrationSpan, places_of
 from contact_sim_pkg.rigid.bodies.flight import body_size
@@ -113,6 +114,12 @@ def _stored(rig: CompliantBody, state: Vector) -> tuple[float, float]:
 
 class CompliantMotion:
     """One body on compliant contact, and the state of its run. ``motion`` changes in place."""
+
+    STATE = State(
+        ("motion", "state", "mode", "time", "stored", "dissipated"),
+        ("work.event_direction", "work.step", "work.last_event", "work.counters"),
+        ("motion",),
+    )
 
     def __init__(
         self, body: RigidBody, ground: Ground, motion: Motion, contact: CompliantLaw, tolerance: float

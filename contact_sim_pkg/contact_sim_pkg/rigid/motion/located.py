@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigid.bodies import active_contacts
 from contact_sim_pkg.rigid.bodies.body import Ground, Motion, RigidBody, contact_count, fitted_ground, load_acceleration
 from contact_sim_pkg.rigid.bodies.flight import body_size
@@ -73,6 +74,8 @@ class LocatedImpact(NamedTuple):
 
 class LocatedBody:
     """One body over a ground, and the state of its run. ``motion`` changes in place."""
+
+    STATE = State(("motion", "work.flags", "work.feature", "_loop.run", "impulse"), held=("motion",))
 
     def __init__(
         self,

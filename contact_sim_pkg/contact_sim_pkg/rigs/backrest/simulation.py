@@ -12,6 +12,7 @@ from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.pressure.mat import spread_force
 from contact_sim_pkg.records.messages import VibrationBlock
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.backrest import entries
 from contact_sim_pkg.rigs.backrest.model import build_backrest
 from contact_sim_pkg.rigs.backrest.motion import event_count
@@ -30,6 +31,11 @@ class BackrestSimulation:
     """Owns the state of a run: a ``BlockSimulation`` (run/block_simulation.py)."""
 
     inputs: tuple[str, ...] = (VIBRATION,)
+    STATE = State(
+        ("state", "_mode", "_peak_force", "_next_block"),
+        ("_work.event_direction", "_work.step", "_work.last_event"),
+        ("_mode",),
+    )
 
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the parameters of a resolved scene; the back rests under its preload."""

@@ -9,6 +9,7 @@ import numpy
 import scipy  # its parts are imported on use: they take 0.1 to 0.3 s
 from numpy.typing import NDArray
 
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigid.bodies.body import Motion, rise_to_ground
 from contact_sim_pkg.rigid.bodies.motion import ACTIVE
 from contact_sim_pkg.rigid.motion.compliant import CompliantMotion, sentence_of
@@ -33,6 +34,7 @@ class BlockBodySimulation:
     """
 
     inputs: tuple[str, ...] = ()
+    STATE = State(("body", "_next_block", "_supplied"))
 
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the parameters of a resolved scene."""

@@ -14,6 +14,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.impact.model import FirstContact, ImpactModel, Release
 from contact_sim_pkg.rigs.impact.theory.closed_form.flight import Flight, fall, rebound
 from contact_sim_pkg.rigs.impact.theory.contact import (
@@ -93,6 +94,8 @@ class FinishedImpact(NamedTuple):
 
 class ImpactMotion:
     """The sphere's motion. ``state(times)`` gives it, ``pop_ended`` the impacts that ended."""
+
+    STATE = State(("_release", "_bounces", "_impacts", "_ended", "_contact", "_touch", "segments", "made"))
 
     def __init__(self, model: ImpactModel) -> None:
         """The first release, at time 0."""

@@ -12,6 +12,7 @@ import time
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.impact.model import build_impact
 from contact_sim_pkg.rigs.impact.motion import FinishedImpact, ImpactMotion
 from contact_sim_pkg.rigs.impact.outputs import block_outputs
@@ -29,6 +30,7 @@ class ImpactSimulation:
     """Owns the state of a run: a ``BlockSimulation`` (run/block_simulation.py)."""
 
     inputs: tuple[str, ...] = ()
+    STATE = State(("motion", "_next_block"))
 
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the model of a resolved scene; raises SceneError where a release is outside it, or

@@ -8,6 +8,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.model import RollerModel
 from contact_sim_pkg.rigs.roller.theory.motion import (
@@ -33,6 +34,8 @@ SMALL_PHASE = 0.02
 
 class TiltYaw:
     """Tilt and yaw from the static angles on."""
+
+    STATE = State(("state", "_load", "_shifted"), ("rule",))
 
     def __init__(self, model: RollerModel, load: float) -> None:
         """At rest, off the static angles under `load` [N] by the start angles of the scene."""

@@ -14,6 +14,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.excitation.blocks import Surface
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.records.fields import given
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.model import RollerModel
 from contact_sim_pkg.rigs.roller.theory.corrugation import moving_mean, wear
@@ -73,6 +74,11 @@ class TrackRide:
     """The tracks, their wear, and the heave of the roller on them. An interval is a turn of the
     (larger) body with a track.
     """
+
+    STATE = State((
+        "tracks", "intervals", "state", "loads", "motion", "curvatures", "free", "heave", "_pressed", "_yaw", "_height",
+        "_coefficient", "_shifted",
+    ))  # fmt: skip
 
     def __init__(self, model: RollerModel, road: Surface | None) -> None:
         """Heights at the start; `road` is ridden as well."""

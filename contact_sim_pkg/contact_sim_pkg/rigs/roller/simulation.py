@@ -9,6 +9,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.messages import RollerStability
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.roller.block_motion import Matrix, TiltYaw
 from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.forecast import forecast
@@ -39,6 +40,7 @@ class RollerSimulation:
     """
 
     inputs: tuple[str, ...] = ()
+    STATE = State(("_ride", "_angles", "_next_block"))
 
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the model of a resolved scene."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.fields import given
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.roller.damage import Table, damage_table
 from contact_sim_pkg.rigs.roller.model import RollerModel
 from contact_sim_pkg.rigs.roller.schema import Damage, TrackWaves
@@ -34,6 +36,8 @@ class BodyTrack:
     axial: Vector  # [cells] [m] x_c of the last interval; none where the tilt is fixed
     turned: int = 0
     lowered: float = 0.0  # [m]
+
+    STATE: ClassVar[State] = State(("heights", "loads", "axial", "turned", "lowered", "track"))
 
     def copy(self) -> BodyTrack:
         """With heights of its own."""

@@ -11,6 +11,7 @@ import numpy
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.coupling_rule import request_cautions
 from contact_sim_pkg.rigs.vehicle.field.driver import FieldRecord
 from contact_sim_pkg.rigs.vehicle.model import Model, build
@@ -34,6 +35,8 @@ class Simulation:
     """Owns the state of a run. ``prepare`` once, then ``advance`` block by block, in order
     from 0.
     """
+
+    STATE = State(("_first_block", "_next_block", "_start_energy", "_coupling"), ("_response",))
 
     def __init__(self, scene: ResolvedScene, model: Model | None = None) -> None:
         """Build the parameters of a resolved scene, unless its ``model`` is given."""

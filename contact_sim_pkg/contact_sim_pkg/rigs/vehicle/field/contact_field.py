@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy
 from numpy.typing import NDArray
@@ -27,6 +28,7 @@ from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, refuse_bad_gap
 from contact_sim_pkg.pressure.field.window import Part
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt, widened
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.envelopment import yielding_of
 from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening, line_loads
 from contact_sim_pkg.scene.errors import Fault, SceneError
@@ -71,6 +73,10 @@ class PressureField:
     """One pressure field that follows its contact: influence tables, buffers, and the last
     solution.
     """
+
+    STATE = State(
+        ("_field", "softening", "load", "_approach", "unsettled"), ("_row", "closer", "residual", "iterations")
+    )
 
     def __init__(self, settings: FieldSettings, contact: str, softening: Softening | None = None) -> None:
         """Make tables and buffers for ``settings``; ``contact`` (``tire``, ``seat``) is its name in
@@ -198,6 +204,8 @@ class FieldGrids:
     """The pressure field of one contact, and the wider one that takes over where the contact
     outgrows it.
     """
+
+    STATE: ClassVar[State] = State(("usual", "wide"))
 
     usual: PressureField
     wide: PressureField

@@ -9,6 +9,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -101,6 +102,8 @@ class MeasuredWay:
     by the root mean square of what the checked ones missed over their way. Only few are checked: of
     values with a root mean square sigma the largest of some hundred is about `UNLUCKY` sigma.
     """
+
+    STATE = State((), ("longest", "_square"))
 
     def __init__(self, first: float, shortest: float, tolerance: float = FOR_TOLERANCE) -> None:
         """``first`` [m]: way that a run begins with; ``shortest`` [m]: no bound is less; ``tolerance``

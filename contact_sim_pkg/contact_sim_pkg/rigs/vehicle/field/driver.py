@@ -14,6 +14,7 @@ from contact_sim_pkg.laws.elastic_law import elastic_force
 from contact_sim_pkg.laws.normal_force import factor_of
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.contact_field import (
     FieldEdgeError,
     FieldError,
@@ -62,6 +63,11 @@ class ContactField(ABC):
     ``correction`` [m] is the effective-height correction: what the field adds to the smooth height,
     0 without a field.
     """
+
+    STATE = State(
+        ("grids", "correction", "published", "travel"),
+        ("_solved", "_since", "_slope", "_count", "_is_first", "as_predicted", "_solved_on", "closer"),
+    )
 
     is_static = False  # the gap has always the same form
     is_viscoelastic = False  # the field at the end of each coupling step acts on those after it

@@ -27,6 +27,7 @@ from contact_sim_pkg.compiled.held import Held, hold
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.pressure.field.outside import total_of_row
 from contact_sim_pkg.pressure.settings import InflatedBelt
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import arc_force, inflated_influence, membrane_stiffness
 
 __all__ = ["Softening", "line_loads"]
@@ -81,6 +82,8 @@ class Softening:
     gap raised by `opening`, on a belt that `yields` more. Grids of any number of rows share it, middle
     on middle.
     """
+
+    STATE = State(("_borne",), ("_ring", "_placed", "_part"), ("_borne", "_ring"))
 
     load: Field
     """D [N/m]."""

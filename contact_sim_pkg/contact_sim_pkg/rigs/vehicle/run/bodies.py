@@ -12,6 +12,7 @@ from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.held import hold
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.model import Model, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import entries
 from contact_sim_pkg.rigs.vehicle.motion.columns import FORCES
@@ -62,6 +63,8 @@ class Bodies:
     """State of the bodies of ``model``; heights are smooth heights and what the fields add
     to them.
     """
+
+    STATE = State(("state", "mode"), ("work.event_direction", "work.step", "work.last_event"))
 
     def __init__(self, model: Model) -> None:
         """Make the buffers."""

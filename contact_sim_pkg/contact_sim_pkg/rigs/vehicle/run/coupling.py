@@ -29,6 +29,7 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.contact_field import law_at
 from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
     STRAIGHT,
@@ -73,6 +74,11 @@ class StepOutcome(NamedTuple):
 
 class Coupling:
     """Bodies and their contact fields; ``start`` once, then ``advance`` interval by interval."""
+
+    STATE = State(
+        ("bodies", "tire", "seat", "shear", "_slope"),
+        ("_proposed", "_before", "_largest", "missed", "_way", "_check"),
+    )
 
     def __init__(self, model: Model) -> None:
         """Make the buffers and contact fields of ``model``."""

@@ -20,6 +20,7 @@ from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force, e
 from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
 from contact_sim_pkg.pressure.field.patch import contact_area
 from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, FieldGrids, PressureField, make_grids
 from contact_sim_pkg.rigs.vehicle.field.coupling_rule import extent_of
 from contact_sim_pkg.rigs.vehicle.field.driver import ContactField
@@ -99,6 +100,8 @@ class MissedSoFar:
     times the usual one.
     """
 
+    STATE = State((), ("_square", "_block"))
+
     def __init__(self) -> None:
         """No check yet."""
         self._square, self._block = [math.nan] * COLUMNS, [0.0] * COLUMNS
@@ -132,6 +135,8 @@ def _errors(middle: Missed, grid: Missed) -> tuple[float, ...]:
 
 class Halved:
     """The grid of a contact with half as many cells each way."""
+
+    STATE = State((), ("_field", "_usual"))
 
     def __init__(self, settings: FieldSettings, contact: str, *, at_edge: bool) -> None:
         """Make the grid; it has the same extent. ``at_edge``: of the road that no grid resolves."""
@@ -181,6 +186,8 @@ class Halved:
 
 class CouplingCheck:
     """Checks of the coupling steps of one run. ``is_due`` after each step, then ``look``."""
+
+    STATE = State((), ("_pause", "_since", "_usual", "_way", "_tire", "_seat", "_level", "_halves"))
 
     def __init__(self, model: Model, tire: RoadField, seat: CushionField) -> None:
         """Make the fields for a ``model`` whose run has the fields ``tire`` and ``seat``."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.messages import BodyMotion, SeatResponse
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.report.signal.metrics import seat_factor, weighted_rms
 from contact_sim_pkg.report.signal.spectrum import Transmissibility, Welch, band
 from contact_sim_pkg.run.outputs import BlockStamps
@@ -29,6 +30,8 @@ class RunningResponse:
     """Estimate of the responses over all segments since the start of a run, from what `seat/force`
     and `bench/motion` carry. Parts of the run change nothing: blocks may have any length.
     """
+
+    STATE = State(("_welch",))
 
     def __init__(self, segment_length: float, sample_rate: float, head: int | None) -> None:
         """Begin a run.

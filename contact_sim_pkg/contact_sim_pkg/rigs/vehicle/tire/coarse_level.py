@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.laws.parameters import ElasticLaw, TabulatedElastic
 from contact_sim_pkg.pressure.field.patch import contact_area
 from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, PressureField, approach_at
 from contact_sim_pkg.rigs.vehicle.field.sidewalls import line_loads
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
@@ -94,6 +95,8 @@ def slope_under(form: TireForm, field: PressureField, pressure: NDArray[numpy.fl
 
 class CoarseLevel:
     """Solve it ``at`` a place beside each published field, ``renew`` the offset, and add it between them (``with_offset``)."""
+
+    STATE = State((), ("field", "_offset", "_square", "_between", "_usual_between", "peak_differs", "area_differs"))
 
     def __init__(self, usual: FieldSettings, contact: str, geometry: TireGeometry, allowed: float) -> None:
         """Make the level of a field with a ``usual`` grid; its offset may move by a part of an ``allowed`` height [m]."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.laws.parameters import Contact, TabulatedElastic
 from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, InflatedBelt
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, FieldGrids, PressureField, approach_at
 from contact_sim_pkg.rigs.vehicle.field.driver import AT_REST, ContactField, FieldRecord, Gap
 from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening
@@ -33,6 +34,11 @@ MOST_STEPS = 600
 
 class RoadField(ContactField):
     """Field of the road under the tire; ``place`` sets the wheel before a field is solved."""
+
+    STATE = State(
+        (*ContactField.STATE.physics, "_tread_state"),
+        (*ContactField.STATE.solver, "level", "_between", "_coarse", "_offset"),
+    )
 
     def __init__(
         self, grids: FieldGrids | None, contact: Contact | None, geometry: TireGeometry | None, tread: Tread | None

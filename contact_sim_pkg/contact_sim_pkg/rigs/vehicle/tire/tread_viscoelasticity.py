@@ -42,6 +42,7 @@ from scipy.linalg import toeplitz
 from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.pressure.field.halfspace import displacement, make_buffers, make_half_space
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import inflated_influence, rubber_share, stiffened
 from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
 
@@ -68,6 +69,8 @@ class _Memory:
     """A displacement [m] with its branches, from field instant to field instant: of the tread
     [rows, cols], or of the belt [rows, 1].
     """
+
+    STATE = State(("_displacement", "_branches", "gap"))
 
     def __init__(self, tread: TreadViscoelasticity, step: float, shape: tuple[int, int]) -> None:
         self._viscous, self._weights, self._decay = _weights(tread, step)
@@ -121,6 +124,8 @@ class TreadState:
     `move_to` the row of the instant, solve with the gap raised by `gap`, then `store` the pressure
     that was found.
     """
+
+    STATE = State(("_tread", "_belt", "_row", "gap"))
 
     def __init__(
         self, settings: FieldSettings, relaxed: float, tread: TreadViscoelasticity, step: float,

@@ -11,6 +11,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.tire.brush.belt_motion import (
     BELT_SAMPLES,
     BELT_STATES,
@@ -100,6 +101,14 @@ class Sheared(NamedTuple):
 
 class RollingShear:
     """Bristles and belt of one tire; ``start`` once, then ``roll`` from field to field, in order."""
+
+    STATE = State(
+        (
+            "_bristles", "_belt", "_time", "_travel", "_speed", "_angle", "_slopes", "_rolling", "_radius", "_last", "_result",
+            "_load", "_moving", "_shear_x", "_shear_y", "_state",
+        ),
+        held=("_bristles",),
+    )  # fmt: skip
 
     def __init__(self, friction: RollingFriction, wide: FieldSettings) -> None:
         """Bristles on the ``wide`` grid: smaller fields lie in its middle."""
