@@ -74,4 +74,6 @@ def new_command(name: str, like: str | None) -> None:
             file.write(own)
     except FileExistsError:
         raise FileRefusedError(path, "exists already and is never overwritten; give another name") from None
+    except FileNotFoundError:
+        raise FileRefusedError(path, "its directory is not there; make it first") from None
     say(f"{path}: made from {like}, see its first comment; run it: bench run {path}")

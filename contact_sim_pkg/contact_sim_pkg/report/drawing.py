@@ -102,8 +102,8 @@ class Picture(NamedTuple):
 class Margins(NamedTuple):
     """Room round and between the axes of a figure, in [inch]: fixed, for finding it by drawing doubles the work."""
 
-    left: float = 0.84
-    right: float = 0.16
+    left: float = 0.88
+    right: float = 0.26
     top: float = 0.32
     bottom: float = 0.46
     across: float = 0.78

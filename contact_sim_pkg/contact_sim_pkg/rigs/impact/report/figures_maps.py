@@ -22,7 +22,7 @@ def stress_over_radius(impacts: ImpactSeries) -> Picture | None:
     stress = impacts.stress
     if stress is None:
         return None
-    figure, axes = new_figure(2.8, 1, 3, Margins(right=0.4, across=0.35), sharey=True)
+    figure, axes = new_figure(2.8, 1, 3, Margins(right=0.6, across=0.4), sharey=True)
     reach: FloatArray = np.linspace(0.0, float(stress.radius.max()), RADII, dtype=np.float64)
     parts = (("elastic", stress.elastic), ("viscous", stress.viscous), ("sum", stress.elastic + stress.viscous))
     usual = LIMIT * float(stress.elastic.max()) * 1e-6 or 1.0

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.report.drawing import ACCENT, INK, Picture, draw_series, legend_above, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, INK, Margins, Picture, draw_series, legend_above, new_figure, picture
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.rigs.roller.model import build_roller
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries
@@ -16,6 +16,8 @@ from contact_sim_pkg.rigs.roller.theory.stability import RollerError, stability
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 OTHER = "#e08a2e"
+SMALL = Margins(left=1.05, shared=0.28)
+"""Room for the long tick labels of small motions."""
 LEAST_CHANGE = 1e-3  # of a value's mean: less is drawn as a level line
 MAP_ROWS = 25
 SPECTRUM_PARTS = 60
@@ -25,7 +27,7 @@ def pressure_and_volume(roller: RollerSeries) -> Picture:
     """Largest pressure and, where the scene reports it more than once, the dangerous volume of any stress over time."""
     pressure = roller.contact.peak_pressure * 1e-6
     several = len(roller.volumes) > 1
-    figure, axes = new_figure(3.2 if several else 2.0, 2 if several else 1, sharex=True)
+    figure, axes = new_figure(3.2 if several else 2.0, 2 if several else 1, margins=SMALL, sharex=True)
     draw_series(axes[0], roller.time, pressure, color=ACCENT, linewidth=0.9)
     axes[0].set_ylabel("p₀, MPa")
     axes[0].set_ylim(bottom=0.0)
@@ -46,7 +48,7 @@ def pressure_and_volume(roller: RollerSeries) -> Picture:
 def contact_over_time(roller: RollerSeries) -> Picture:
     """Semi-axes, area, pressure, approach and load over time: the paper's figure 10."""
     c, time = roller.contact, roller.time
-    figure, axes = new_figure(4.8, 5, sharex=True)
+    figure, axes = new_figure(5.2, 5, margins=SMALL, sharex=True)
     for values, colour, label in ((c.along_x, ACCENT, "nearer to x"), (c.along_y, OTHER, "nearer to y")):
         axes[0].plot(*envelope(time, values * 1e3), color=colour, label=label, linewidth=0.9)
     legend_above(axes[0])
@@ -80,7 +82,7 @@ def motion_over_time(roller: RollerSeries) -> Picture | None:
     rows = [(values, label) for values, label in rows if np.ptp(values) > 0.0]
     if not rows:
         return None
-    figure, axes = new_figure(0.8 + 1.3 * len(rows), len(rows), sharex=True)
+    figure, axes = new_figure(0.8 + 1.4 * len(rows), len(rows), margins=SMALL, sharex=True)
     for place, (values, label) in zip(axes, rows, strict=True):
         draw_series(place, roller.time, values, color=ACCENT, linewidth=0.7)
         place.set_ylabel(label)

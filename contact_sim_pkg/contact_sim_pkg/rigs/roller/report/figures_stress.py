@@ -79,6 +79,7 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
             ax.set_xlabel("x, mm")
             ax.set_ylabel(label)
             ax.set_aspect("equal")
+            ax.locator_params(axis="x", nbins=3)
             if row == 1:
                 ax.invert_yaxis()
             bar = figure.colorbar(image, ax=ax, shrink=0.7)
