@@ -32,6 +32,8 @@ COEFFICIENTS: dict[str, float] = {
 }  # fmt: skip
 """Every coefficient, and its value where the file has none; nan: it must be there."""
 
+STANDING = ("WIDTH", "VERTICAL_STIFFNESS", "LCZ", "Q_FZ1", "Q_FZ2", "PFZ1", "Q_RA1", "Q_RA2", "Q_RB1", "Q_RB2")
+"""Of the vertical law and the contact, `property_file/magic_formula.py`."""
 FIRST_WITH_INFLATION = 60  # FITTYP
 NOT_MODELLED = {"LMUV": 0.0, "LGAX": 1.0, "LGAY": 1.0, "LGAZ": 1.0}
 """Scalings of what is not here (camber of 5.2, friction over slip speed), with the value that has no effect."""
