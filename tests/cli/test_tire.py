@@ -131,6 +131,8 @@ def test_bad_input_of_a_test_is_one_sentence(tmp_path, capsys):
         (("modes", "tire_cleat", *out, "--beside", tmp_path / "none.tir"), "none.tir"),
         (("modes", "tire_cleat", *out, "--beside", write(tmp_path)), "the Magic Formula needs PCX1, PDX1"),
         (("modes", "no_such", *out), "there is no such scene"),
+        (("modes", tmp_path / "none.tir", *out), "none.tir"),
+        (("modes", tmp_path / "none.tir", *out, "--set", "duration=1"), "a property file has none"),
     ):
         assert said in refused(capsys, *arguments)
     assert not (tmp_path / "out").exists()
@@ -157,3 +159,14 @@ def test_a_test_writes_a_table_with_units_a_page_and_junit_with_a_file_beside(tm
     assert main([*called, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert (found["procedures"][0]["again"], found["failed"]) == (4, [])
+
+
+def test_a_file_in_place_of_a_scene_is_fitted_and_stands_beside_itself(tmp_path, capsys):
+    file, out = tmp_path / "whole.tir", tmp_path / "out"
+    file.write_text(tir_text(LFZO=1.0))
+    options = ("--at", "load=4100", "--at", "inflation=217e3", "--jobs", "1")
+    assert main(["tire", "test", "stiffness", str(file), "--out", str(out), *options]) == 0
+    _header, own, of_file = csv.reader((out / "stiffness.csv").open())
+    assert (own[0], of_file[0]) == ("bench", "whole.tir")
+    assert float(own[4]) == pytest.approx(float(of_file[4]), rel=0.1)
+    assert float(of_file[4]) == pytest.approx(207000.0, rel=1e-9)

@@ -16,6 +16,7 @@ from contact_sim_pkg.cli.output.working import doing
 
 if TYPE_CHECKING:
     from contact_sim_pkg.records.procedure import Procedure
+    from contact_sim_pkg.rigs.vehicle.machines.specimen import Specimen
     from contact_sim_pkg.rigs.vehicle.tire.magic_formula.coefficients import MagicFormula
     from contact_sim_pkg.sweep.procedure import Tested
 
@@ -24,7 +25,7 @@ ALL = "all"
 
 @click.command("test")
 @click.argument("name", required=False, metavar="NAME|all")
-@click.argument("scene", required=False)
+@click.argument("scene", required=False, metavar="SCENE|FILE.tir")
 @click.option("--out", type=click.Path(path_type=Path), default=None, metavar="DIR", help="Folder of tables and pages.")
 @click.option(
     "--at",
@@ -52,13 +53,14 @@ def test_command(
     beside: Path | None, jobs: int | None, junit_file: Path | None, overwrite: bool, as_json: bool,
 ) -> int:  # fmt: skip
     """Run the standard procedure NAME, or all, on the tire of SCENE: a table in SI units and a page with its curves a
-    procedure. Without NAME, list them.
+    procedure. SCENE may be a property file: the tire that is fitted to it, the Magic Formula of the file beside. Without
+    NAME, list them.
 
     The tire is that of the scene's effects, alone on a test machine: its road, speed and slip do not count. Cases that
     have run do not run again. Exit code 1 where a case failed.
     """
     from contact_sim_pkg.rigs.vehicle.machines.procedures import QUANTITIES, procedures_of
-    from contact_sim_pkg.rigs.vehicle.machines.specimen import refuse_beyond_law, specimen_of
+    from contact_sim_pkg.rigs.vehicle.machines.specimen import refuse_beyond_law
 
     if name is None:
         from contact_sim_pkg.rigs.vehicle.machines.specimen import USUAL
@@ -72,8 +74,6 @@ def test_command(
     from contact_sim_pkg.files import check_output
     from contact_sim_pkg.rigs.vehicle.tire.magic_formula.coefficients import magic_formula
     from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import read_property_file
-    from contact_sim_pkg.scene.load import load_scene
-    from contact_sim_pkg.scene.overrides import set_value
     from contact_sim_pkg.sweep.procedure import Subject, junit_of, run_procedures, write_tables
     from contact_sim_pkg.sweep.procedure_page import write_test_page
     from contact_sim_pkg.sweep.sweep import check_folder
@@ -82,7 +82,8 @@ def test_command(
     if junit_file is not None:
         check_output(junit_file, overwrite=overwrite)
     began = time.monotonic()
-    specimen = specimen_of(load_scene(scene, [set_value(each) for each in assignments]))
+    specimen, own = _specimen(scene, assignments)
+    beside = beside or own
     chosen = _changed(_chosen(name, procedures_of(specimen)), at)
     subjects = [Subject("bench", specimen.effects)]
     if beside is not None:
@@ -125,6 +126,23 @@ def test_command(
         write_test_page(page, Path(scene).stem, found, QUANTITIES, notes, again)
     _show(found, out, page, time.monotonic() - began, as_json=as_json)
     return 1 if any(each.failures for each in found) else 0
+
+
+def _specimen(scene: str, assignments: tuple[str, ...]) -> tuple[Specimen, Path | None]:
+    """The tire of a scene, or that fitted to a property file, with the file where it has a Magic Formula."""
+    from contact_sim_pkg.rigs.vehicle.machines.specimen import specimen_of, specimen_of_file
+    from contact_sim_pkg.rigs.vehicle.tire.magic_formula.coefficients import has_formula
+    from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import read_property_file
+    from contact_sim_pkg.scene.load import load_scene
+    from contact_sim_pkg.scene.overrides import set_value
+
+    if not scene.lower().endswith(".tir"):
+        return specimen_of(load_scene(scene, [set_value(each) for each in assignments])), None
+    if assignments:
+        raise click.UsageError("--set changes a scene; a property file has none")
+    doing(f"fitting the tire of {Path(scene).name}")
+    tire = read_property_file(Path(scene))
+    return specimen_of_file(tire), Path(scene) if has_formula(tire) else None
 
 
 def _list(procedures: dict[str, Procedure], *, as_json: bool) -> None:

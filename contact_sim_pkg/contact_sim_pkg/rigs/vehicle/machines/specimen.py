@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.records.constants import GRAVITY
@@ -10,12 +11,23 @@ from contact_sim_pkg.records.procedure import ProcedureError
 from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, body_of
 from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.lattice import plain_load
+from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
+from contact_sim_pkg.rigs.vehicle.tire.property_file.scene_keys import scene_tire
 from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation, TireSection
 from contact_sim_pkg.scene.resolve import resolve
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.scene import Scene
 
-__all__ = ["USUAL", "Specimen", "body_at", "refuse_beyond_law", "scene_on", "specimen_of", "table_at"]
+__all__ = [
+    "USUAL",
+    "Specimen",
+    "body_at",
+    "refuse_beyond_law",
+    "scene_on",
+    "specimen_of",
+    "specimen_of_file",
+    "table_at",
+]
 
 WHEEL = 40.0  # [kg]
 ACCURACY = 1e-2
@@ -61,6 +73,21 @@ def specimen_of(scene: Scene) -> Specimen:
         own, plain_load(resolve(scene).data), inflation.pressure,
         {"wheel_mass": car.wheel_mass, "body_mass": car.body_mass, "suspension_stiffness": car.suspension_stiffness},
     )  # fmt: skip
+
+
+def specimen_of_file(tire: PropertyFile) -> Specimen:
+    """The tire that is fitted to a property file, under its nominal load.
+
+    Raises ProcedureError where no tire of the bench is near enough; PropertyFileError as `scene_tire`.
+    """
+    found = scene_tire(tire)
+    if not found.usable:
+        raise ProcedureError(
+            f"{tire.file}: no tire of the bench is near enough to it; bench tire {Path(tire.file).name} says by how much"
+        )
+    load = tire.get("FNOMIN") or USUAL.load
+    own = {name: keys for name, keys in found.effects.items() if name in OWN}
+    return Specimen(own, load, float(found.effects["inflation"]["pressure"]), USUAL.suspension)
 
 
 def scene_on(effects: Effects, conditions: Mapping[str, float], needs: Sequence[str], **parts: Any) -> ResolvedScene:

@@ -11,7 +11,7 @@ from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileE
 from contact_sim_pkg.rigs.vehicle.tire.property_file.keys import IP_FIRST, KEYS, NOMINAL, OPERATING, UNITS
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
 
-__all__ = ["COEFFICIENTS", "MagicFormula", "magic_formula"]
+__all__ = ["COEFFICIENTS", "MagicFormula", "has_formula", "magic_formula"]
 
 NEEDED = ("FNOMIN", "UNLOADED_RADIUS", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1", "PKY2")
 SCALING = "LFZO LCX LMUX LEX LKX LHX LVX LCY LMUY LEY LKY LHY LVY LTR LRES LXAL LYKA LVYKA LS LKYC LKZC LVMX LMX LMY LSGKP LSGAL"
@@ -50,6 +50,11 @@ class MagicFormula(NamedTuple):
     inflation: float  # [Pa] of the file
     stiffness: tuple[float, float] | None  # [N/m] along and across of the carcass, for the relaxation; None: PTX, PTY
     notes: tuple[str, ...]
+
+
+def has_formula(tire: PropertyFile) -> bool:
+    """Whether a file gives the coefficients that are needed."""
+    return all(_number(tire, key) is not None for key in NEEDED)
 
 
 def magic_formula(tire: PropertyFile) -> MagicFormula:
