@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Mapping, Sequence
 from itertools import chain
 from pathlib import Path
@@ -22,12 +23,14 @@ from contact_sim_pkg.sweep.procedure import Tested
 __all__ = ["write_test_page"]
 
 LINES = (ACCENT, "#c4622d", "#5b8c3a", "#8a5aa8", "#b08a1e", "#3aa0a0")
-ROOM = Margins(left=0.8, across=0.95, down=0.72, right=0.18)
+ROOM = Margins(left=0.92, across=1.08, down=0.72, right=0.18)
 MAPS = Margins(left=0.8, right=1.0, across=0.3, down=0.45, top=0.4)
 MOST_ROWS = 120
 NONE = "–"
 COLUMNS = 3
 """Of a legend."""
+LETTERS = 22
+"""Of a line beside an axis, where panels are low."""
 
 Quantities = Mapping[str, Quantity]
 
@@ -111,7 +114,7 @@ def _curves(tested: Tested, sheet: Sheet, curves: Sequence[Curve], quantities: Q
             for label, rows in drawn[curve, subject].items():
                 _draw(axes[place], rows, curve, quantities, labels[label], dashed=number > 0)
         axes[place].set_xlabel(quantities[curve.across].label)
-        axes[place].set_ylabel(quantities[curve.up].label)
+        axes[place].set_ylabel(textwrap.fill(quantities[curve.up].label, LETTERS))
     for unused in axes[len(curves) :]:
         unused.set_visible(False)
     handles = [axes[0].plot([], [], color=colour, label=label)[0] for label, colour in labels.items() if label]
