@@ -30,8 +30,10 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("fit", "out"): ["seat_ride", "--to", "RIDE", "--metric", "seat.SEAT", "--free", "seed=1:2", "--out", "FILE"],
     ("plan", "junit_file"): ["tire_cleat_speeds", "--out", "plans", "--junit", "FILE"],
     ("recover", "target"): ["BAG", "FILE"],
+    ("tire test", "out"): ["modes", "tire_cleat", "--out", "FILE"],
+    ("tire test", "junit_file"): ["modes", "tire_cleat", "--out", "tested", "--junit", "FILE"],
 }
-INPUTS = {"impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag", "file", "tolerances"}
+INPUTS = {"beside", "impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag", "file", "tolerances"}
 
 
 @pytest.fixture(scope="module")
@@ -53,11 +55,18 @@ def call(bag, folder, arguments, file):
     return main([str(known_names.get(argument, argument)) for argument in arguments])
 
 
+def commands_of(name, command):
+    """A command, or those of a group by both names."""
+    below = command.commands if isinstance(command, click.Group) else {}
+    return [(name, command), *((f"{name} {each}", found) for each, found in below.items())]
+
+
 def test_every_path_of_a_command_is_a_known_output_or_an_input():
     paths = {
         (name, parameter.name)
-        for name in (*COMMANDS, *LABORATORY)
-        for parameter in bench.get_command(click.Context(bench), name).params
+        for whole in (*COMMANDS, *LABORATORY)
+        for name, command in commands_of(whole, bench.get_command(click.Context(bench), whole))
+        for parameter in command.params
         if isinstance(parameter.type, click.Path)
     }
     assert {(name, parameter) for name, parameter in paths if parameter not in INPUTS} == set(OUTPUTS)
@@ -67,7 +76,7 @@ def test_every_path_of_a_command_is_a_known_output_or_an_input():
 def test_a_file_of_somebody_else_stays_as_it_is(bag, tmp_path, capsys, output):
     theirs = tmp_path / "theirs.png"
     theirs.write_text("a week's work")
-    assert call(bag, tmp_path, [output[0], *OUTPUTS[output]], theirs) == 2
+    assert call(bag, tmp_path, [*output[0].split(), *OUTPUTS[output]], theirs) == 2
     said = capsys.readouterr().err
     assert "theirs.png" in said
     assert "exists already" in said
@@ -86,7 +95,7 @@ NAMES = {
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("output", OUTPUTS, ids=" ".join)
 def test_a_name_that_no_file_can_have_is_refused_before_anything_starts(bag, tmp_path, capsys, output, name):
-    assert call(bag, tmp_path, [output[0], *OUTPUTS[output]], tmp_path / NAMES[name]) == 2
+    assert call(bag, tmp_path, [*output[0].split(), *OUTPUTS[output]], tmp_path / NAMES[name]) == 2
     printed, said = capsys.readouterr()
     assert printed == ""
     reason = "control character in its name; give another" if name in ("line break", "escape") else "give a shorter one"
@@ -116,7 +125,7 @@ def test_tables_and_pictures_are_overwritten_on_request(bag, tmp_path, capsys):
     for output, name in ((("material", "table"), "a.csv"), (("material", "plot"), "a.png")):
         file = tmp_path / name
         file.write_text("old")
-        assert call(bag, tmp_path, [output[0], *OUTPUTS[output], "--overwrite"], file) == 0
+        assert call(bag, tmp_path, [*output[0].split(), *OUTPUTS[output], "--overwrite"], file) == 0
         assert file.read_bytes() != b"old"
     capsys.readouterr()
 

@@ -2,10 +2,12 @@
 code 2.
 """
 
+import csv
 import json
 
 import pytest
 from click.testing import CliRunner
+from tests.rigs.vehicle.tire.magic_formula.whole_set import tir_text
 from tests.rigs.vehicle.tire.property_file.tir_file import write
 
 from contact_sim_pkg.cli.main import main
@@ -94,3 +96,77 @@ def test_a_bad_file_is_one_sentence_and_exit_code_2(tmp_path, capsys):
         assert sentence in said.err
         assert said.err.count("\n") == 1
     assert main(["tire", str(tmp_path / "none.tir")]) == 2
+
+
+def refused(capsys, *arguments):
+    assert main(["tire", "test", *map(str, arguments)]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert said.startswith(("bench: ", "Error: "))
+    return said
+
+
+def test_without_a_name_the_procedures_are_listed(capsys):
+    assert main(["tire", "test", "--json"]) == 0
+    names = [row["procedure"] for row in json.loads(capsys.readouterr().out)["rows"]]
+    assert len(names) == len({*names}) == 12
+    assert {"stiffness", "cornering", "braking", "combined", "relaxation", "drum", "cleat", "modes"} <= {*names}
+
+
+def test_bad_input_of_a_test_is_one_sentence(tmp_path, capsys):
+    out = ("--out", tmp_path / "out")
+    for arguments, said in (
+        (("cornring", "tire_cleat", *out), "'cornring' is no procedure"),
+        (("cornring", "tire_cleat", *out), "did you mean cornering?"),
+        (("modes", "seat_ride", *out), "has no tire"),
+        (("modes", "tire_half_space", *out), "half-space"),
+        (("modes", "tire_cleat"), "--out DIR"),
+        (("modes",), "Missing argument 'SCENE'"),
+        (("stiffness", "tire_cleat", *out, "--at", "load=60000"), "load 60000 N is beyond the law, which ends at"),
+        (("stiffness", "tire_cleat", *out, "--at", "load=1,2"), "450 to 200000 N is allowed"),
+        (
+            ("stiffness", "tire_cleat", *out, "--at", "lod=1000"),
+            "'lod' is no condition here; there are inflation, load",
+        ),
+        (("stiffness", "tire_cleat", *out, "--at", "load=heavy"), "numbers with commas"),
+        (("modes", "tire_cleat", *out, "--beside", tmp_path / "none.tir"), "none.tir"),
+        (("modes", "tire_cleat", *out, "--beside", write(tmp_path)), "the Magic Formula needs PCX1, PDX1"),
+        (("modes", "no_such", *out), "there is no such scene"),
+        (("modes", tmp_path / "none.tir", *out), "none.tir"),
+        (("modes", tmp_path / "none.tir", *out, "--set", "duration=1"), "a property file has none"),
+    ):
+        assert said in refused(capsys, *arguments)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_test_writes_a_table_with_units_a_page_and_junit_with_a_file_beside(tmp_path, capsys):
+    file, out = tmp_path / "whole.tir", tmp_path / "out"
+    file.write_text(tir_text(QDRP1=1.0))
+    options = ("--at", "load=3000", "--at", "inflation=200e3,220e3", "--beside", str(file), "--jobs", "1")
+    called = ["tire", "test", "stiffness", "tire_cleat", "--out", str(out), *options]
+    assert main([*called, "--junit", str(tmp_path / "tests.xml")]) == 0
+    said = capsys.readouterr()
+    assert "nothing uses" in said.err
+    assert "QDRP1" in said.err
+    header, *rows = csv.reader((out / "stiffness.csv").open())
+    assert header[:5] == ["tire", "inflation [Pa]", "load [N]", "deflection [m]", "stiffness [N/m]"]
+    assert [row[:3] for row in rows] == [
+        ["bench", "200000", "3000"], ["bench", "220000", "3000"], ["whole.tir", "200000", "3000"],
+        ["whole.tir", "220000", "3000"],
+    ]  # fmt: skip
+    assert 'tests="4"' in (tmp_path / "tests.xml").read_text()
+    assert "whole.tir" in (out / "stiffness.html").read_text()
+    # The same command goes on
+    assert main([*called, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["procedures"][0]["again"], found["failed"]) == (4, [])
+
+
+def test_a_file_in_place_of_a_scene_is_fitted_and_stands_beside_itself(tmp_path, capsys):
+    file, out = tmp_path / "whole.tir", tmp_path / "out"
+    file.write_text(tir_text(LFZO=1.0))
+    options = ("--at", "load=4100", "--at", "inflation=217e3", "--jobs", "1")
+    assert main(["tire", "test", "stiffness", str(file), "--out", str(out), *options]) == 0
+    _header, own, of_file = csv.reader((out / "stiffness.csv").open())
+    assert (own[0], of_file[0]) == ("bench", "whole.tir")
+    assert float(own[4]) == pytest.approx(float(of_file[4]), rel=0.1)
+    assert float(of_file[4]) == pytest.approx(207000.0, rel=1e-9)

@@ -21,6 +21,7 @@ FRAME = (*RUN, *NODES, "excitation.roads", "excitation.vibrations")
 LISTS_RIGS = "rigs"
 VEHICLE = (
     ("motion", "field"), ("seat",), ("tire",), ("model", "work"), ("outputs",), ("run",), ("simulation",), ("other_half",),
+    ("machines",),
 )  # fmt: skip
 """Layers of `rigs/vehicle`: a room imports from those before it, and from none beside it."""
 FOLDERS_OF_KINDS = ("excitation.roads", "excitation.vibrations")

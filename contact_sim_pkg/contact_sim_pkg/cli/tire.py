@@ -1,4 +1,4 @@
-"""`bench tire`: scene keys from a tire property file."""
+"""`bench tire`: scene keys from a tire property file, and `bench tire test`, its standard procedures."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import click
 
 from contact_sim_pkg.cli.output.say import say
 from contact_sim_pkg.cli.output.tables import json_option, print_json, show_sections
+from contact_sim_pkg.cli.tire_test import test_command
 
 if TYPE_CHECKING:
     from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
@@ -17,10 +18,32 @@ if TYPE_CHECKING:
 NAMED = 12  # unread keys that are named
 
 
-@click.command("tire")
+class _FileOrCommand(click.Group):
+    """A group whose command may be left out: then the argument is a file."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """With the command put in where there is none."""
+        if args and args[0] not in (*self.commands, "-h", "--help"):
+            args = ["file", *args]
+        return super().parse_args(ctx, args)
+
+    def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
+        """Both uses."""
+        return ["FILE.tir | test NAME|all SCENE --out DIR"]
+
+
+@click.group("tire", cls=_FileOrCommand, no_args_is_help=True)
+def command() -> None:
+    """Scene keys from a tire property file (.tir), or the standard procedures of a tire's test bench."""
+
+
+command.add_command(test_command)
+
+
+@command.command("file")
 @click.argument("file", type=click.Path(path_type=Path), metavar="FILE.tir")
 @json_option
-def command(file: Path, as_json: bool) -> int:
+def file_command(file: Path, as_json: bool) -> int:
     """Scene keys from a tire property file (.tir) of the Magic Formula or MF-Swift.
 
     Shows the keys that are read, in SI units, and what becomes of them; the fitted tire beside the

@@ -15,7 +15,7 @@ __all__ = ["free_figure", "free_place", "is_page", "new_figure_file", "new_page"
 
 OF_ONE, OF_SEVERAL = "report.html", "comparison.html"
 TITLE = re.compile(
-    rb"<title>[^<]* \xe2\x80\x93 Contact Bench (report|comparison|sweep|plan|fit)</title>"
+    rb"<title>[^<]* \xe2\x80\x93 Contact Bench (report|comparison|sweep|plan|fit|test)</title>"
 )  # as in the templates
 
 

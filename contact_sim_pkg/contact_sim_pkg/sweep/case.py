@@ -11,7 +11,7 @@ import tempfile
 import time
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import open_bag
@@ -31,6 +31,7 @@ __all__ = [
     "FAILED",
     "FINISHED",
     "REFUSED",
+    "Numbered",
     "Row",
     "Task",
     "case_name",
@@ -50,8 +51,16 @@ Row = dict[str, Any]
 """Of a case: `case`, `outcome`, `sentence`, `metrics`, `wall`, `cpu`, `machine`."""
 
 
+class Numbered(Protocol):
+    """What a worker is given: a `Task`, or the case of a test procedure."""
+
+    @property
+    def number(self) -> int:
+        """Of the case, from 0."""
+
+
 class Task(NamedTuple):
-    """What a worker is given."""
+    """What a worker is given of a sweep."""
 
     number: int
     """of the case, from 0"""
@@ -124,7 +133,7 @@ def kept_row(path: Path) -> Row | None:
     return found
 
 
-def failed(task: Task, sentence: str, outcome: str = FAILED) -> Row:
+def failed(task: Numbered, sentence: str, outcome: str = FAILED) -> Row:
     """The row of a case that gave nothing."""
     return {"number": task.number, "case": "", "outcome": outcome, "sentence": sentence, "metrics": []}
 

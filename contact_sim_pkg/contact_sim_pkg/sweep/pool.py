@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from multiprocessing import resource_tracker
 from typing import Any
 
-from contact_sim_pkg.sweep.case import Row, Task, failed, run_case
+from contact_sim_pkg.sweep.case import Numbered, Row, failed, run_case
 
 __all__ = ["Workers", "run_all"]
 
@@ -22,10 +22,11 @@ ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")
 ALONE = 2
 """Times that a case whose process ended is tried by itself."""
 
-Work = Callable[[Task], Row]
+Work = Callable[[Any], Row]
+"""Of what is `Numbered`."""
 
 
-def run_all(tasks: Sequence[Task], jobs: int, work: Work = run_case) -> Iterator[Row]:
+def run_all(tasks: Sequence[Numbered], jobs: int, work: Work = run_case) -> Iterator[Row]:
     """The rows of cases as they end, of ``jobs`` processes that begin and end with them; see `Workers`."""
     with Workers(jobs, work) as workers:
         yield from workers.run(tasks)
@@ -55,11 +56,11 @@ class Workers:
             self._pool.shutdown(wait=False, cancel_futures=True)
             self._pool = None
 
-    def run(self, tasks: Sequence[Task]) -> Iterator[Row]:
+    def run(self, tasks: Sequence[Numbered]) -> Iterator[Row]:
         """The rows of cases as they end."""
         waiting, deaths = deque(tasks), dict.fromkeys((task.number for task in tasks), 0)
-        suspects: deque[Task] = deque()
-        flying: dict[Future[Row], Task] = {}
+        suspects: deque[Numbered] = deque()
+        flying: dict[Future[Row], Numbered] = {}
         while waiting or suspects or flying:
             # Suspects fly alone, after those that were in the air
             while len(flying) < self._jobs and waiting and not suspects:
@@ -88,7 +89,7 @@ class Workers:
                     else:
                         suspects.append(task)
 
-    def _submit(self, task: Task) -> Future[Row]:
+    def _submit(self, task: Numbered) -> Future[Row]:
         if self._pool is None:
             self._pool = _pool(self._jobs)
         with _one_thread(), _main_hidden(), _interrupt_held():

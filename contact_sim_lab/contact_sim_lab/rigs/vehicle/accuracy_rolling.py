@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy
 
-from contact_sim_lab.rigs.vehicle.machines.flat_track import Track, track_of
+from contact_sim_pkg.rigs.vehicle.machines.flat_track import Track, track_of
 from contact_sim_pkg.rigs.vehicle.tire.model import LONGEST_STEP
 from contact_sim_pkg.rigs.vehicle.tire.schema import BrushSection, SidewallComplianceSection, TireField
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene

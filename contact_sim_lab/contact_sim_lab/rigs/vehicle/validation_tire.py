@@ -9,11 +9,11 @@ from functools import cache, partial
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_lab.rigs.vehicle.machines.flat_track import Track, flat_track
-from contact_sim_lab.rigs.vehicle.machines.held_axle import CLEAT, OverCleat, over_cleat
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.report.metrics.bands import published_range
+from contact_sim_pkg.rigs.vehicle.machines.flat_track import Track, flat_track
+from contact_sim_pkg.rigs.vehicle.machines.held_axle import CLEAT, OverCleat, over_cleat
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of
 from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, tire_table

@@ -8,14 +8,14 @@ from scipy.linalg import eig
 from tests.rigs.vehicle.test_simulation import messages_of
 from tests.run.scenes import resolved
 
-from contact_sim_lab.rigs.vehicle.machines.flat_track import flat_track
-from contact_sim_lab.rigs.vehicle.machines.held_axle import CLEAT, over_cleat
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.records.messages import AxleForce, ContactForce, ContactShear
 from contact_sim_pkg.records.metric import MET
 from contact_sim_pkg.report.metrics.listing import all_metrics
 from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.rigs.vehicle.machines.flat_track import flat_track
+from contact_sim_pkg.rigs.vehicle.machines.held_axle import CLEAT, over_cleat
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.rigs.vehicle.tire.brush.belt_motion import (
     BELT_SAMPLES,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact_sim_lab.records import guard
 from contact_sim_lab.records.hard_case import Finding, HardCase, at_most
-from contact_sim_lab.rigs.vehicle.machines.flat_track import Track, flat_track
+from contact_sim_pkg.rigs.vehicle.machines.flat_track import Track, flat_track
 from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
 
 SCENE = "tire_cleat"

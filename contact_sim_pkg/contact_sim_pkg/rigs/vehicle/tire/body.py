@@ -20,7 +20,8 @@ __all__ = ["TireBody", "TireForm", "body_of", "tire_body"]
 
 class TireForm(NamedTuple):
     """Form of the unloaded tire: its height over the lowest point is ``x^2 / (2 R) + y^2 / (2 R_y)``,
-    or ``R - sqrt(R^2 - x^2) + y^2 / (2 R_y) + s (y / w)^6`` where it is circular.
+    or ``R - sqrt(R^2 - x^2) + y^2 / (2 R_y) + s (y / w)^6`` where it is circular; on a drum
+    ``R_d - sqrt(R_d^2 - x^2)`` more.
     """
 
     radius_rolling: float  # R [m]
@@ -28,6 +29,7 @@ class TireForm(NamedTuple):
     shoulder: float = 0.0  # s [m]
     half_width: float = 1.0  # w [m]
     circular: bool = False
+    drum: float = 0.0  # 1/R_d [1/m] of the drum that it stands on; 0: level
 
 
 class TireBody(NamedTuple):

@@ -90,6 +90,12 @@ class TireTable(NamedTuple):
         found = _between(_between(more - less, x).T, y).T
         return numpy.ascontiguousarray(found / found.sum())
 
+    def quarter_at(self, load: float) -> Field:
+        """Quarter x, y >= 0 of the footprint [Pa] under a ``load`` [N], on cells of ``cell``; linear between two that are
+        kept.
+        """
+        return self._quarter(tabulated_approach_of_force(self.law(), load))
+
     def _quarter(self, approach: float) -> Field:
         """Quarter of the footprint [Pa] at an ``approach`` [m]."""
         place = approach / self.spacing / MAP_EVERY
@@ -115,13 +121,15 @@ def _between(values: Field, place: Field) -> Field:
 
 
 def gap_over_level_road(form: TireForm, x: NDArray[numpy.floating[Any]], y: NDArray[numpy.floating[Any]]) -> Field:
-    """Gap [m] [rows, cols] of the unloaded tire, its lowest point on a level road, at x [rows], y
-    [cols] [m].
+    """Gap [m] [rows, cols] of the unloaded tire, its lowest point on a level road, or on the top of the form's drum,
+    at x [rows], y [cols] [m].
     """
     if form.circular:
         along = form.radius_rolling - numpy.sqrt(numpy.maximum(form.radius_rolling**2 - x**2, 0.0))
     else:
         along = 0.5 * x**2 / form.radius_rolling
+    if form.drum > 0.0:
+        along = along + x**2 * form.drum / (1.0 + numpy.sqrt(numpy.maximum(1.0 - (form.drum * x) ** 2, 0.0)))
     across = 0.5 * y**2 / form.radius_lateral + form.shoulder * (y / form.half_width) ** 6
     return numpy.asarray(along[:, None] + across[None, :])
 

@@ -213,7 +213,7 @@ def _tread(scene: ResolvedScene, body: TireBody, geometry: TireGeometry) -> Trea
     memory = scene.effect("tire", schema.TreadViscoelasticitySection)
     if memory is None:
         return None
-    rubber = _rubber(memory)
+    rubber = rubber_of(memory)
     timing = coupled_timing(scene, True, geometry.footprint_length)
     step = uniform_segments(scene, geometry.footprint_length, timing) * timing.segment_length
     belt = None
@@ -224,14 +224,14 @@ def _tread(scene: ResolvedScene, body: TireBody, geometry: TireGeometry) -> Trea
     return Tread(rubber, body, belt, step)
 
 
-def _rubber(memory: schema.TreadViscoelasticitySection | schema.RollingLossSection) -> TreadViscoelasticity:
+def rubber_of(memory: schema.TreadViscoelasticitySection | schema.RollingLossSection) -> TreadViscoelasticity:
     ratios, times = numpy.array(given(memory.branches), dtype=numpy.float64).reshape(-1, 2).T.copy()
     return TreadViscoelasticity(memory.retardation_time, ratios, times)
 
 
 def _rolling_loss(scene: ResolvedScene, body: TireBody) -> RollingLoss | None:
     memory = scene.effect("tire", schema.RollingLossSection)
-    return None if memory is None else rolling_loss(body, _rubber(memory), memory.belt)
+    return None if memory is None else rolling_loss(body, rubber_of(memory), memory.belt)
 
 
 def _at_once(body: TireBody, tread: Tread) -> TireBody:

@@ -35,7 +35,7 @@ from contact_sim_pkg.rigs.vehicle.tire.body import TireBody
 from contact_sim_pkg.rigs.vehicle.tire.force_table import MAP_EVERY, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
 
-__all__ = ["RollingLoss", "rolling_loss"]
+__all__ = ["RollingLoss", "rolling_loss", "whole_footprint"]
 
 Field = NDArray[numpy.float64]
 SPEEDS = numpy.array([0.0, *numpy.geomspace(0.5, 100.0, 16)])  # [m/s]
@@ -79,7 +79,7 @@ def _make(body: TireBody, tread: TreadViscoelasticity, of_belt: float) -> Rollin
     softening = None if belt.arc is None else Softening(rolling, 2 * table.quarters.shape[1], float(table.cell[0]))
     loads, rows = [0.0], [numpy.zeros(len(SPEEDS))]
     for number in range(1, len(table.quarters)):
-        pressure = _whole(table.quarters[number].astype(numpy.float64))
+        pressure = whole_footprint(table.quarters[number].astype(numpy.float64))
         loads.append(float(table.force[number * MAP_EVERY]))
         rows.append(
             _lost_in_tread(pressure, table.cell, body.modulus, tread)
@@ -88,7 +88,7 @@ def _make(body: TireBody, tread: TreadViscoelasticity, of_belt: float) -> Rollin
     return RollingLoss(numpy.array(loads), SPEEDS, numpy.array(rows))
 
 
-def _whole(quarter: Field) -> Field:
+def whole_footprint(quarter: Field) -> Field:
     """The footprint of its quarter x, y >= 0, whose row 0 lies under the axle."""
     half = numpy.concatenate((quarter[:0:-1], quarter))
     return numpy.concatenate((half[:, ::-1], half), axis=1)

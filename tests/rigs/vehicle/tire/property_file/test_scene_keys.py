@@ -8,7 +8,7 @@ import numpy
 import pytest
 from tests.rigs.vehicle.tire.property_file.tir_file import text, write
 
-from contact_sim_lab.rigs.vehicle.machines.flat_track import flat_track
+from contact_sim_pkg.rigs.vehicle.machines.flat_track import flat_track
 from contact_sim_pkg.rigs.vehicle.tire.body import tire_body
 from contact_sim_pkg.rigs.vehicle.tire.force_table import tire_table
 from contact_sim_pkg.rigs.vehicle.tire.property_file import scene_keys

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import NamedTuple
 
 from contact_sim_pkg.files import printable, read_regular_file
@@ -63,6 +65,8 @@ class PropertyFile(NamedTuple):
     format: str = ""  # PROPERTY_FILE_FORMAT, its letters and figures in capitals
     curve: LoadCurve | None = None
     commented: Value | None = None  # inflation [Pa] in a comment
+    further: Mapping[str, Value] = MappingProxyType({})
+    """Numbers of the other keys, as written, without their units"""
 
     def get(self, key: str) -> float | None:
         """A number in SI, None where the file has none."""
@@ -102,7 +106,7 @@ def read_property_file(path: Path) -> PropertyFile:
         notes.append(f"tables skipped: {', '.join(map(printable, lines.tables))}")
     return PropertyFile(
         str(path), units, values, tuple(lines.unread), (*lines.notes, *notes), _letters(lines.format[0]), lines.curve(units),
-        lines.commented,
+        lines.commented, lines.further(),
     )  # fmt: skip
 
 
@@ -218,6 +222,10 @@ class _Lines:
         if key in known and known[key][0] != text:
             self.notes.append(f"{key} stands in line {known[key][1]} and again in line {number}; the last counts")
         known[key] = (text, number)
+
+    def further(self) -> dict[str, Value]:
+        """Numbers of the keys that are not read."""
+        return {key: Value(_float(text), line) for key, (text, line) in self.unread.items() if NUMBER.fullmatch(text)}
 
     def refuse_structural(self) -> None:
         """Raise for a file of a structural model."""

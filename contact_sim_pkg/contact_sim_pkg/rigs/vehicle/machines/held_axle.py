@@ -12,8 +12,9 @@ from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.scene_outputs import outputs_with, records_of
 from contact_sim_pkg.scene.resolve import load_resolved
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["CLEAT", "OverCleat", "over_cleat"]
+__all__ = ["CLEAT", "OverCleat", "duration_of", "held_over", "over_cleat"]
 
 SCENE = "tire_cleat"
 HEAVY = 1e7  # [kg] of a wheel that no tire moves; gravity gives it the load all the same
@@ -37,11 +38,22 @@ def over_cleat(load: float, speed: float, *values: str) -> OverCleat:
     """Roll ``tire_cleat`` with ``values`` set at a ``speed`` [m/s] over a cleat of 10 by 50 mm with
     edges of 5 mm, its axle at the height where it stands under the ``load`` [N].
     """
-    duration = round((CLEAT + BEHIND) / speed + 0.15, 1) + 0.1
     scene = load_resolved(
-        SCENE, f"duration={duration}", f"travel={{speed: {speed}}}", "outputs.force_rate=2000",
+        SCENE, f"duration={duration_of(speed)}", f"travel={{speed: {speed}}}", "outputs.force_rate=2000",
         f"road={{kind: cleat, position: {CLEAT}, height: 0.01, length: 0.05, edge: 0.005}}", "block_length=0.1", *values,
     )  # fmt: skip
+    return held_over(scene, load)
+
+
+def duration_of(speed: float) -> float:
+    """Duration [s] of a run over the cleat at a ``speed`` [m/s]."""
+    return round((CLEAT + BEHIND) / speed + 0.15, 1) + 0.1
+
+
+def held_over(scene: ResolvedScene, load: float) -> OverCleat:
+    """The run of a scene with a wheel that spins, at one speed, its axle at the height where it stands under the
+    ``load`` [N].
+    """
     model = build(scene)
     assert model.quarter is not None
     quarter = model.quarter._replace(wheel=model.quarter.wheel._replace(mass=HEAVY))
@@ -54,6 +66,7 @@ def over_cleat(load: float, speed: float, *values: str) -> OverCleat:
     def joined(name: str) -> Samples:
         return numpy.concatenate([getattr(record, name) for record in records])
 
+    place = float(scene.data["travel"]["speed"]) * time
     return OverCleat(
-        time, speed * time, joined("longitudinal"), joined("vertical"), joined("moment_y"), joined("spin")
+        time, place, joined("longitudinal"), joined("vertical"), joined("moment_y"), joined("spin")
     )  # fmt: skip
