@@ -52,6 +52,7 @@ COARSE = 2  # cells of the force table on each way of one of the fit
 TINY = 1e-3  # [m] extent of a contact that is less than two cells
 FAR = 20.0  # residual of a tire that cannot be solved
 STEP = 0.02  # of a logarithm, for a derivative: the contact's edge moves by a part of a cell
+FROM = 10.0  # where the logarithms are counted from: the steps go with them, and none comes to 0
 STANDING = ("stiffness", "deflection", "length", "width")
 ROLLING = ("braking", "cornering", "trail")
 CLOSE = {
@@ -113,10 +114,11 @@ def nearest(unknowns: Sequence[Unknown], usual: Sequence[float], missed: Callabl
     start = numpy.clip(numpy.log(usual), low + 1e-3, high - 1e-3)
     weakly = numpy.array([each.weakly for each in unknowns])
     solution = least_squares(
-        lambda at: numpy.concatenate((missed(numpy.exp(at)), (at - start) / weakly)), start, "2-point", (low, high),
-        ftol=1e-3, xtol=1e-3, x_scale=numpy.minimum(weakly, 1.0), diff_step=STEP / abs(start), max_nfev=25,
+        lambda at: numpy.concatenate((missed(numpy.exp(start + at - FROM)), (at - FROM) / weakly)), numpy.full(len(start), FROM),
+        "2-point", (low - start + FROM, high - start + FROM), ftol=1e-3, xtol=1e-4, x_scale=numpy.minimum(weakly, 1.0),
+        diff_step=STEP / FROM, max_nfev=25,
     )  # fmt: skip
-    return numpy.asarray(numpy.exp(solution.x))
+    return numpy.asarray(numpy.exp(start + solution.x - FROM))
 
 
 def fitted(inflation: Inflation, targets: Sequence[Target], ring: bool) -> Inflation:

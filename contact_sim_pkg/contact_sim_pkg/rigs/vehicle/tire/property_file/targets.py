@@ -22,7 +22,7 @@ from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import USUAL_
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
 from contact_sim_pkg.rigs.vehicle.tire.size import TireSize
 
-__all__ = ["Measured", "few", "read_measured", "rolling_targets", "standing_targets"]
+__all__ = ["Measured", "few", "read_measured", "rolling_targets", "standing_targets", "usual_contact"]
 
 PARTS = (0.5, 1.5)  # of the nominal load
 INFLATIONS = 0.8, 1.25  # of that of the scene
