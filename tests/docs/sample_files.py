@@ -191,6 +191,7 @@ SAMPLES_OF: dict[str, Callable[[Path], object]] = {
     "road.rdf": lambda path: path.write_text(roads.rdf()),
     "road.erd": lambda path: path.write_text(roads.erd()),
     "tire.tir": lambda path: path.write_text(tir_file.text()),
+    "tire.csv": lambda path: path.write_text(tir_file.MEASURED),
     "tekscan.csv": lambda path: mat_file(path, MAT),
     "xsensor.csv": xsensor,
     "impacts.csv": lambda path: table(

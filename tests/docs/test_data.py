@@ -69,6 +69,7 @@ SHOWN = {
     "bench run tire_belgian_block --road road.rdf": Shown("simulated 0.02 s"),
     "bench run tire_belgian_block --road road.erd": Shown("simulated 0.02 s"),
     "bench tire tire.tir": Shown("size: 205/55 R16"),
+    'bench tire tire.csv --size "205/55 R16"': Shown("stiffness, 6000 N, 180 kPa"),
     "bench import tekscan.csv --out mat": Shown("mat: 1 messages"),
     "bench import xsensor.csv --unit mmHg --pitch 12.7 --out mat": Shown("mat: 1 messages"),
     "bench metrics mat --loaded 500": Shown(

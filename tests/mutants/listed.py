@@ -57,7 +57,7 @@ MUTANTS = (
     Mutant("rolling_brush.advance_step", "turn * grid.origin_y", "-turn * grid.origin_y", ("test_brush",)),
     Mutant("lattice.resample", "weight * second", "(1.0 - weight) * second", ("test_brush",)),
     Mutant("rolling_brush.sliding_brush", "math.exp(-slip", "math.exp(-2.0 * slip", ("test_brush",)),
-    Mutant("magic_formula.law_tire", "square / growth)\n", "square)\n", ("test_magic_formula",)),
+    Mutant("magic_formula.law_tire", "square * part / growth)\n", "square * part)\n", ("test_magic_formula",)),
     Mutant("property_file/scene_keys._ring", "2.0 * math.pi", "math.pi", ("property_file/test_scene_keys",)),
     # Rigid bodies
     Mutant("impact/law._left", "restitution**2", "restitution", ("impact/test_law",)),

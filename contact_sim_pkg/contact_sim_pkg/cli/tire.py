@@ -1,4 +1,4 @@
-"""`bench tire`: scene keys from a tire property file, and `bench tire test`, its standard procedures."""
+"""`bench tire`: scene keys from a tire property file or a table of measurements, and `bench tire test`, its standard procedures."""
 
 from __future__ import annotations
 
@@ -29,32 +29,41 @@ class _FileOrCommand(click.Group):
 
     def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
         """Both uses."""
-        return ["FILE.tir | test NAME|all SCENE --out DIR"]
+        return ["FILE | test NAME|all SCENE --out DIR"]
 
 
 @click.group("tire", cls=_FileOrCommand, no_args_is_help=True)
 def command() -> None:
-    """Scene keys from a tire property file (.tir), or the standard procedures of a tire's test bench."""
+    """Scene keys from a tire property file (.tir) or measurements, or the standard procedures of a tire's test bench."""
 
 
 command.add_command(test_command)
 
 
 @command.command("file")
-@click.argument("file", type=click.Path(path_type=Path), metavar="FILE.tir")
+@click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
+@click.option("--size", help="Size on the sidewall, of a table: '255/40 R17'.")
+@click.option("--radius", type=float, help="Free radius [m], where it is not that of the size.")
 @json_option
-def file_command(file: Path, as_json: bool) -> int:
-    """Scene keys from a tire property file (.tir) of the Magic Formula or MF-Swift.
+def file_command(file: Path, size: str | None, radius: float | None, as_json: bool) -> int:
+    """Scene keys from a tire property file (.tir) of the Magic Formula or MF-Swift; with --size, from a table of measurements
+    whose columns are inflation, load, deflection, stiffness, length and width of the contact, braking, cornering, trail, with
+    their units in brackets.
 
     Shows the keys that are read, in SI units, and what becomes of them; the fitted tire beside the
-    file; and a part of a scene, ready for its `effects`, where radius, stiffness and deflection of
+    file over its loads and inflations; and a part of a scene, ready for its `effects`, where radius, stiffness and deflection of
     the fitted tire are within 10 % of the file's. Ends with 1 where they are not.
     """
     from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import read_property_file
-    from contact_sim_pkg.rigs.vehicle.tire.property_file.scene_keys import scene_tire
+    from contact_sim_pkg.rigs.vehicle.tire.property_file.scene_keys import measured_tire, scene_tire
+    from contact_sim_pkg.rigs.vehicle.tire.property_file.targets import read_measured
 
-    tire = read_property_file(file)
-    found = scene_tire(tire)
+    if size is None:
+        tire = read_property_file(file)
+        found = scene_tire(tire)
+    else:
+        measured = read_measured(file)
+        tire, found = measured.file, measured_tire(measured, size, radius)
     unread = {"count": len(tire.unread), "first": tire.unread[:NAMED]}
     comparisons = [{**each._asdict(), "difference": each.difference} for each in found.fit]
     notes = [*tire.notes, *found.notes]
@@ -113,9 +122,9 @@ def _show(tire: PropertyFile, found: SceneTire, comparisons: list[dict[str, Any]
         {**row, "file": f"{row['file']:.4g}", "tire": f"{row['tire']:.4g}", "difference": f"{row['difference']:+.1%}"}
         for row in comparisons
     ]
-    sections = [Section("", keys)]
+    sections = [Section("", keys)] if keys else []
     if beside:
-        sections.append(Section("the fitted tire under the nominal load, beside the file", beside))
+        sections.append(Section("the fitted tire beside the file, under the nominal load first", beside))
     show_sections(sections)
     if not found.usable:
         return

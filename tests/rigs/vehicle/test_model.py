@@ -56,7 +56,7 @@ def test_the_numbers_of_belt_brush_tread_and_asperities_arrive():
     )
     settings = made.tire_field.usual.settings
     assert settings.belt == BeltSettings(5000.0, 2e6)
-    assert made.rolling_friction.brush == Brush(1e8, 8.4e7, 1.2, 0.8, 4.0)
+    assert made.rolling_friction.brush == Brush(1e8, 9.6e7, 1.2, 0.8, 4.0)
     assert made.rolling_friction.slips.at(1.0) == pytest.approx((-0.2, 0.05))
     assert made.rolling_friction.slips.at(9.0) == pytest.approx((-0.4, 0.1))
     assert made.tread.relaxed.modulus == pytest.approx(4e6)

@@ -193,8 +193,8 @@ def test_side_force_relaxes_over_stiffness_by_stiffness():
     steady = track.axle[-1, 1]
     assert steady == pytest.approx(rigid.force[-1, 1], rel=2e-3)  # a compliance delays, it takes nothing away
     way = 16.7 * track.time[numpy.argmax(track.axle[:, 1] / steady > 1.0 - math.exp(-1.0))]
-    bristles = 8.4e7 * 0.0166
-    series = 1.0 / (1.0 / 1.8e5 + 1.0 / bristles)
+    bristles = 9.6e7 * 0.0166
+    series = 1.0 / (1.0 / 1.75e5 + 1.0 / bristles)
     assert way == pytest.approx(-steady / 0.005 / series, rel=0.1)
 
 
@@ -203,7 +203,7 @@ def test_yaw_compliance_takes_from_the_slip_angle():
     rigid = flat_track(4000.0, 16.7, 0.3, RIGID, "slip={angle: 0.002}").force[-200:].mean(axis=0)
     soft = flat_track(4000.0, 16.7, 0.8, STRAIGHT, "slip={angle: 0.002}").force[-200:].mean(axis=0)
     trail, stiffness = -rigid[2] / rigid[1], -rigid[1] / 0.002
-    assert -soft[1] / 0.002 == pytest.approx(stiffness / (1.0 + stiffness * trail / 6000.0), rel=0.01)
+    assert -soft[1] / 0.002 == pytest.approx(stiffness / (1.0 + stiffness * trail / 5200.0), rel=0.01)
 
 
 def test_a_belt_that_bends_takes_from_the_side_force_and_lengthens_the_trail():
@@ -220,21 +220,45 @@ def test_a_belt_that_bends_takes_from_the_side_force_and_lengthens_the_trail():
     assert abs(found.moment_z) < 0.03 * half * abs(found.force_y)
 
 
+def test_a_belt_that_extends_takes_from_the_braking_force():
+    """K = K_0 / (1 + c b), b = 2/3 k w a^3 = K_0 a / 3 as for a belt that bends: the bristles of u = kappa (a - x) + lambda (a^2 -
+    x^2) / 2 by hand, on a belt that is squeezed ahead of the wheel where the road drives it forward.
+    """
+    half, width, extension = 0.5 * ROWS * CELL, COLS * CELL, 2e-4
+    own, steady = 2.0 * 7e7 * width * half**2, []
+    for sidewalls in (FREE, FREE._replace(extension=extension)):
+        belt = Belt(sidewalls._replace(wheel=None, damping_x=6e2, damping_twist=40.0), pressure=2e5)
+        belt.belt[SPIN] = 10.0 / RADIUS
+        belt.advance(4000, travel=10.0, rim=0.998 * 10.0 / RADIUS)
+        steady.append(belt.result.force_x)
+    assert steady[0] == pytest.approx(-0.002 * own, rel=0.01)
+    assert steady[1] / steady[0] == pytest.approx(1.0 / (1.0 + extension * own * half / 3.0), rel=0.01)
+
+
 PUBLISHED_SLIP = {2000: (36.4, 575.0, 14.1), 4000: (86.8, 930.0, 28.2), 6000: (139.5, 1059.0, 42.3)}
 """Load [N]: braking stiffness [kN], cornering stiffness [N/deg], trail [mm] of the public 205/60 R15."""
 
 
-def test_cornering_over_load_is_that_of_a_published_tire():
-    """Within 8 % at 4 kN, trail within 15 %. Bristles' braking stiffness goes with width times length squared, steeper over
-    load than published: 12 % low at 2 kN, where the cornering stiffness is theirs as well, 9 % high at 6 kN.
-    """
+@pytest.mark.parametrize("size", ["205/55 R16", "205/60 R15"])
+def test_cornering_over_load_is_that_of_a_published_tire(size):
+    """Within 8 %, trail within 15 %: of the published size, and of the usual one beside it."""
+    usual = COMPLIANT, f"effects.tire.inflation.size={size}"
     for load, (braking, cornering, trail) in PUBLISHED_SLIP.items():
-        along = flat_track(load, 60.0 / 3.6, 0.3, COMPLIANT, "slip={longitudinal: -0.002}").force[-100:].mean(axis=0)
-        across = flat_track(load, 60.0 / 3.6, 0.5, COMPLIANT, "slip={angle: 0.002}").force[-100:].mean(axis=0)
-        most = {2000: 0.14, 4000: 0.08, 6000: 0.095}[load]
-        assert -1e-3 * along[0] / 0.002 == pytest.approx(braking, rel=most)
-        assert -across[1] / math.degrees(0.002) == pytest.approx(cornering, rel=most)
+        along = flat_track(load, 60.0 / 3.6, 0.3, *usual, "slip={longitudinal: -0.002}").force[-100:].mean(axis=0)
+        across = flat_track(load, 60.0 / 3.6, 0.5, *usual, "slip={angle: 0.002}").force[-100:].mean(axis=0)
+        assert -1e-3 * along[0] / 0.002 == pytest.approx(braking, rel=0.08)
+        assert -across[1] / math.degrees(0.002) == pytest.approx(cornering, rel=0.08)
         assert -1e3 * across[2] / across[1] == pytest.approx(trail, rel=0.15)
+
+
+@pytest.mark.parametrize(("axis", "to", "low", "high"), [(0, "-0.3, 0", 0.05, 0.08), (1, "0, 0.3", 0.08, 0.12)])
+def test_peak_friction_over_load_falls_as_measured(axis, to, low, high):
+    """A slip swept through the peak, 2 to 4 and 3 to 6 kN: 5 to 8 % a doubling along, 8 to 12 % across of five car tires."""
+    sweep = f"slip={{points: [[0.0, 0, 0], [1.5, {to}]]}}"
+    peaks = {load: abs(flat_track(load, 60.0 / 3.6, 1.5, COMPLIANT, sweep).force[:, axis]).max() / load
+             for load in (2e3, 3e3, 4e3, 6e3)}  # fmt: skip
+    for light in (2e3, 3e3):
+        assert low < 1.0 - peaks[2.0 * light] / peaks[light] < high
 
 
 def test_friction_falls_with_the_load():
@@ -303,15 +327,21 @@ def test_the_works_of_a_run_are_in_its_ledger(tmp_path):
     assert work.parts["bristles"][-1] == pytest.approx(rubbed, rel=0.02)  # but for the last field
 
 
-@pytest.mark.parametrize("speed", [7.0, 30.0, 60.0])
-def test_what_a_cleat_lifts_the_axle_pays(speed):
+STIFF = "effects.tire.sidewall_compliance={longitudinal: 2.6e8}"
+
+
+@pytest.mark.parametrize(
+    ("speed", "most", "stiff"), [(7, 2e-3, ()), (30, 5e-3, ()), (30, 2e-3, (STIFF,)), (60, 2e-3, ())]
+)
+def test_what_a_cleat_lifts_the_axle_pays(speed, most, stiff):
     """F_z dh of the vertical motion against F_n V of the motion along when the cleat is behind: the road stands still and
-    does no work. Without loss, which the slope of a field does not hold.
+    does no work. Without loss, which the slope of a field does not hold. The field travels with the axle, so what F_n does on
+    the belt's own way along has no counterpart: most of it at 30 km/h, nothing of a belt that is stiff along.
     """
     scene = resolved(
         "tire_cleat", f"travel={{speed: {speed / 3.6}}}", f"duration={round(6.0 / speed + 0.5, 1)}", "block_length=0.01",
         "road={kind: cleat, position: 0.5, height: 0.01, length: 0.05, edge: 0.005}", "outputs.force_rate=2000", *SPINS,
-        "effects.tire.normal_dissipative=null",
+        "effects.tire.normal_dissipative=null", *stiff,
     )  # fmt: skip
     outputs = outputs_with(scene, Simulation(scene))
     ledgers, works = records_of(outputs, "bench/energy"), records_of(outputs, "tire/work")
@@ -321,7 +351,7 @@ def test_what_a_cleat_lifts_the_axle_pays(speed):
     ])  # fmt: skip
     turned = abs(numpy.diff(slopes)).sum()
     assert turned > 10.0
-    assert abs(lifted + slopes)[-1] < {7.0: 1e-3, 30.0: 4e-3, 60.0: 2e-3}[speed] * turned
+    assert abs(lifted + slopes)[-1] < most * turned
 
 
 def test_over_a_cleat_the_axle_is_pushed_back_then_forward_and_rings_as_the_belt():

@@ -1,18 +1,23 @@
 """Rolling resistance by the memory of tread and belt against its power in the frequency domain."""
 
 import math
+from types import SimpleNamespace
 
 import numpy
 import pytest
 from tests.rigs.vehicle.test_simulation import messages_of
 from tests.run.scenes import resolved
 
+from contact_sim_lab.twins.halfspace import dense_influence
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.records.messages import AxleForce, ContactPatch
 from contact_sim_pkg.report.metrics.listing import all_metrics
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.rigs.vehicle.tire.body import body_of
+from contact_sim_pkg.rigs.vehicle.tire.force_table import gap_over_level_road
+from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
+from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import rolling_loss
 from contact_sim_pkg.run.offline import run_offline
 
 SPEED, RADIUS = 16.7, 0.316  # [m/s], [m] of 205/55 R16
@@ -73,6 +78,72 @@ def lost_per_metre(body, patch, share):
     compliance = 1.0 / (rigidity + (modulus(wave * SPEED, share) - 1.0) * rubber)
     ring = -(wave * compliance.imag * force**2).sum() / (math.pi * belt.radius)
     return tread + ring
+
+
+def steady(body, share, load):
+    """The pressure of steady rolling under a load, complementarity on an active set: in the frame of the axle a wave exp(ikx)
+    of rubber at rest on the road has the frequency -k V, so that u = C p with a C that is not symmetric. What sidewalls leave to
+    the belt beside the road: `softening` of the line load, by turns.
+    """
+    rows, cols, cell_x, cell_y = 52, 22, 0.00375, 0.0075
+    x, y = (numpy.arange(rows) - rows // 2) * cell_x, (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y
+    row, col = numpy.divmod(numpy.arange(rows * cols), cols)
+    # Tread: at long times by twin, the memory by waves, of which those along without length have none
+    many, wide = 1024, 128
+    k, across = (2.0 * math.pi * numpy.fft.fftfreq(n, cell) for n, cell in ((many, cell_x), (wide, cell_y)))
+    size = numpy.hypot(k[:, None], across)
+    size[0, 0] = 1.0
+    memory = numpy.fft.ifft2(2.0 / (body.modulus * size) * (1.0 / modulus(-k * SPEED, 1.0) - 1.0)[:, None]).real
+    compliance = dense_influence(rows, cols, cell_x, cell_y, body.modulus)
+    compliance += memory[row[:, None] - row, col[:, None] - col]
+    # Belt: by the modes of the ring
+    belt, n = body.belt, numpy.arange(2, MODES)
+    bends = belt.bending * (n**2 - 1.0) ** 2 / belt.radius**4
+    rigidity = belt.foundation + belt.tangential / n**2 + belt.tension * (n**2 - 1.0) / belt.radius**2 + bends
+    rolling = rigidity + (modulus(-n / belt.radius * SPEED, share) - 1.0) * (belt.rubber + bends)
+    place = numpy.arange(-0.3, 0.3, cell_x)
+
+    def bent(ahead):
+        return (numpy.exp(1j * numpy.multiply.outer(ahead, n / belt.radius)) / rolling).real.sum(-1) / (
+            math.pi * belt.radius
+        )
+
+    compliance += bent(x[:, None] - x)[row[:, None], row] * cell_x * cell_y
+    beside, gap = bent(x[:, None] - place), gap_over_level_road(body.form, x, y).ravel()
+    pressure, active = numpy.full(rows * cols, load / (rows * cols * cell_x * cell_y)), gap < 0.006
+    for _ in range(8):
+        line = pressure.reshape(rows, cols).sum(axis=1) * cell_x * cell_y
+        raised = gap + numpy.repeat(beside @ softening(belt, n, rigidity, place, x, line), cols)
+        for _ in range(60):
+            found = numpy.linalg.solve(
+                compliance[numpy.ix_(active, active)], numpy.array([raised[active], numpy.ones(active.sum())]).T
+            )
+            depth = (load / (cell_x * cell_y) + found[:, 0].sum()) / found[:, 1].sum()
+            pressure = numpy.zeros(rows * cols)
+            pressure[active] = depth * found[:, 1] - found[:, 0]
+            apart = raised + compliance @ pressure - depth
+            changed = numpy.where(active, pressure > 0.0, apart < 0.0)
+            if (changed == active).all():
+                break
+            active = changed
+    return SimpleNamespace(pressure=pressure.reshape(rows, cols), cell_x=cell_x, cell_y=cell_y, origin_x=float(x[0]))
+
+
+@pytest.mark.parametrize("load", [2000.0, 4000.0])
+def test_the_sum_of_first_order_is_that_of_a_steady_solution(load):
+    """Within 3 %: the footprint of the sum does not lean forward, and is as stiff as at one frequency."""
+    body = body_of(resolved("tire_cleat", "effects.tire.rigid_ring=null"))
+    found = steady(body, 3.8, load)
+    line = found.pressure.sum(axis=1)
+    x = found.origin_x + found.cell_x * numpy.arange(len(line))
+    resistance = lost_per_metre(body, found, 3.8)
+    ratios, times = numpy.array(BRANCHES).T.copy()
+    by_sum = rolling_loss(body, TreadViscoelasticity(0.0, ratios, times), 3.8).along(numpy.array([load]), SPEED)[0]
+    assert line.sum() * found.cell_x * found.cell_y == pytest.approx(load, rel=1e-9)
+    assert by_sum == pytest.approx(resistance, rel=0.03)
+    assert (
+        0.0 < (x @ line) / line.sum() < resistance * RADIUS / load
+    )  # the rest of the moment is that of the sidewalls beside
 
 
 def softening(belt, n, rigidity, place, x, line):

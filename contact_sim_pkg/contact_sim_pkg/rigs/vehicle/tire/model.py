@@ -298,7 +298,7 @@ def _sidewalls(scene: ResolvedScene, wheel: WheelSpin | None) -> Sidewalls | Non
     return Sidewalls(
         mass, keys.belt_inertia, yaw_inertia, along, keys.lateral, keys.rotational, keys.yaw,
         damping(along, mass), damping(keys.lateral, mass), damping(keys.rotational, keys.belt_inertia),
-        damping(keys.yaw, yaw_inertia), wheel, keys.bending,
+        damping(keys.yaw, yaw_inertia), wheel, keys.bending, keys.extension,
     )  # fmt: skip
 
 

@@ -55,6 +55,7 @@ class Sidewalls(NamedTuple):
     damping_yaw: float  # [N m s/rad]
     wheel: WheelSpin | None  # None: the slip programme turns the rim
     bending: float = 0.0  # [1/(m N)] curvature of the belt in the plane of the road per force across
+    extension: float = 0.0  # [1/(m N)] fall of the belt's strain along, per metre and force along
 
 
 class TreadViscoelasticity(NamedTuple):

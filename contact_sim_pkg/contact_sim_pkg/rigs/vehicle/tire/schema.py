@@ -224,9 +224,9 @@ class BrushSection(Section):
     """
 
     stiffness_x: float = number(
-        1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (fitted)", default=8.4e7
+        1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (fitted)", default=9.6e7
     )
-    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; less work where equal", default=8.4e7)
+    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; less work where equal", default=9.6e7)
     coefficient_static: float = number(
         0.0, 5.0, "", "static friction; the peak of a dry road, 0.9 to 1.1, lies below it", above=True, default=1.15
     )
@@ -260,14 +260,21 @@ class SidewallComplianceSection(Section):
         1e3, 1e9, "N/m", "belt against rim along the road; that of rigid_ring by default", default=None
     )
     lateral: float = number(
-        1e3, 1e9, "N/m", "across; with the bristles in series 158 kN/m, a standing tire's", default=1.8e5
+        1e3, 1e9, "N/m", "across; with the bristles in series 158 kN/m, a standing tire's", default=1.75e5
     )
     rotational: float = number(10.0, 1e8, "N m/rad", "about the axle", default=8.2e4)
-    yaw: float = number(10.0, 1e8, "N m/rad", "about the vertical", default=6000.0)
+    yaw: float = number(10.0, 1e8, "N m/rad", "about the vertical (fitted)", default=5200.0)
     bending: float = number(
         0.0, 1.0, "1/(m N)", "curvature of the belt in the plane of the road per side force (fitted); 0: rigid",
-        default=1.2e-4,
+        default=1.3e-4,
     )  # fmt: skip
+    extension: float = number(
+        0.0,
+        1.0,
+        "1/(m N)",
+        "strain of the belt along, per metre of contact and force along (fitted); 0: none",
+        default=6e-5,
+    )
     damping_ratio: float = number(0.0, 1.0, "", "of critical, of each motion alone", default=0.045)
     belt_mass: float | None = number(
         0.1, 1000.0, "kg", "belt and tread; that of rigid_ring by default, 7 without", default=None

@@ -11,8 +11,8 @@ from tests.rigs.vehicle.tire.property_file.tir_file import text, write
 from contact_sim_pkg.files import FileRefusedError
 from contact_sim_pkg.rigs.vehicle.tire.property_file import scene_keys
 from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileError
+from contact_sim_pkg.rigs.vehicle.tire.property_file.fit import Lines, Target
 from contact_sim_pkg.rigs.vehicle.tire.property_file.keys import DIMENSIONS, KEYS, UNITS
-from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import StandingTire
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import LARGEST_FILE, read_property_file
 
 MILLIMETRES = {
@@ -251,8 +251,8 @@ def broken(generator):
 def test_a_broken_file_is_read_or_refused_in_one_sentence(tmp_path, monkeypatch):
     """Up to the keys of the scene; the fit alone, which costs a second, is left out."""
     monkeypatch.setattr(scene_keys, "fitted", lambda inflation, aim, ring: inflation)
-    standing = StandingTire(4000.0, 2e5, 0.02, 0.13, 0.14)
-    monkeypatch.setattr(scene_keys, "standing_on_belt", lambda inflation, load: standing._replace(load=load))
+    standing = Target(220e3, 4000.0, 2e5, 0.02, 0.13, 0.14), Lines(1e-3, 2e-5, 0.0166)
+    monkeypatch.setattr(scene_keys, "found_at", lambda inflation, targets: [standing] * len(targets))
     refused = 0
     for seed in range(600):
         file = write(tmp_path, broken(random.Random(seed)))

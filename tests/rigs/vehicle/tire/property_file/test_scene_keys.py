@@ -51,13 +51,14 @@ def test_the_ring_is_that_of_belt_mass_frequency_and_damping(tmp_path):
 
 @pytest.mark.parametrize(("angle", "modulus"), [(1.2, 6e6), (1.5, 3e6)])
 def test_a_tire_is_found_again_from_its_stiffness_and_contact(tmp_path, angle, modulus):
+    """To 2 %: half and one and a half of the load, where the formulas are another tire, count too."""
     tire = standing_on_belt(Inflation(sidewall_angle=angle, tread_modulus=modulus), LOAD)
     ring = {"FREQ_LONG": math.sqrt(1.4e6 / 7.0) / (2.0 * math.pi)}
     shape = tire.stiffness, tire.length, tire.width, tire.deflection
     found = keys_of(tmp_path, **ring, **coefficients(*shape))
     names = ["radius", "stiffness", "deflection", "length of the contact", "width of the contact"]
     assert [row.quantity for row in found.fit[:5]] == names
-    assert [row.difference for row in found.fit[:3]] == pytest.approx([0.0] * 3, abs=0.01)
+    assert [row.difference for row in found.fit[:3]] == pytest.approx([0.0] * 3, abs=0.02)
     assert [row.difference for row in found.fit[3:5]] == pytest.approx([0.0] * 2, abs=0.05)
     assert found.usable
 
@@ -186,7 +187,7 @@ def test_without_a_nominal_load_the_fit_is_at_15_percent_of_the_section_height(t
 
 
 def test_what_a_tire_cannot_be_is_left_as_a_difference(tmp_path):
-    found = keys_of(tmp_path, **coefficients(220e3, 0.08, 0.2))
+    found = keys_of(tmp_path, **coefficients(220e3, 0.06, 0.26))
     assert found.fit[3].difference > 0.1
     assert found.fit[4].difference < -0.1
 

@@ -28,3 +28,15 @@ def write(folder, content=None, **keys):
     content = text(**keys) if content is None else content
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     return path
+
+
+MEASURED = """\
+inflation (kPa),load (N),deflection (mm),stiffness (kN/m),length (mm),width (mm)
+180,2000,12.0,176,94,126
+180,4000,23.0,188,,
+180,6000,33.4,197,184,147
+240,2000,10.0,212,84,122
+240,4000,19.2,225,,
+240,6000,27.9,236,161,145
+"""
+"""A table of measurements that nobody made."""

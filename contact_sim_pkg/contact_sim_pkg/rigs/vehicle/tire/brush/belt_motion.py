@@ -6,7 +6,7 @@ speed omega_b about y; the rim turns with omega_w, the twist theta is the angle 
 
 * ``m (x'' + V') = F_n + F_x - k_x x - c_x x'``
 * ``m y'' = F_y - k_y y - c_y y'``
-* ``I_b omega_b' = -R_e (F_x + psi F_y - kappa M_z) - M_r - k_t theta - c_t theta'``, ``theta' = omega_b -
+* ``I_b omega_b' = -R_e (F_x + psi F_y - kappa M_z - lambda M_x) - M_r - k_t theta - c_t theta'``, ``theta' = omega_b -
   omega_w``
 * ``I_z psi'' = M_z - k_p psi - c_p psi'``
 * ``I_w omega_w' = k_t theta + c_t theta' + M_drive - M_brake``; without the spin of the wheel
@@ -14,9 +14,11 @@ speed omega_b about y; the rim turns with omega_w, the twist theta is the angle 
 
 R_e = R - d/3, d the deflection of the axle: under a cleat the wheel turns faster. F_n is the force of
 the pressure on slopes, M_r the moment of rolling resistance by a tread with
-memory, F_x, F_y, M_z those of the bristles. The belt bends in the plane of the road with the curvature
-kappa = c_b F_y, which moves the side force to the rear: its points lie on ``-kappa x^2 / 2``. The road
-slides under the belt by ``(R_e omega_b - x' - V, R_e omega_b (psi - kappa x) - V tan(alpha) - y' - psi' x) dt``.
+memory, F_x, F_y, M_z those of the bristles, M_x their moment ``sum x tau_x A``. The belt bends in the plane of the road with
+the curvature kappa = c_b F_y, which moves the side force to the rear: its points lie on ``-kappa x^2 / 2``. It extends along
+by ``-lambda x``, lambda = c_s F_x: the road that drives it forward squeezes it ahead of the wheel and pulls it out behind. The
+road slides under the belt by ``(R_e omega_b (1 - lambda x) - x' - V, R_e omega_b (psi - kappa x) - V tan(alpha) - y' - psi' x)
+dt``.
 With the same R_e as lever and in the slip the power of the friction is what belt and axle lose. A brake
 holds a standing rim up to its moment.
 
@@ -59,11 +61,11 @@ from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, Sidewalls
 
 __all__ = ["BELT_SAMPLES", "BELT_STATES", "BY_DRIFT", "RIM", "WORKS", "BeltDrive", "advance_belt"]
 
-X, Y, TWIST, YAW, X_RATE, Y_RATE, SPIN, YAW_RATE, RIM, FORCE_X, FORCE_Y, MOMENT_Z = range(12)
+X, Y, TWIST, YAW, X_RATE, Y_RATE, SPIN, YAW_RATE, RIM, FORCE_X, FORCE_Y, MOMENT_Z, MOMENT_X = range(13)
 BY_AXLE, BY_DRIFT, BY_RIM, BY_SLOPES, IN_SPRINGS, TO_BRAKE, TO_DAMPERS, TO_ROLLING, TO_BRISTLES, OF_SHEAR = range(
-    12, 22
+    13, 23
 )
-BELT_STATES = 22
+BELT_STATES = 23
 """The belt's state: places, speeds, spin of the rim [rad/s], the force of the bristles, and `WORKS`."""
 
 WORKS = slice(BY_AXLE, BELT_STATES)
@@ -127,7 +129,8 @@ def _accelerate(sidewalls, belt, drive, part, time):
     radius = drive.radii[0] + part * (drive.radii[1] - drive.radii[0])
     along, across, twist, yaw = _on_axle(sidewalls, belt)
     bend = sidewalls.bending * belt[FORCE_Y]
-    lever = radius * (belt[FORCE_X] + belt[YAW] * belt[FORCE_Y] - bend * belt[MOMENT_Z])
+    extension = sidewalls.extension * belt[FORCE_X]
+    lever = radius * (belt[FORCE_X] + belt[YAW] * belt[FORCE_Y] - bend * belt[MOMENT_Z] - extension * belt[MOMENT_X])
     x_rate, y_rate, spin, yaw_rate, rim = belt[X_RATE], belt[Y_RATE], belt[SPIN], belt[YAW_RATE], belt[RIM]
     belt[X_RATE] += time * (slopes + belt[FORCE_X] - along) / sidewalls.mass
     belt[Y_RATE] += time * (belt[FORCE_Y] - across) / sidewalls.mass
@@ -183,7 +186,8 @@ def _move(sidewalls, belt, drive, middle):
     belt[Y] += across
     belt[TWIST] += time * (belt[SPIN] - belt[RIM])
     belt[YAW] += turn
-    return RollingStep(drive.travel / drive.steps, way - along, drift, time, turn, sidewalls.bending * belt[FORCE_Y])
+    bend, extension = sidewalls.bending * belt[FORCE_Y], sidewalls.extension * belt[FORCE_X]
+    return RollingStep(drive.travel / drive.steps, way - along, drift, time, turn, bend, extension)
 
 
 @borrowing_kernel
@@ -224,7 +228,7 @@ def advance_belt(
         step = _move(sidewalls, belt, drive, 0.5 * (start + end))
         sliding = sliding_brush(brush, step)
         phase, work, energy = advance_step(sliding, state, grid, pressure, window, phase, step, start, end)
-        belt[FORCE_X], belt[FORCE_Y], belt[MOMENT_Z], share = write_shear(
+        belt[FORCE_X], belt[FORCE_Y], belt[MOMENT_Z], belt[MOMENT_X], share = write_shear(
             sliding, state.bristles, grid, window, phase, shear_x, shear_y, mode
         )
         _accelerate(sidewalls, belt, drive, end, 0.5 * time)

@@ -107,6 +107,7 @@ class RollingStep(NamedTuple):
     duration: float = 0.0  # [s]; 0: too short for any friction but the kinetic one
     turn: float = 0.0  # [rad] yaw of the belt, to the left
     bend: float = 0.0  # [1/m] curvature of the belt in the plane of the road: it lies on y = -bend x^2 / 2
+    extension: float = 0.0  # [1/m] strain of the belt along, ahead of the wheel: at x it is longer by -extension x
 
 
 class BrushResult(NamedTuple):
@@ -208,7 +209,7 @@ def advance_brush(
     sliding = sliding_brush(brush, step)
     phase, dissipated, released = advance_step(sliding, state, grid, pressure, window, phase, step, 0.0, 1.0)
     settle_on(state, grid, pressure, phase)
-    force_x, force_y, moment_z, share = write_shear(
+    force_x, force_y, moment_z, _moment_x, share = write_shear(
         sliding, state.bristles, grid, window, phase, shear_x=shear_x, shear_y=shear_y, mode=mode
     )
     area = grid.cell_x * grid.cell_y
@@ -268,8 +269,9 @@ def advance_step(
         cells = 0.0
     over = cells if cells > 0.0 else 1.0
     turn = step.turn / over  # of the belt for each cell of way: its points move by -turn y, turn x
-    # A point of a bent belt that rolls on by a cell moves sideways by bend x cell
-    aside = turn + (step.bend * math.copysign(grid.cell_x, step.belt) if cells > 0.0 else 0.0)
+    # A point of a bent belt that rolls on by a cell moves sideways by bend x cell, of a strained one back by less
+    rolled = math.copysign(grid.cell_x, step.belt) if cells > 0.0 else 0.0
+    aside, shorter = turn + step.bend * rolled, step.extension * rolled
     along, backward = (step.belt - step.travel) / over + turn * grid.origin_y, step.belt < 0.0
     remaining = cells
     dissipated, released = 0.0, 0.0
@@ -278,10 +280,14 @@ def advance_step(
         segment = next_segment(phase, remaining, backward)
         remaining -= segment.length
         middle = PAD + 0.5 * (segment.start + segment.end)
+        x = grid.origin_x - middle * grid.cell_x  # of the label 0
         slide = Slide(
-            along, -step.drift / over - aside * (grid.origin_x - middle * grid.cell_x), turn * grid.cell_y,
+            along - shorter * x,
+            -step.drift / over - aside * x,
+            turn * grid.cell_y,
             -aside * grid.cell_x,
-        )  # fmt: skip
+            -shorter * grid.cell_x,
+        )
         blend(state.before, pressure, end - (end - start) * remaining / over, window, state.bristles.pressure)
         work, energy = advance_bristles(brush, state.bristles, window, segment, slide)
         dissipated += work
@@ -295,11 +301,11 @@ def advance_step(
 def write_shear(
     brush: Brush, bristles: Bristles, grid: PatchGrid, window: LoadedWindow, phase: float, shear_x: Field,
     shear_y: Field, mode: NDArray[numpy.uint8],
-) -> tuple[float, float, float, float]:  # fmt: skip
+) -> tuple[float, float, float, float, float]:  # fmt: skip
     """Write the shear [Pa] at the centres of the cells, [rows, cols], in the `window` of what is
     loaded.
 
-    Returns its sums along x and y [N], their moment [N m] and the share of sliding cells [1]. A
+    Returns its sums along x and y [N], their moment, that of x tau_x [N m] and the share of sliding cells [1]. A
     centre lies between two bristles: deflections are interpolated, a bristle out of contact does
     not count; the nearer one decides whether the cell slides. The limit is that of the cell's own
     pressure.
@@ -308,7 +314,7 @@ def write_shear(
     near, far = (0, 1) if phase <= 0.5 else (1, 0)
     weight = min(phase, 1.0 - phase)
     pressure, rows = bristles.pressure, shear_x.shape[0]
-    sum_x, sum_y, moment, loaded, sliding = 0.0, 0.0, 0.0, 0, 0
+    sum_x, sum_y, moment, moment_x, loaded, sliding = 0.0, 0.0, 0.0, 0.0, 0, 0
     for m in range(max(window.first, PAD), min(window.last, rows + PAD)):
         i = m - PAD
         x = grid.origin_x + i * grid.cell_x
@@ -324,13 +330,14 @@ def write_shear(
             sum_x += tau_x
             sum_y += tau_y
             moment += x * tau_y - (grid.origin_y + j * grid.cell_y) * tau_x
+            moment_x += x * tau_x
             loaded += 1
             # The nearer bristle decides between stick and slip.
             slips = bristles.sliding[m + near, j] != 0
             mode[i, j] = SLIPS if slips else STICKS
             sliding += 1 if slips else 0
     area = grid.cell_x * grid.cell_y
-    return sum_x * area, sum_y * area, moment * area, sliding / max(loaded, 1)
+    return sum_x * area, sum_y * area, moment * area, moment_x * area, sliding / max(loaded, 1)
 
 
 @kernel

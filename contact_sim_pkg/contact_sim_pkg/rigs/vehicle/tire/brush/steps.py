@@ -90,13 +90,14 @@ class BeltSegment(NamedTuple):
 
 class Slide(NamedTuple):
     """Way of the road over the belt [m] for each cell of belt travel: of a bristle of label m in
-    column j ``x + j x_by_col`` and ``y + m y_by_label``, for a belt that yaws.
+    column j ``x + j x_by_col + m x_by_label`` and ``y + m y_by_label``, for a belt that yaws, bends and extends.
     """
 
     x: float
     y: float
     x_by_col: float
     y_by_label: float
+    x_by_label: float
 
 
 @kernel
@@ -142,8 +143,8 @@ def advance_bristles(
             here, following = pressure[m, j], pressure[m - 1, j]
             if (following if segment.end > 0.5 else here) > 0.0:
                 x, y, slid, work = carry(
-                    brush, x, y, slid, here, following, segment=segment, slide_x=slide.x + j * slide.x_by_col,
-                    slide_y=slide.y + m * slide.y_by_label,
+                    brush, x, y, slid, here, following, segment=segment,
+                    slide_x=slide.x + j * slide.x_by_col + m * slide.x_by_label, slide_y=slide.y + m * slide.y_by_label,
                 )  # fmt: skip
                 dissipated += work
             else:

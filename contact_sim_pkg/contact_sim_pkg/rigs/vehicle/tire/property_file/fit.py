@@ -1,14 +1,22 @@
-"""Inflated tire fitted to stiffness, deflection and contact of a property file.
+"""Inflated tire nearest to what is known of a tire over loads and inflations, by least squares in the logarithms of its
+keys; what the tire cannot be is left as a difference.
 
-Sidewall angle, tread modulus, structural stiffness, crown radius and rigid ring change; where the
-file has the ring this is held back, and the bending of the belt changes too. Stiffness and
-deflection count alike, before the contact, and what the tire cannot be is left as a difference.
+Of the standing tire: stiffness, deflection, length and width of the contact, by sidewall angle, tread modulus, stiffness of
+structure and ring, belt width and crown. Of the rolling one: stiffness in braking and cornering and the trail, in closed
+form from the contact's lines of length 2a along the travel, by bristles k, yaw stiffness C, bending c_b and extension c_s:
+
+    K_0 = sum 2 k a^2 dy,  m = sum 2/3 k a^3 dy
+    K_x = K_0 / (1 + c_s m),  K_y = K_0 / ((1 + c_b m) (1 + m / C)),  t = (m / K_0) (1 + c_b m)
+
+Keys that nothing speaks of stay near the usual ones, which count as weak measurements. Fitted on cells of 5 mm, which are
+within 1 % of those of the force table. Source: Pacejka, Tire and Vehicle Dynamics, ch. 3 and 5.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections import defaultdict
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy
@@ -17,94 +25,163 @@ from scipy.optimize import least_squares
 
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, PressureField
-from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, tire_body
+from contact_sim_pkg.rigs.vehicle.tire.body import tire_body
 from contact_sim_pkg.rigs.vehicle.tire.force_table import COLS, ITERATIONS, ROWS, TOLERANCE, gap_over_level_road
-from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import (
-    USUAL_COEFFICIENTS,
-    StandingTire,
-    contact_of,
-)
+from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import StandingTire
 from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation
 from contact_sim_pkg.rigs.vehicle.tire.size import read_size
 from contact_sim_pkg.scene.schema.catalog import catalog
 from contact_sim_pkg.scene.schema.fields import given
 
-__all__ = ["allowed", "angles", "fitted", "standing_on_belt"]
+__all__ = [
+    "ROLLING",
+    "STANDING",
+    "UNKNOWNS",
+    "Target",
+    "allowed",
+    "angles",
+    "fitted",
+    "fitted_slip",
+    "found_at",
+    "standing_on_belt",
+]
 
 Field = NDArray[numpy.float64]
 LOAD_STEP = 0.02  # of the load, either way, for the stiffness
-CLOSE, CLOSE_CONTACT, USUAL_CONTACT = 0.0175, 0.05, 0.15
-"""Relative standard deviations of the fit: stiffness and deflection; length and width of the contact
-of the file; those of a usual contact where it has none.
-"""
+COARSE = 2  # cells of the force table on each way of one of the fit
+TINY = 1e-3  # [m] extent of a contact that is less than two cells
+FAR = 20.0  # residual of a tire that cannot be solved
+STEP = 0.02  # of a logarithm, for a derivative: the contact's edge moves by a part of a cell
+FROM = 10.0  # where the logarithms are counted from: the steps go with them, and none comes to 0
+STANDING = ("stiffness", "deflection", "length", "width")
+ROLLING = ("braking", "cornering", "trail")
+CLOSE = {
+    "stiffness": 0.0175, "deflection": 0.0175, "length": 0.03, "width": 0.07, "braking": 0.03, "cornering": 0.03, "trail": 0.06,
+}  # fmt: skip
+"""Relative standard deviations of what is known."""
+
+
+class Target(NamedTuple):
+    """What is known of a tire under a load at an inflation; nan where nothing is."""
+
+    pressure: float  # [Pa]
+    load: float  # [N]
+    stiffness: float = math.nan  # [N/m]
+    deflection: float = math.nan  # [m] of the axle
+    length: float = math.nan  # [m] of the contact
+    width: float = math.nan  # [m]
+    braking: float = math.nan  # [N] per slip
+    cornering: float = math.nan  # [N/rad]
+    trail: float = math.nan  # [m]
+    weight: float = 1.0  # of the standing tire; 0.2: a usual contact
 
 
 class Unknown(NamedTuple):
-    """A key of the inflation that the fit changes, or its logarithm."""
+    """A key that the fit changes, its range, and the standard deviation of its logarithm about the usual value."""
 
     key: str
     low: float
     high: float
-    step: float  # for a derivative: the contact's edge moves by a part of a cell
-    weakly: float = 1.0  # standard deviation about the usual value, which decides where the file has no contact
-    logarithm: bool = True
+    weakly: float
 
 
+BELT = 0.6, 0.97  # of the section width
 UNKNOWNS = (
-    Unknown("tread_modulus", 5e5, 5e7, 0.05), Unknown("structure", 1e4, 2e6, 0.3, weakly=4.0),
-    Unknown("crown_radius", 0.1, 10.0, 0.2),
+    Unknown("tread_modulus", 5e5, 5e7, 2.0), Unknown("structure", 5e3, 2e6, 3.0), Unknown("tangential", 2e4, 2e6, 3.0),
+    Unknown("belt_width", *BELT, 0.25), Unknown("crown_radius", 0.1, 10.0, 2.0), Unknown("shoulder", 1e-4, 0.01, 2.5),
 )  # fmt: skip
-RING = Unknown("ring_stiffness", 1e5, 1e8, 0.05)
-BOUND_RING = RING._replace(weakly=0.15)
-"""The rigid ring, and that of a file that has one."""
-BENDING = Unknown("bending", 1.0, 10.0, 0.1)
-USUAL = Inflation()
-TINY = 1e-3  # [m] extent of a contact that is less than two cells
-FAR = 1e3  # residual of a tire that cannot be solved
+ANGLE, RING, HELD = 0.6, 1.0, 0.15
+"""Standard deviations of sidewall angle and ring stiffness; of a key that a file states."""
+OF_SLIP = (
+    Unknown("stiffness", 1e6, 1e9, 3.0), Unknown("yaw", 500.0, 1e5, 2.0), Unknown("bending", 1e-6, 1e-2, 2.0),
+    Unknown("extension", 1e-6, 1e-2, 2.0),
+)  # fmt: skip
 
 
-def fitted(inflation: Inflation, aim: StandingTire, ring: bool) -> Inflation:
-    """The tire whose stiffness and deflection are nearest to `aim`, and the contact to its, or to a usual
-    one where it has none.
+class Lines(NamedTuple):
+    """Sums over the lines of a contact along the travel, of length 2a."""
 
-    ring: whether the rigid ring is free; otherwise that of `inflation` is held back, as the file's.
+    squares: float  # sum 2 a^2 dy [m^3]
+    cubes: float  # sum 2/3 a^3 dy [m^4]
+    area: float  # [m^2]
 
-    Raises FieldError where no such tire carries the load.
+
+def nearest(unknowns: Sequence[Unknown], usual: Sequence[float], missed: Callable[[Field], Field]) -> Field:
+    """Values of the ``unknowns`` at which what is ``missed`` (of the values; in standard deviations) is least, beside their
+    distance from the ``usual`` ones.
     """
-    angle = Unknown("sidewall_angle", *angles(inflation), step=0.03, logarithm=False)
-    unknowns = (angle, *UNKNOWNS, *((RING,) if ring else (BOUND_RING, BENDING)))
-    size = read_size(inflation.size, inflation.radius)
-    usual_contact = contact_of(USUAL_COEFFICIENTS, size.radius, size.width, aim.load / (aim.stiffness * size.radius))
-    extents = [own or max(TINY, usual) for own, usual in zip((aim.length, aim.width), usual_contact, strict=True)]
-    wanted = numpy.array([aim.stiffness, aim.deflection, *extents])
-    closeness = [CLOSE, CLOSE, *(CLOSE_CONTACT if each else USUAL_CONTACT for each in (aim.length, aim.width))]
-
-    def column(values: Iterable[float]) -> Field:
-        return numpy.array([math.log(v) if u.logarithm else v for u, v in zip(unknowns, values, strict=True)])
-
-    low, high = column(each.low for each in unknowns), column(each.high for each in unknowns)
-    usual = numpy.clip(
-        column(max(getattr(inflation, each.key), each.low) for each in unknowns), low + 1e-3, high - 1e-3
-    )
-    step, weakly = (numpy.array([getattr(each, name) for each in unknowns]) for name in ("step", "weakly"))
-
-    def tire(unknown: Field) -> Inflation:
-        values = {u.key: float(math.exp(v) if u.logarithm else v) for u, v in zip(unknowns, unknown, strict=True)}
-        return inflation.model_copy(update=values)
-
-    def missed(unknown: Field) -> Field:
-        """Stiffness, deflection, length and width, then the unknowns, in standard deviations."""
-        try:
-            found = standing_on_belt(tire(unknown), aim.load)
-        except FieldError:
-            return numpy.full(len(wanted) + len(unknowns), FAR)
-        have = numpy.array([found.stiffness, found.deflection, found.length or TINY, found.width or TINY])
-        return numpy.array([*(numpy.log(have / wanted) / closeness), *((unknown - usual) / weakly)])
-
+    low, high = (numpy.log([getattr(each, end) for each in unknowns]) for end in ("low", "high"))
+    start = numpy.clip(numpy.log(usual), low + 1e-3, high - 1e-3)
+    weakly = numpy.array([each.weakly for each in unknowns])
     solution = least_squares(
-        missed, usual, "2-point", (low, high), ftol=1e-4, xtol=1e-4, x_scale=6.0 * step, diff_step=step / abs(usual)
-    )
-    return tire(solution.x)
+        lambda at: numpy.concatenate((missed(numpy.exp(start + at - FROM)), (at - FROM) / weakly)), numpy.full(len(start), FROM),
+        "2-point", (low - start + FROM, high - start + FROM), ftol=1e-3, xtol=1e-4, x_scale=numpy.minimum(weakly, 1.0),
+        diff_step=STEP / FROM, max_nfev=25,
+    )  # fmt: skip
+    return numpy.asarray(numpy.exp(start + solution.x - FROM))
+
+
+def fitted(inflation: Inflation, targets: Sequence[Target], ring: bool) -> Inflation:
+    """The tire nearest to the ``targets``; ring: whether the rigid ring is free, otherwise that of `inflation` is held
+    back, as the file's.
+
+    Raises FieldError where no such tire carries their loads.
+    """
+    size = read_size(inflation.size, inflation.radius)
+    unknowns = (
+        Unknown("sidewall_angle", *angles(inflation), ANGLE), Unknown("ring_stiffness", 1e5, 1e8, RING if ring else HELD),
+        *(each if each.key != "belt_width" else each._replace(low=BELT[0] * size.width, high=BELT[1] * size.width)
+          for each in UNKNOWNS),
+    )  # fmt: skip
+    usual = [getattr(inflation, each.key) or size.belt_width for each in unknowns]
+
+    def tire(values: Field) -> Inflation:
+        return inflation.model_copy(update={each.key: float(v) for each, v in zip(unknowns, values, strict=True)})
+
+    def missed(values: Field) -> Field:
+        try:
+            found = found_at(tire(values), targets, COARSE)
+        except (FieldError, ValueError):  # sidewalls that carry all
+            return numpy.full(len(targets) * len(STANDING), FAR)
+        return numpy.concatenate([
+            [_missed(target, have, name) * target.weight for name in STANDING]
+            for target, (have, _lines) in zip(targets, found, strict=True)
+        ])  # fmt: skip
+
+    return tire(nearest(unknowns, usual, missed))
+
+
+def fitted_slip(
+    lines: Sequence[Lines], targets: Sequence[Target], usual: dict[str, float], stated: str = ""
+) -> dict[str, float]:
+    """Bristles' ``stiffness`` [N/m^3], ``yaw`` [N m/rad], ``bending`` and ``extension`` [1/(m N)] nearest to the targets on
+    contacts of such ``lines``; the key ``stated`` is held back.
+    """
+    unknowns = [each._replace(weakly=HELD) if each.key == stated else each for each in OF_SLIP]
+
+    def missed(values: Field) -> Field:
+        rolling = [rolling_on(each, *values.tolist()) for each in lines]
+        return numpy.array([
+            _missed(target, have, name) for target, have in zip(targets, rolling, strict=True) for name in ROLLING
+        ])  # fmt: skip
+
+    found = nearest(unknowns, [usual[each.key] for each in unknowns], missed)
+    return dict(zip((each.key for each in unknowns), found.tolist(), strict=True))
+
+
+def rolling_on(lines: Lines, bristles: float, yaw: float, bending: float, extension: float) -> Target:
+    """Stiffnesses and trail of a rolling tire on a contact; see the module."""
+    own, moment = bristles * lines.squares, bristles * lines.cubes
+    return Target(
+        math.nan, math.nan, braking=own / (1.0 + extension * moment),
+        cornering=own / ((1.0 + bending * moment) * (1.0 + moment / yaw)), trail=moment / own * (1.0 + bending * moment),
+    )  # fmt: skip
+
+
+def _missed(target: Target, have: Target, name: str) -> float:
+    """By how many standard deviations ``have`` misses what is known; 0 where nothing is."""
+    wanted = getattr(target, name)
+    return 0.0 if math.isnan(wanted) else math.log(getattr(have, name) / wanted) / CLOSE[name]
 
 
 def angles(inflation: Inflation) -> tuple[float, float]:
@@ -121,44 +198,77 @@ def allowed(key: str) -> tuple[float, float]:
 
 
 def standing_on_belt(inflation: Inflation, load: float) -> StandingTire:
-    """The inflated tire of a scene's section under a `load` [N], as `standing_of_body`."""
+    """The inflated tire of a scene's section under a ``load`` [N] on a level road, on the cells of its force table.
+
+    Raises FieldError where the load is more than the tire carries.
+    """
+    have, _lines = found_at(inflation, [Target(inflation.pressure, load)])[0]
+    return StandingTire(*(getattr(have, name) for name in StandingTire._fields))
+
+
+def found_at(inflation: Inflation, targets: Sequence[Target], coarse: int = 1) -> list[tuple[Target, Lines]]:
+    """What the tire has, standing, under the load and at the inflation of each target, and the lines of its contact; on
+    cells ``coarse`` times those of the force table.
+
+    Stiffness, deflection and contact: of the loads 2 % below and above. Raises FieldError where a load is more than the
+    tire carries.
+    """
+    found: list[tuple[Target, Lines]] = [(target, Lines(0.0, 0.0, 0.0)) for target in targets]
+    by_pressure: dict[float, list[int]] = defaultdict(list)
+    for number in sorted(range(len(targets)), key=lambda number: targets[number].load):
+        by_pressure[targets[number].pressure].append(number)
+    for pressure, numbers in by_pressure.items():
+        field, gap = _field_of(inflation.model_copy(update={"pressure": pressure}), coarse)
+        for number in numbers:
+            found[number] = _under(field, gap, pressure, targets[number].load)
+    return found
+
+
+def _field_of(inflation: Inflation, coarse: int) -> tuple[PressureField, Field]:
+    """The pressure field of a tire, and its gap over a level road."""
     size = read_size(inflation.size, inflation.radius)
     chord, width = inflation.sidewall_chord or size.sidewall_chord, inflation.belt_width or size.belt_width
     body = tire_body({"inflation": {**inflation.model_dump(), "sidewall_chord": chord, "belt_width": width}})
-    return standing_of_body(body, load)
-
-
-def standing_of_body(body: TireBody, load: float) -> StandingTire:
-    """A tire whose contact has an extent, as the inflated one, under a `load` [N] on a level road, on the cells of its
-    force table.
-
-    Stiffness: of the loads 2 % below and above. The contact's edge lies between two cells, where the
-    square of the pressure, straight near an edge, comes to zero. Raises FieldError where the load
-    is more than the tire carries.
-    """
     assert body.extent is not None
-    cell_x, cell_y = body.extent[0] / ROWS, body.extent[1] / COLS
-    rows, cols = ROWS + ROWS // 2, COLS + COLS // 2
+    rows, cols = ROWS // coarse, COLS // coarse
+    cell_x, cell_y = body.extent[0] / rows, body.extent[1] / cols
+    rows, cols = rows + rows // 2, cols + cols // 2
     x, y = (numpy.arange(rows) - rows // 2) * cell_x, (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y
-    gap = gap_over_level_road(body.form, x, y)
-    settings = FieldSettings(rows, cols, cell_x, cell_y, body.modulus, TOLERANCE, ITERATIONS, 0, body.belt)
-    field = PressureField(settings, "tire")
-    below, above, there = (field.solve_load(gap, load * step) for step in (1.0 - LOAD_STEP, 1.0 + LOAD_STEP, 1.0))
-    length, across = cell_x * _longest(field.pressure), cell_y * _longest(field.pressure.T)
-    return StandingTire(load, 2.0 * LOAD_STEP * load / (above - below), there, length, across)
+    tolerance = TOLERANCE if coarse == 1 else 10.0 * TOLERANCE
+    settings = FieldSettings(rows, cols, cell_x, cell_y, body.modulus, tolerance, ITERATIONS, 0, body.belt)
+    return PressureField(settings, "tire"), gap_over_level_road(body.form, x, y)
 
 
-def _longest(pressure: Field) -> float:
-    """Extent of the contact along the first axis, in cells."""
-    longest = 0.0
+def _under(field: PressureField, gap: Field, pressure: float, load: float) -> tuple[Target, Lines]:
+    """What a tire has under a load."""
+    cell_x, cell_y = field.settings.cell_x, field.settings.cell_y
+    depths, along, across = [], [], []
+    for step in (1.0 - LOAD_STEP, 1.0 + LOAD_STEP):
+        depths.append(field.solve_load(gap, load * step))
+        along.append(cell_x * _lengths(field.pressure))
+        across.append(cell_y * _lengths(field.pressure.T))
+    length, width = (0.5 * sum(float(each.max()) for each in lines) for lines in (along, across))
+    halves = 0.5 * numpy.concatenate(along)
+    lines = Lines(
+        *(0.5 * cell_y * float(each.sum()) for each in (2.0 * halves**2, 2.0 / 3.0 * halves**3, 2.0 * halves))
+    )
+    stiffness, deflection = 2.0 * LOAD_STEP * load / (depths[1] - depths[0]), 0.5 * (depths[0] + depths[1])
+    return Target(pressure, load, stiffness, deflection, max(length, TINY), max(width, TINY)), lines
+
+
+def _lengths(pressure: Field) -> Field:
+    """Length of the contact on each line of the first axis, in cells: its edge lies between two cells, where the square of
+    the pressure, straight near an edge, comes to 0.
+    """
+    lengths = []
     for line in pressure.T:
         loaded = numpy.flatnonzero(line)
         if len(loaded) < 2:
+            lengths.append(float(len(loaded)))
             continue
         first, last = loaded[0], loaded[-1]
-        edges = _beyond(line[first], line[first + 1]) + _beyond(line[last], line[last - 1])
-        longest = max(longest, last - first + edges)
-    return float(longest)
+        lengths.append(last - first + _beyond(line[first], line[first + 1]) + _beyond(line[last], line[last - 1]))
+    return numpy.array(lengths)
 
 
 def _beyond(outer: float, inner: float) -> float:

@@ -110,7 +110,7 @@ KEYS: dict[str, Key] = {
     "LONGITUDINAL_STIFFNESS": Key("N/m", 1e2, 1e9, NOT_USED),
     "LATERAL_STIFFNESS": Key("N/m", 1e2, 1e9, "sidewall_compliance.lateral, less the bristles in series"),
     "YAW_STIFFNESS": Key("N m/rad", 1.0, 1e9, "sidewall_compliance.yaw"),
-    **_coefficients("PKX1", "brush.stiffness_x and _y"),
-    **_coefficients("PKY1 PKY2 PKY4", "compared with the tire's cornering stiffness"),
-    **_coefficients("QDZ1 QSY1 QSY2 QSY3 QSY4 QSY5 QSY6 QSY7 QSY8"),
+    **_coefficients("PKX1 PKX2 PKX3 PKY1 PKY2 PKY4 QDZ1 QDZ2", "brush.stiffness_x and _y, sidewall_compliance: fit"),
+    **_coefficients("PDX1 PDX2 PDY1 PDY2", "brush: friction and its fall with the load"),
+    **_coefficients("QSY1 QSY2 QSY3 QSY4 QSY5 QSY6 QSY7 QSY8"),
 }

@@ -26,7 +26,7 @@ CONTRADICTION = 0.1  # relative, of stiffness or deflection
 
 
 class StandingTire(NamedTuple):
-    """A tire under its nominal load at an inflation; None where the file does not say."""
+    """A tire under a load at an inflation; None where the file does not say."""
 
     load: float  # [N]
     stiffness: float  # dF_z / dr [N/m]
@@ -36,10 +36,11 @@ class StandingTire(NamedTuple):
 
 
 def standing_tire(
-    tire: PropertyFile, radius: float, pressure: float, nominal: float, load: float | None = None
+    tire: PropertyFile, radius: float, pressure: float, nominal: float, load: float | None = None, part: float = 1.0
 ) -> StandingTire | None:
-    """The tire of a file at an inflation of `pressure` [Pa], by its table of loads where that reaches
-    the load, else by its coefficients; None without load or stiffness.
+    """The tire of a file under a ``part`` of its nominal load at an inflation of ``pressure`` [Pa], by its
+    table of loads where that reaches the load, else by its coefficients; None without load or
+    stiffness.
 
     radius: R_0 [m]; nominal: p_0 [Pa], at which the coefficients hold; load [N] where the file has no
     FNOMIN. The contact is that of a file with Q_RA1 or Q_RA2, Q_RB1 or Q_RB2.
@@ -47,15 +48,17 @@ def standing_tire(
     Raises PropertyFileError where the coefficients give no positive stiffness or contact.
     """
     load = tire.get("FNOMIN") or load
-    by_law = law_tire(tire, radius, pressure, nominal, load)
+    by_law = law_tire(tire, radius, pressure, nominal, load, part)
     growth = 1.0 + (tire.get("PFZ1") or 0.0) * (pressure / nominal - 1.0)
-    by_curve = None if tire.curve is None or load is None or not growth > 0.0 else tire.curve.under(load / growth)
+    by_curve = (
+        None if tire.curve is None or load is None or not growth > 0.0 else tire.curve.under(part * load / growth)
+    )
     if load is None or by_curve is None:
         return by_law
     deflection, stiffness = by_curve[0], growth * by_curve[1]
     if by_law is not None:
         return by_law._replace(stiffness=stiffness, deflection=deflection)
-    return StandingTire(load, stiffness, deflection, None, None)
+    return StandingTire(part * load, stiffness, deflection, None, None)
 
 
 def contradiction(tire: PropertyFile, by_law: StandingTire, standing: StandingTire) -> str | None:
@@ -74,9 +77,9 @@ def contradiction(tire: PropertyFile, by_law: StandingTire, standing: StandingTi
 
 
 def law_tire(
-    tire: PropertyFile, radius: float, pressure: float, nominal: float, load: float | None
+    tire: PropertyFile, radius: float, pressure: float, nominal: float, load: float | None, part: float = 1.0
 ) -> StandingTire | None:
-    """The tire by the coefficients alone."""
+    """The tire by the coefficients alone, under a ``part`` of the load."""
     stiffness = tire.get("VERTICAL_STIFFNESS")
     linear, square = tire.get("Q_FZ1"), tire.get("Q_FZ2") or 0.0
     if load is None or (stiffness is None and not linear):
@@ -89,15 +92,15 @@ def law_tire(
         under_root = (linear or 0.0) ** 2
         stiffness = load / radius * math.sqrt(max(under_root + 4.0 * square, 0.0))
     growth = 1.0 + (tire.get("PFZ1") or 0.0) * (pressure / nominal - 1.0)
-    if not (under_root > 0.0 and growth > 0.0 and under_root + 4.0 * square / growth > 0.0):
+    if not (under_root > 0.0 and growth > 0.0 and under_root + 4.0 * square * part / growth > 0.0):
         raise PropertyFileError(
             f"{tire.file}: stiffness {stiffness:g} N/m at FNOMIN, Q_FZ2 {square:g} and PFZ1 give no tire that "
-            f"carries {load:g} N at {pressure:g} Pa"
+            f"carries {part * load:g} N at {pressure:g} Pa"
         )
-    # At this inflation: the deflection solves q_1 x + q_2 x^2 = 1 / growth.
-    slope = math.sqrt(under_root + 4.0 * square / growth)
-    deflection = radius * 2.0 / growth / (math.sqrt(under_root) + slope)
-    relative = load / (stiffness * growth * radius)
+    # At this load and inflation: the deflection solves q_1 x + q_2 x^2 = part / growth.
+    slope = math.sqrt(under_root + 4.0 * square * part / growth)
+    deflection = radius * 2.0 * part / growth / (math.sqrt(under_root) + slope)
+    relative = part * load / (stiffness * growth * radius)
     coefficients = [tire.get(f"Q_R{axis}{place}") or 0.0 for axis in "AB" for place in (1, 2)]
     extents: list[float | None] = list(contact_of(coefficients, radius, tire.get("WIDTH") or 0.0, relative))
     for axis, place in (("A", 0), ("B", 1)):
@@ -109,7 +112,7 @@ def law_tire(
                 f"{tire.file}: Q_R{axis}1 {root:g} and Q_R{axis}2 {straight:g} give a contact of {extent:.4g} m; 1e-3 to 1 m "
                 "is allowed"
             )
-    return StandingTire(load, load / radius * growth * slope, deflection, extents[0], extents[1])
+    return StandingTire(part * load, load / radius * growth * slope, deflection, extents[0], extents[1])
 
 
 USUAL_COEFFICIENTS = (0.671, 0.733, 1.059, -1.1878)

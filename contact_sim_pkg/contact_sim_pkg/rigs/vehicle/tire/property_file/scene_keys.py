@@ -5,35 +5,51 @@ sidewall compliance.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import NOMINAL_PRESSURE, ring_stiffness
 from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileError
-from contact_sim_pkg.rigs.vehicle.tire.property_file.fit import allowed, angles, fitted, standing_on_belt
-from contact_sim_pkg.rigs.vehicle.tire.property_file.inflation import stated_inflation
-from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import (
-    StandingTire,
-    contradiction,
-    law_tire,
-    standing_tire,
+from contact_sim_pkg.rigs.vehicle.tire.property_file.fit import (
+    ROLLING,
+    STANDING,
+    UNKNOWNS,
+    Target,
+    allowed,
+    angles,
+    fitted,
+    found_at,
 )
+from contact_sim_pkg.rigs.vehicle.tire.property_file.inflation import stated_inflation
+from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import contradiction, law_tire, standing_tire
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
 from contact_sim_pkg.rigs.vehicle.tire.property_file.slip_keys import slip_keys
+from contact_sim_pkg.rigs.vehicle.tire.property_file.targets import (
+    Measured,
+    few,
+    rolling_targets,
+    standing_targets,
+    usual_contact,
+)
 from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation
 from contact_sim_pkg.rigs.vehicle.tire.size import INCH, TireSize, read_size
 
-__all__ = ["Comparison", "SceneTire", "scene_tire"]
+__all__ = ["Comparison", "SceneTire", "measured_tire", "scene_tire"]
 
 USUAL = Inflation()
 DIGITS = 6
 USUAL_RANGE = (1.2e5, 3e5, 0.04)  # inflations [Pa] and deflection [m] that the belt is valid for
 USABLE = 0.1  # relative difference of radius, stiffness and deflection up to which a scene stands for the file
 SQUASHED = 0.15  # of the section height: deflection of the fit where the file has no nominal load
-MORE = 1.1  # inflation, over that of the file, at which the effect of the pressure is compared
-
-
-WRITTEN = ("size", "radius", "pressure", "sidewall_angle", "tread_modulus", "ring_stiffness")
+WRITTEN = ("size", "radius", "pressure", "ring_stiffness")
+JUDGED = ("radius", "stiffness", "deflection")
+NAMES = {
+    "stiffness": ("stiffness", "N/m"), "deflection": ("deflection", "m"), "length": ("length of the contact", "m"),
+    "width": ("width of the contact", "m"), "braking": ("braking stiffness", "N"), "cornering": ("cornering stiffness", "N/rad"),
+    "trail": ("trail", "m"),
+}  # fmt: skip
+"""Quantity of a comparison and its unit."""
 
 
 class Comparison(NamedTuple):
@@ -59,8 +75,8 @@ class SceneTire(NamedTuple):
 
     @property
     def judged(self) -> tuple[Comparison, ...]:
-        """Radius, stiffness and deflection; empty where the file states no stiffness."""
-        return self.fit[:3]
+        """Radius, stiffness and deflection at the nominal load; empty where the file states none of the tire."""
+        return tuple(each for each in self.fit if each.quantity in JUDGED)
 
     @property
     def usable(self) -> bool:
@@ -85,31 +101,88 @@ def scene_tire(tire: PropertyFile) -> SceneTire:
     inflation = Inflation(size=size, radius=radius, pressure=pressure, ring_stiffness=ring or USUAL.ring_stiffness)
     form = read_size(size, radius)
     load = _load(tire, form, notes)
-    aim = standing_tire(tire, form.radius, pressure, nominal, load)
+    standing = standing_targets(tire, form, pressure, nominal, load)
     if ring is None:
-        how = "is fitted too" if aim else f"{USUAL.ring_stiffness:g} N/m is the usual one"
+        how = "is fitted too" if standing else f"{USUAL.ring_stiffness:g} N/m is the usual one"
         notes.append(f"no BELT_MASS and FREQ_LONG; ring_stiffness {how}")
-    if aim is None:
+    if not standing:
         notes.append("not fitted: the file has no VERTICAL_STIFFNESS, Q_FZ1 or [DEFLECTION_LOAD_CURVE] up to the load")
-        comparisons: tuple[Comparison, ...] = ()
-    else:
-        by_law = law_tire(tire, form.radius, pressure, nominal, load)
-        said = None if tire.curve is None or by_law is None else contradiction(tire, by_law, aim)
+        return _scene(tire, inflation, (), notes)
+    by_law = law_tire(tire, form.radius, pressure, nominal, load)
+    aim = standing_tire(tire, form.radius, pressure, nominal, load)
+    if tire.curve is not None and by_law is not None and aim is not None:
+        said = contradiction(tire, by_law, aim)
         if said is not None:
             notes.append(said)
-        inflation, comparisons = _fit(tire, inflation, aim, (nominal, ring is None), notes)
-    written = WRITTEN if aim is None else (*WRITTEN, "structure", "bending", "crown_radius")
+    usual = usual_contact(standing[0], form)
+    inflation, comparisons = _fit(tire, inflation, standing, [] if usual is None else [usual], ring is None, notes)
+    if usual is not None:
+        notes.append(
+            "no Q_RA or Q_RB: the fit aims weakly at a usual contact; do not trust its length and width before its force"
+        )
+    rolling = rolling_targets(tire, form, pressure) if usual is None else []
+    if tire.get("PKX1") and not rolling:
+        notes.append("PKX1 is not used: it needs FNOMIN, VERTICAL_STIFFNESS, Q_RA and Q_RB for the contact")
+    return _scene(tire, inflation, comparisons, notes, rolling)
+
+
+def measured_tire(measured: Measured, size: str, radius: float | None = None) -> SceneTire:
+    """The tire of a table of measurements, of a ``size`` as on the sidewall and a free ``radius`` [m]: all of the inflated tire
+    fitted to a few rows, and compared with all. A scene has the middle inflation; the middle load there is the nominal one.
+
+    Raises PropertyFileError for a size that is none, an inflation that a scene does not take, and where no inflated tire carries
+    the loads.
+    """
+    file, notes = measured.file, list[str]()
+    try:
+        read_size(size, radius)
+    except ValueError as error:
+        raise PropertyFileError(str(error)) from None
+    low, high = allowed("pressure")
+    pressures = sorted({each.pressure for each in measured.targets})
+    for pressure in pressures:
+        if not low <= pressure <= high:
+            raise PropertyFileError(
+                f"{file.file}: an inflation of {pressure:g} Pa; the inflated tire of a scene takes {low:g} to {high:g} Pa"
+            )
+    middle = pressures[len(pressures) // 2]
+    there = sorted((each for each in measured.targets if each.pressure == middle), key=lambda each: each.load)
+    first = there[len(there) // 2]
+    inflation = Inflation(size=size, radius=radius, pressure=middle)
+    ordered = [first, *(each for each in measured.targets if each is not first)]
+    chosen = few(measured.targets)
+    if len(chosen) < len(ordered):
+        notes.append(f"fitted to {len(chosen)} of {len(ordered)} rows, compared with all")
+    inflation, comparisons = _fit(file, inflation, ordered, [], True, notes, chosen)
+    rolling = [each for each in ordered if any(not math.isnan(getattr(each, name)) for name in ROLLING)]
+    return _scene(file, inflation, comparisons, notes, rolling)
+
+
+def _scene(
+    tire: PropertyFile, inflation: Inflation, comparisons: tuple[Comparison, ...], notes: list[str],
+    rolling: Sequence[Target] = (),
+) -> SceneTire:  # fmt: skip
+    """The effects of a tire that is fitted where there are comparisons, and of how it rolls."""
+    written = WRITTEN if not comparisons else (*WRITTEN, "sidewall_angle", *(each.key for each in UNKNOWNS))
     given = inflation.model_dump(include=set(written), exclude_none=True)
     effects = {"inflation": {key: _rounded(value) for key, value in given.items()}, **_rigid_ring(tire, inflation)}
-    extents = [each.tire for each in comparisons if "of the contact" in each.quantity]
-    contact = (extents[0], extents[1]) if len(extents) == 2 else None
-    slip = slip_keys(tire, contact, notes)
+    lines = [lines for _have, lines in found_at(inflation, rolling)] if rolling else []
+    slip = slip_keys(tire, rolling, lines, notes)
     if slip.brush:
         rounded = [{key: _rounded(value) for key, value in keys.items()} for keys in (slip.brush, slip.compliance)]
         effects |= {"contact_field": {}, "brush": rounded[0], "sidewall_compliance": rounded[1]}
-    if slip.cornering is not None:
-        comparisons += (Comparison("cornering stiffness (not fitted)", "N/rad", *slip.cornering),)
+    for target, have in zip(rolling, slip.have, strict=True):
+        comparisons += _beside(target, have, ROLLING, f", {target.load:.0f} N")
     return SceneTire(effects, comparisons, tuple(notes))
+
+
+def _beside(target: Target, have: Target, names: Sequence[str], where: str = "") -> tuple[Comparison, ...]:
+    """What is known of a target beside what the tire has there."""
+    return tuple(
+        Comparison(f"{NAMES[name][0]}{where}", NAMES[name][1], getattr(target, name), getattr(have, name))
+        for name in names
+        if not math.isnan(getattr(target, name))
+    )
 
 
 def _size(tire: PropertyFile, notes: list[str]) -> tuple[str, float | None]:
@@ -213,67 +286,39 @@ def _rigid_ring(tire: PropertyFile, inflation: Inflation) -> dict[str, dict[str,
 
 
 def _fit(
-    tire: PropertyFile, inflation: Inflation, aim: StandingTire, reference: tuple[float, bool], notes: list[str]
-) -> tuple[Inflation, tuple[Comparison, ...]]:
-    """The fitted tire, and what it has beside the file: radius, stiffness, deflection first.
-    reference: p_0 [Pa], and whether the rigid ring is fitted.
+    tire: PropertyFile, inflation: Inflation, targets: Sequence[Target], usual: list[Target], ring: bool, notes: list[str],
+    chosen: Sequence[Target] = (),
+) -> tuple[Inflation, tuple[Comparison, ...]]:  # fmt: skip
+    """The fitted tire, and what it has beside the targets: radius and the first of them, the nominal one, in front.
+    ring: whether the rigid ring is fitted; chosen: of the targets, for the fit, all without.
     """
-    (nominal, ring), stated = reference, inflation.ring_stiffness
+    stated, first = inflation.ring_stiffness, targets[0]
     try:
-        inflation = fitted(inflation, aim, ring)
-        found = standing_on_belt(inflation, aim.load)
+        inflation = fitted(inflation, [*(chosen or targets), *usual], ring)
+        found = [have for have, _lines in found_at(inflation, targets)]
     except FieldError:
         raise PropertyFileError(
             f"{tire.file}{_lines(tire, 'FNOMIN')}: no inflated tire {inflation.size} at {inflation.pressure:g} Pa carries "
-            f"FNOMIN {aim.load:g} N"
+            f"{'FNOMIN' if tire.get('FNOMIN') else 'its loads,'} {first.load:g} N"
         ) from None
     radius = read_size(inflation.size, inflation.radius).radius
     rows = [
-        Comparison("radius", "m", tire.get("UNLOADED_RADIUS") or radius, radius),
-        Comparison("stiffness", "N/m", aim.stiffness, found.stiffness),
-        Comparison("deflection", "m", aim.deflection, found.deflection),
-    ]
-    for name, wanted, have in (("length", aim.length, found.length), ("width", aim.width, found.width)):
-        if wanted is not None and have is not None:
-            rows.append(Comparison(f"{name} of the contact", "m", wanted, have))
+        Comparison("radius", "m", tire.get("UNLOADED_RADIUS") or radius, radius), *_beside(first, found[0], STANDING),
+    ]  # fmt: skip
     if not ring:
         rows.append(Comparison("ring stiffness", "N/m", stated, inflation.ring_stiffness))
-    effect = _pressure_effect(tire, inflation, aim, found, nominal)
-    if effect is not None:
-        rows.append(effect)
+    for target, have in zip(targets[1:], found[1:], strict=True):
+        rows += _beside(target, have, STANDING, f", {target.load:.0f} N, {1e-3 * target.pressure:.0f} kPa")
     if min(abs(inflation.sidewall_angle - end) for end in angles(inflation)) < 1e-3:
         notes.append("sidewall_angle is at the end of its range: no tire of this kind is nearer to the file")
-    if aim.length is None or aim.width is None:
-        notes.append(
-            "no Q_RA or Q_RB: the fit aims weakly at a usual contact and has "
-            f"{1e3 * (found.length or 0.0):.0f} x {1e3 * (found.width or 0.0):.0f} mm"
-        )
     low, high, deepest = USUAL_RANGE
-    if not (low <= inflation.pressure <= high and found.deflection <= deepest):
+    sunk = found[0].deflection
+    if not (low <= inflation.pressure <= high and sunk <= deepest):
         notes.append(
-            f"inflation {inflation.pressure:g} Pa and deflection {found.deflection:.3g} m: the tire is valid for "
+            f"inflation {inflation.pressure:g} Pa and deflection {sunk:.3g} m: the tire is valid for "
             f"{low:g} to {high:g} Pa and up to {deepest:g} m"
         )
     return inflation, tuple(rows)
-
-
-def _pressure_effect(
-    tire: PropertyFile, inflation: Inflation, aim: StandingTire, found: StandingTire, nominal: float
-) -> Comparison | None:
-    """d ln K / d ln p at the load, where the file has PFZ1 and no table, and the tire carries the load
-    there too.
-    """
-    if not tire.get("PFZ1") or tire.curve is not None:
-        return None
-    radius = read_size(inflation.size, inflation.radius).radius
-    stiffer = standing_tire(tire, radius, MORE * inflation.pressure, nominal, aim.load)
-    assert stiffer is not None
-    try:
-        have = standing_on_belt(inflation.model_copy(update={"pressure": MORE * inflation.pressure}), aim.load)
-    except FieldError:
-        return None
-    exponents = [math.log(b.stiffness / a.stiffness) / math.log(MORE) for a, b in ((aim, stiffer), (found, have))]
-    return Comparison("stiffness over inflation, exponent (not fitted)", "", *exponents)
 
 
 def _rounded(value: Any) -> Any:

@@ -1,24 +1,27 @@
-"""From a tire property file to the keys of bristles and sidewall compliance.
+"""From what is known of the rolling tire to the keys of bristles and sidewall compliance.
 
-    K_x = k A^2 / (2 w) = PKX1 F_0          slip stiffness of bristles k [N/m^3] over a contact of
-                                            area A and width w, as long everywhere as its mean chord
-    1 / C_y = 1 / C + 1 / (k A)             side stiffness of belt C and bristles in series
-    C_t = I_b (2 pi f)^2                    wind-up of the belt on a rim that stands
-    K_y = K_0 / (1 + K_0 t / C_p)           cornering, with the yaw stiffness C_p; K_0 = K_x, t = A / (6 w)
+    1 / C_y = 1 / C + 1 / (k A)    side stiffness of belt C and bristles in series, on a contact of area A
+    C_t = I_b (2 pi f)^2           wind-up of the belt on a rim that stands
 
-Source: Pacejka, Tire and Vehicle Dynamics (2012), 3.2 and 4.3: ``K_y = PKY1 F_0 sin(PKY4
-atan(F_z / (PKY2 F_0)))``.
+Bristles, yaw stiffness, bending and extension are fitted (`fit.py`); friction is that of the peaks:
+``mu = PD1 + PD2 df``, df = F_z / F_0 - 1.
+
+Source: Pacejka, Tire and Vehicle Dynamics (2012), 4.3.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
+from contact_sim_pkg.rigs.vehicle.tire.property_file.fit import Lines, Target, fitted_slip, rolling_on
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
-from contact_sim_pkg.rigs.vehicle.tire.schema import SidewallComplianceSection
+from contact_sim_pkg.rigs.vehicle.tire.schema import BrushSection, SidewallComplianceSection
 
 SIDEWALLS = ("LATERAL_STIFFNESS", "YAW_STIFFNESS", "BELT_IYY", "FREQ_WINDUP", "DAMP_WINDUP")
+OF_PEAK = 1.15 / 0.955
+"""Static friction over the largest braking force over the load, of the usual tire at 60 km/h."""
 
 __all__ = ["SlipKeys", "slip_keys"]
 
@@ -26,31 +29,34 @@ Keys = dict[str, float]
 
 
 class SlipKeys(NamedTuple):
-    """Keys of the effects, empty where the file gives none."""
+    """Keys of the effects, empty where nothing is known; and what the tire then has at each target."""
 
     brush: Keys
     compliance: Keys
-    cornering: tuple[float, float] | None  # [N/rad] of the file and of the tire
+    have: tuple[Target, ...]
 
 
-def slip_keys(tire: PropertyFile, contact: tuple[float, float] | None, notes: list[str]) -> SlipKeys:
-    """Keys from a file whose fitted tire stands on a ``contact`` of a length and a width [m] under FNOMIN;
-    None where the file has no contact.
+def slip_keys(tire: PropertyFile, targets: Sequence[Target], lines: Sequence[Lines], notes: list[str]) -> SlipKeys:
+    """Keys from the targets that say how the tire rolls, on the ``lines`` of the contacts that it has there; none for
+    bristles and belt without targets.
     """
-    stiffness, load = tire.get("PKX1"), tire.get("FNOMIN")
-    compliance = _compliance(tire)
-    if contact is None or not stiffness or load is None or stiffness < 0.0:
-        if stiffness:
-            notes.append("PKX1 is not used: it needs FNOMIN, VERTICAL_STIFFNESS, Q_RA and Q_RB for the contact")
+    compliance, usual = _compliance(tire), SidewallComplianceSection()
+    if not targets:
         of_sidewalls = [key for key in SIDEWALLS if tire.get(key) is not None]
         if of_sidewalls:
             notes.append(f"{', '.join(of_sidewalls)}: not used without bristles, which need PKX1 and the contact")
-        return SlipKeys({}, compliance, None)
-    length, width = contact
-    area = ROUND * length * width
-    bristles = 2.0 * width * stiffness * load / area**2
+        return SlipKeys({}, compliance, ())
+    start = {
+        "stiffness": BrushSection().stiffness_x, "yaw": compliance.get("yaw", usual.yaw), "bending": usual.bending,
+        "extension": usual.extension,
+    }  # fmt: skip
+    found = fitted_slip(lines, targets, start, "yaw" if "yaw" in compliance else "")
+    bristles = found.pop("stiffness")
     lateral = tire.get("LATERAL_STIFFNESS")
     if lateral is not None:
+        area = min(zip(targets, lines, strict=True), key=lambda each: abs(each[0].load - (tire.get("FNOMIN") or 0.0)))[
+            1
+        ].area
         series = 1.0 / lateral - 1.0 / (bristles * area)
         if series > 0.0:
             compliance["lateral"] = 1.0 / series
@@ -58,17 +64,10 @@ def slip_keys(tire: PropertyFile, contact: tuple[float, float] | None, notes: li
             notes.append(
                 f"LATERAL_STIFFNESS {lateral:g} N/m is above that of the bristles alone, {bristles * area:.4g} N/m"
             )
-    yaw = compliance.get("yaw", SidewallComplianceSection().yaw)
-    own = stiffness * load
-    cornering = own / (1.0 + own * area / (6.0 * width) / yaw)
-    file = _cornering(tire, load)
     return SlipKeys(
-        {"stiffness_x": bristles, "stiffness_y": bristles}, compliance, None if file is None else (file, cornering)
+        {"stiffness_x": bristles, "stiffness_y": bristles, **_friction(tire)}, {**compliance, **found},
+        tuple(rolling_on(each, bristles, **found) for each in lines),
     )  # fmt: skip
-
-
-ROUND = 0.92
-"""Area of the contact of an inflated tire over that of its rectangle."""
 
 
 def _compliance(tire: PropertyFile) -> Keys:
@@ -86,9 +85,18 @@ def _compliance(tire: PropertyFile) -> Keys:
     return found
 
 
-def _cornering(tire: PropertyFile, load: float) -> float | None:
-    """Cornering stiffness [N/rad] of the file at its nominal load and pressure."""
-    peak, at, shape = tire.get("PKY1"), tire.get("PKY2"), tire.get("PKY4") or 2.0
-    if not peak or not at:
-        return None
-    return abs(peak) * load * math.sin(shape * math.atan(1.0 / at))
+def _friction(tire: PropertyFile) -> Keys:
+    """Friction whose peak along is that of the file at FNOMIN, and its fall with the load either way."""
+    peak, load, usual = abs(tire.get("PDX1") or 0.0), tire.get("FNOMIN"), BrushSection()
+    if not peak or load is None:
+        return {}
+    static = min(peak * OF_PEAK, 5.0)
+    found = {
+        "coefficient_static": static, "coefficient_kinetic": static * usual.coefficient_kinetic / usual.coefficient_static,
+        "nominal_load": load,
+    }  # fmt: skip
+    for axis, key in (("X", "load_exponent"), ("Y", "load_exponent_across")):
+        at_load, change = tire.get(f"PD{axis}1"), tire.get(f"PD{axis}2")
+        if at_load and change is not None:
+            found[key] = min(max(-change / at_load, 0.0), 1.0)
+    return found
