@@ -8,7 +8,8 @@ table of a law, since what is passed to a kernel costs by its width); its kernel
   ``lost, brought, stored, kept``: the power [W] that it dissipates, that which it brings in from outside, the energy
   [J] that it holds, and what of this is among the losses all the same. So an energy stands where its force stands.
 * ``finish`` runs when the accelerations are known, and returns power [W] brought in.
-* ``events`` writes its event functions, of which there are ``event_count``.
+* ``events`` writes its event functions, of which there are ``event_count``; ``transition`` answers where one of them has
+  changed its sign, as `integrate/interface.mode_transition`: an element with a mode of its own has its place there.
 * ``observe`` writes its columns of the samples (``motion/columns.py``).
 
 ``ground``: ``motion/ground.Ground``; state, out, derivative: [states] of the rig.
@@ -23,7 +24,7 @@ from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel_overload
 from contact_sim_pkg.rigs.vehicle.motion.ground import Ground
 
-__all__ = ["act", "events", "events_of", "finish", "observe", "register_element"]
+__all__ = ["act", "events", "events_of", "finish", "observe", "register_element", "transition"]
 
 Work = tuple[float, float, float, float]
 Elements = tuple[Any, ...]
@@ -35,8 +36,13 @@ def _finishes_at_once(element, ground, state, out):
 
 
 @borrowing_kernel
-def _without_events(element, ground, state, first, out):
+def _without_events(element, ground, mode, state, first, out):
     pass
+
+
+@borrowing_kernel
+def _without_modes(element, ground, mode, state, event, direction):
+    return direction
 
 
 @borrowing_kernel
@@ -49,6 +55,7 @@ class _Kernels(NamedTuple):
     finish: Callable[..., float]
     events: Callable[..., None]
     event_count: int
+    transition: Callable[..., float]
     observe: Callable[..., None]
 
 
@@ -62,13 +69,15 @@ def register_element(
     finish: Callable[..., float] = _finishes_at_once,
     events: Callable[..., None] = _without_events,
     event_count: int = 0,
+    transition: Callable[..., float] = _without_modes,
     observe: Callable[..., None] = _unobserved,
 ) -> None:
     """Register the kernels of a class of elements: ``act(element, ground, mode, state, out)``, ``finish(element,
-    ground, state, out)``, ``events(element, ground, state, first, out)`` from place ``first`` on, and
+    ground, state, out)``, ``events(element, ground, mode, state, first, out)`` from place ``first`` on,
+    ``transition(element, ground, mode, state, event, direction)`` of its event number ``event``, and
     ``observe(element, ground, state, out)``.
     """
-    _KERNELS[element_class] = _Kernels(act, finish, events, event_count, observe)
+    _KERNELS[element_class] = _Kernels(act, finish, events, event_count, transition, observe)
 
 
 def events_of(elements: Elements) -> int:
@@ -88,11 +97,23 @@ def finish(elements: Elements, ground: Ground, state: Vector, out: Vector) -> fl
     return sum(_KERNELS[type(each)].finish(each, ground, state, out) for each in elements)
 
 
-def events(elements: Elements, ground: Ground, state: Vector, first: int, out: Vector) -> None:
+def events(elements: Elements, ground: Ground, mode: Modes, state: Vector, first: int, out: Vector) -> None:
     """Write the event functions of all elements from place ``first`` on into ``out``."""
     for each in elements:
-        _KERNELS[type(each)].events(each, ground, state, first, out)
+        _KERNELS[type(each)].events(each, ground, mode, state, first, out)
         first += _KERNELS[type(each)].event_count
+
+
+def transition(elements: Elements, ground: Ground, mode: Modes, state: Vector, event: int, direction: float) -> float:
+    """Let the element answer whose event function this is, in the order of all; returns the sign of that function
+    from now on.
+    """
+    for each in elements:
+        kernels = _KERNELS[type(each)]
+        if event < kernels.event_count:
+            return kernels.transition(each, ground, mode, state, event, direction)
+        event -= kernels.event_count
+    return direction
 
 
 def observe(elements: Elements, ground: Ground, state: Vector, out: Vector) -> None:
@@ -140,14 +161,28 @@ def _finish(elements, ground, state, out):
 
 
 @kernel_overload(events, thin=True)
-def _events(elements, ground, state, first, out):
+def _events(elements, ground, mode, state, first, out):
     if not len(elements):
-        return lambda elements, ground, state, first, out: None
+        return lambda elements, ground, mode, state, first, out: None
     of_first, count = _kernels_of_first(elements).events, _kernels_of_first(elements).event_count
 
-    def implementation(elements, ground, state, first, out):
-        of_first(elements[0], ground, state, first, out)
-        events(elements[1:], ground, state, first + count, out)
+    def implementation(elements, ground, mode, state, first, out):
+        of_first(elements[0], ground, mode, state, first, out)
+        events(elements[1:], ground, mode, state, first + count, out)
+
+    return implementation
+
+
+@kernel_overload(transition, thin=True)
+def _transition(elements, ground, mode, state, event, direction):
+    if not len(elements):
+        return lambda elements, ground, mode, state, event, direction: direction
+    of_first, count = _kernels_of_first(elements).transition, _kernels_of_first(elements).event_count
+
+    def implementation(elements, ground, mode, state, event, direction):
+        if event < count:
+            return of_first(elements[0], ground, mode, state, event, direction)
+        return transition(elements[1:], ground, mode, state, event - count, direction)
 
     return implementation
 
