@@ -17,7 +17,7 @@ ENERGIES = (
     _forgotten("motion/spring._act", "return spring.damping", "return 0.0 * spring.damping", "tire"),
     _forgotten("motion/spring._drive", "drive_line.mass * ground", "0.0 * ground", "car"),
     _forgotten("motion/road._act", "elastic + hysteresis, hysteresis", "hysteresis, hysteresis", "tire"),
-    _forgotten("effects/suspension_kernel._act", "0.5 * strut.stiffness", "0.0 * strut.stiffness", "seat"),
+    Mutant("effects/suspension_kernel._act", "0.5 * strut.stiffness", "0.0 * strut.stiffness", ("test_elements",)),
     _forgotten("effects/suspension_kernel._act", "return strut.damping", "return 0.0 * strut.damping", "seat"),
     _forgotten("effects/suspension_kernel._rub", "return force * rate", "return 0.0 * rate", "seat"),
     _forgotten("effects/suspension_kernel._shaken", "-mass.mass", "-0.0 * mass.mass", "seat"),

@@ -33,7 +33,7 @@ def act(snubber, ground, mode, state, out):
 
 
 @borrowing_kernel
-def events(snubber, ground, mode, state, first, out):
+def events(snubber, ground, state, first, out):
     """No step straddles the touch, where the stiffness jumps."""
     out[first] = depth(snubber, state)
 

@@ -130,7 +130,7 @@ def _forces(drive: SceneDrive, states: Vector) -> list[Vector]:
     if seat_law is not None and rig.seat is not None:
         first = rig.seat.offset
         second = first + len(rig.seat.masses)
-        base = base_of(rig.seat.pan, rig.seat.floor)
+        base = base_of(rig.seat.floor)
         floor = (0.0, 0.0) if base is None else (states[:, base], states[:, base + 1])
         approach, speed = floor[0] - states[:, first], floor[1] - states[:, second]
         found.append(numpy.array([normal_force(seat_law, x, v) for x, v in zip(approach, speed, strict=True)]))

@@ -27,7 +27,7 @@ from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
     shortest_time,
 )
 from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
-from contact_sim_pkg.rigs.vehicle.motion.ends import base_of
+from contact_sim_pkg.rigs.vehicle.motion.ends import Floor, Pan, base_of
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
 from contact_sim_pkg.rigs.vehicle.motion.parameters import MasslessNode, Seat, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.motion.scales import POSITION_SCALE, VELOCITY_SCALE, contact_scale
@@ -254,10 +254,13 @@ def _seat(
     if occupant.masses[0] == 0.0:
         node = MasslessNode(sum(link.damping for link in occupant.links if 0 in link[:2]))
     # Its states follow those of the quarter car, whose body is the floor, and of what effects bring.
+    floor: Floor
     offset, floor = (0, None) if quarter is None else (quarter.states, quarter.body.place)
+    if acting.pan is not None:
+        floor = Pan(acting.pan) if quarter is None else acting.pan
     offset += 2 * len(acting.joined) + len(acting.states)
     masses = numpy.array(occupant.masses, dtype=numpy.float64)
-    seat = Seat(offset, masses, ends, springs.T.copy(), node, floor=floor, pan=acting.pan)
+    seat = Seat(offset, masses, ends, springs.T.copy(), node, floor=floor)
     effect = scene.effect("seat", seat_schema.SofteningSection)
     if effect is None:
         return seat
@@ -435,7 +438,7 @@ def standing_state(model: Model, height: float, rate: float = 0.0) -> Vector:
         for joined in model.acting.joined:
             state[joined.mass.place], state[joined.mass.place + 1] = floor, rate
         settle(rig, model.acting.modes, occupant * rig.gravity, state, (height, rate))
-        base = None if rig.seat is None else base_of(rig.seat.pan, rig.seat.floor)
+        base = None if rig.seat is None else base_of(rig.seat.floor)
         floor = 0.0 if base is None else state[base]
     # The occupant on the cushion, its masses on their springs.
     if rig.seat is not None and rig.seat_contact is not None:

@@ -27,7 +27,7 @@ def settle(rig: Vehicle, modes: int, seated: float, state: Vector, road: tuple[f
     places = numpy.array([each.place for each in rig.masses])
     weights = numpy.array([each.mass for each in rig.masses]) * rig.gravity
     if rig.seat is not None:
-        weights[places == base_of(rig.seat.pan, rig.seat.floor)] += seated
+        weights[places == base_of(rig.seat.floor)] += seated
     mode, out = numpy.zeros(1 + modes, dtype=numpy.int64), numpy.zeros_like(state)
 
     def left(heights: Vector) -> Vector:

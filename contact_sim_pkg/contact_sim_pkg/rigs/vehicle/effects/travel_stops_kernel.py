@@ -48,7 +48,7 @@ def _act(stops, ground, mode, state, out):
 
 
 @borrowing_kernel
-def _events(stops, ground, mode, state, first, out):
+def _events(stops, ground, state, first, out):
     travel, rate = between(stops.lower, stops.upper, state)
     out[first] = stops.low - travel
     out[first + 1] = contact_tension_event(stops.law, stops.low - travel, -rate, state)

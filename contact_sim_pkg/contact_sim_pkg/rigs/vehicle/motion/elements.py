@@ -8,8 +8,9 @@ table of a law, since what is passed to a kernel costs by its width); its kernel
   ``lost, brought, stored, kept``: the power [W] that it dissipates, that which it brings in from outside, the energy
   [J] that it holds, and what of this is among the losses all the same. So an energy stands where its force stands.
 * ``finish`` runs when the accelerations are known, and returns power [W] brought in.
-* ``events`` writes its event functions, of which there are ``event_count``; ``transition`` answers where one of them has
-  changed its sign, as `integrate/interface.mode_transition`: an element with a mode of its own has its place there.
+* ``events`` writes its event functions, of which there are ``event_count``.
+* ``transition`` answers where one of them has changed its sign, as `integrate/interface.mode_transition`. A class that has
+  one has a mode, and its ``events`` sees the modes: an array that others need not pay for.
 * ``observe`` writes its columns of the samples (``motion/columns.py``).
 
 ``ground``: ``motion/ground.Ground``; state, out, derivative: [states] of the rig.
@@ -36,7 +37,7 @@ def _finishes_at_once(element, ground, state, out):
 
 
 @borrowing_kernel
-def _without_events(element, ground, mode, state, first, out):
+def _without_events(element, ground, state, first, out):
     pass
 
 
@@ -58,6 +59,11 @@ class _Kernels(NamedTuple):
     transition: Callable[..., float]
     observe: Callable[..., None]
 
+    @property
+    def has_modes(self) -> bool:
+        """Whether its events depend on a mode."""
+        return self.transition is not _without_modes
+
 
 _KERNELS: dict[type, _Kernels] = {}
 
@@ -73,9 +79,9 @@ def register_element(
     observe: Callable[..., None] = _unobserved,
 ) -> None:
     """Register the kernels of a class of elements: ``act(element, ground, mode, state, out)``, ``finish(element,
-    ground, state, out)``, ``events(element, ground, mode, state, first, out)`` from place ``first`` on,
-    ``transition(element, ground, mode, state, event, direction)`` of its event number ``event``, and
-    ``observe(element, ground, state, out)``.
+    ground, state, out)``, ``events(element, ground, state, first, out)`` from place ``first`` on, or with modes
+    ``events(element, ground, mode, state, first, out)`` and ``transition(element, ground, mode, state, event, direction)``
+    of its event number ``event``, and ``observe(element, ground, state, out)``.
     """
     _KERNELS[element_class] = _Kernels(act, finish, events, event_count, transition, observe)
 
@@ -100,8 +106,10 @@ def finish(elements: Elements, ground: Ground, state: Vector, out: Vector) -> fl
 def events(elements: Elements, ground: Ground, mode: Modes, state: Vector, first: int, out: Vector) -> None:
     """Write the event functions of all elements from place ``first`` on into ``out``."""
     for each in elements:
-        _KERNELS[type(each)].events(each, ground, mode, state, first, out)
-        first += _KERNELS[type(each)].event_count
+        kernels = _KERNELS[type(each)]
+        seen = (ground, mode, state) if kernels.has_modes else (ground, state)
+        kernels.events(each, *seen, first, out)
+        first += kernels.event_count
 
 
 def transition(elements: Elements, ground: Ground, mode: Modes, state: Vector, event: int, direction: float) -> float:
@@ -167,15 +175,19 @@ def _events(elements, ground, mode, state, first, out):
     of_first, count = _kernels_of_first(elements).events, _kernels_of_first(elements).event_count
 
     def implementation(elements, ground, mode, state, first, out):
+        of_first(elements[0], ground, state, first, out)
+        events(elements[1:], ground, mode, state, first + count, out)
+
+    def with_modes(elements, ground, mode, state, first, out):
         of_first(elements[0], ground, mode, state, first, out)
         events(elements[1:], ground, mode, state, first + count, out)
 
-    return implementation
+    return with_modes if _kernels_of_first(elements).has_modes else implementation
 
 
 @kernel_overload(transition, thin=True)
 def _transition(elements, ground, mode, state, event, direction):
-    if not len(elements):
+    if not any(_KERNELS[each.instance_class].has_modes for each in elements):
         return lambda elements, ground, mode, state, event, direction: direction
     of_first, count = _kernels_of_first(elements).transition, _kernels_of_first(elements).event_count
 

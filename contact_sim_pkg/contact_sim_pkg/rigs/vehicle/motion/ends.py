@@ -2,19 +2,46 @@
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple, TypeAlias
+
 from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel_overload
 
-__all__ = ["base_of", "between", "motion_of", "press", "push_apart"]
+__all__ = ["Floor", "Pan", "base_of", "between", "is_shaken", "motion_of", "press", "push_apart"]
 
 
-def base_of(pan: int | None, floor: int | None) -> int | None:
-    """What a cushion stands on: the ``pan`` of a suspension where there is one, or the ``floor``."""
-    return floor if pan is None else pan
+class Pan(NamedTuple):
+    """What carries a cushion above a suspension whose floor is the shaken frame of reference."""
+
+    place: int  # in the state
+
+
+Floor: TypeAlias = int | Pan | None
+"""What a cushion stands on: a mass by its place, or the shaken frame of reference (None), or a pan above that."""
+
+
+def base_of(floor: Floor) -> int | None:
+    """Place of what a cushion stands on; None: the frame of reference."""
+    return floor.place if isinstance(floor, Pan) else floor
+
+
+def is_shaken(floor: Floor) -> bool:
+    """Whether what stands on it moves in the shaken frame of reference."""
+    return not isinstance(floor, int)
 
 
 @kernel_overload(base_of, thin=True)
-def _base_of(pan, floor):
-    return (lambda pan, floor: floor) if str(pan) == "none" else lambda pan, floor: pan
+def _base_of(floor):
+    return (lambda floor: floor.place) if _is_pan(floor) else lambda floor: floor
+
+
+@kernel_overload(is_shaken, thin=True)
+def _is_shaken(floor):
+    shaken = _is_pan(floor) or str(floor) == "none"
+    return lambda floor: shaken
+
+
+def _is_pan(floor: Any) -> bool:
+    return getattr(floor, "instance_class", None) is Pan
 
 
 @borrowing_kernel

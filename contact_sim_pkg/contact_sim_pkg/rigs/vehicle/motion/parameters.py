@@ -13,6 +13,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.laws.parameters import Contact
+from contact_sim_pkg.rigs.vehicle.motion.ends import Floor
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
 
 Element: TypeAlias = Any
@@ -50,8 +51,7 @@ class Seat(NamedTuple):
     springs: Vector  # [2, links] stiffness [N/m], damping [N s/m]
     node: MasslessNode | None = None  # None where the first mass is above 0
     softening: Softening | None = None
-    floor: int | None = None  # place of the body that is the floor; None: the frame of reference
-    pan: int | None = None  # place of what carries the cushion above a suspension; None: it stands on the floor
+    floor: Floor = None  # what the cushion stands on; None: the frame of reference
 
 
 def rigid_occupant(mass: float, offset: int = 0) -> Seat:

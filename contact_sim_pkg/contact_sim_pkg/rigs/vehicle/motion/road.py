@@ -43,7 +43,7 @@ def _act(contact, ground, mode, state, out):
 
 
 @borrowing_kernel
-def _events(contact, ground, mode, state, first, out):
+def _events(contact, ground, state, first, out):
     approach, rate = _approach(contact, ground, state)
     out[first] = approach
     out[first + 1] = contact_tension_event(contact.law, approach, rate, state)

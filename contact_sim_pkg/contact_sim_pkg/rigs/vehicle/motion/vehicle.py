@@ -88,7 +88,7 @@ def _floor_acceleration(seat, derivative):
     """Of what the cushion stands on, in its frame of reference in [m/s^2]."""
     if seat is None:
         return 0.0
-    return motion_of(base_of(seat.pan, seat.floor), derivative)[1]
+    return motion_of(base_of(seat.floor), derivative)[1]
 
 
 @borrowing_kernel
@@ -98,7 +98,7 @@ def seat_approach(seat, contact, back, cushion, cushion_rate, state):
     """
     if seat is None:
         return -1.0, 0.0
-    floor, floor_rate = motion_of(base_of(seat.pan, seat.floor), state)
+    floor, floor_rate = motion_of(base_of(seat.floor), state)
     velocity = floor_rate + cushion_rate
     approach = floor + cushion - pan_motion(back, seat, state)[0]
     settle_node(seat.node, seat, contact, approach, velocity + sliding_in(back, seat, state), pan_cosine(back), state)
@@ -108,7 +108,7 @@ def seat_approach(seat, contact, back, cushion, cushion_rate, state):
 @borrowing_kernel
 def _load_floor_of(seat, force, out):
     if seat is not None:
-        press(base_of(seat.pan, seat.floor), -force, out)
+        press(base_of(seat.floor), -force, out)
 
 
 @borrowing_kernel

@@ -70,7 +70,7 @@ class Bodies:
         # States: height of what touches the road, and of who sits
         self._tread = None if model.quarter is None else model.quarter.tread.place
         self._seated = None if seat is None else seat.offset
-        self._base = None if seat is None else base_of(seat.pan, seat.floor)
+        self._base = None if seat is None else base_of(seat.floor)
         self.reset()
 
     def reset(self) -> None:
