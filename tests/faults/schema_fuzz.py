@@ -61,6 +61,7 @@ BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with 
         ("tire_bump", "road={kind: step, position: 0.05, height: 0.01}"),
         ("tire_bump", "road={kind: pothole, position: 0.05, depth: 0.01, length: 0.2}"),
         ("tire_irregular_road",),
+        ("tire_bump", "effects.tire.bump_stop={}"),
         ("tire_bump", f"road={{kind: profile, file: {PROFILE}, header_line: 1}}"),
     ),
     "seat": (
@@ -68,7 +69,7 @@ BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with 
         ("seat_drop", "vibration.start=0"),
         ("seat_ride", "vibration={kind: sweep, start_frequency: 1, end_frequency: 9, amplitude: 1, duration: 9}"),
         ("seat_ride", "vibration={kind: noise, low: 1, high: 9, rms: 1}"),
-        ("seat_ride", "vibration={kind: platform, spectrum: EM1}"),
+        ("suspension_seat",),
     ),
     "car": (("car_full_bench",),),
     "occupant": (("seat_ride_full",),),

@@ -20,7 +20,8 @@ FRAME = (*RUN, *NODES, "excitation.roads", "excitation.vibrations")
 """Roots of what runs, reports and replays, without a rig."""
 LISTS_RIGS = "rigs"
 VEHICLE = (
-    ("motion", "field"), ("seat",), ("tire",), ("model", "work"), ("outputs",), ("run",), ("simulation",), ("other_half",),
+    ("motion", "field", "travel_report"), ("acting", "rest"), ("seat",), ("tire",), ("effects",), ("model", "work"),
+    ("outputs",), ("run",), ("simulation",), ("other_half",),
     ("machines",),
 )  # fmt: skip
 """Layers of `rigs/vehicle`: a room imports from those before it, and from none beside it."""

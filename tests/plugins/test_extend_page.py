@@ -49,7 +49,7 @@ def test_its_code_is_that_of_the_example():
     code = [textwrap.dedent(path.read_text()) for path in EXAMPLE.rglob("*.py")]
     flat = ["\n".join(line.strip() for line in text.splitlines()) for text in code]
     shown = [block for block in BLOCKS if block not in (CASES, TOPIC, OUTPUT) and not shows_signatures(block)]
-    assert len(shown) == 9
+    assert len(shown) == 11
     for block in shown:
         lines = "\n".join(line.strip() for line in block.strip().splitlines())
         assert any(lines in text for text in flat), block

@@ -15,6 +15,7 @@ from tests.report.synthetic_bag import seat_bag
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.records.plugins import OFF, VARIABLE
+from contact_sim_pkg.report.reading import read_recording
 
 EXAMPLE = Path(__file__).parents[2] / "examples/plugin_rig"
 OUTSIDE = 1  # exit code: a metric of so short a run lies outside its band
@@ -79,6 +80,26 @@ def test_its_effect_looks_at_our_tire_and_changes_no_bit(example):
     smooth, _ = scipy.signal.lfilter([share], [1.0, share - 1.0], force, zi=[(1.0 - share) * force[0]])
     rates = numpy.concatenate(list(bag.columns("tire/load_change", ("values",))["values"]))
     assert rates == pytest.approx((force - smooth) / 0.02, rel=1e-9, abs=1e-6)
+
+
+def test_its_snubber_acts_between_wheel_and_body_of_our_tire(example):
+    """Engaged at rest it carries a part of the body, by the balance of two linear springs, and over the bump its energy
+    stands in the ledger.
+    """
+    keys = "effects.tire.snubber={travel: -0.02, stiffness: 40000}"
+    common = ("run", "tire_bump", "--offline", "--set", "effects.tire.contact_field=null", "--set", keys)
+    example(*common, "--set", "duration=0.2", "--set", "road={kind: flat}", "--out", "flat")
+    bag = open_bag(example.work / "flat")
+    assert "plugins: bouncer_rig 0.1.0" in bag.metadata["scene"]
+    position = read_recording(bag).motion.position
+    above = position["wheel_z"] - position["body_z"]
+    weight, spring, snubber = 300.0 * 9.81, 2e4, 4e4
+    expected = (weight + snubber * (weight / spring - 0.02)) / (spring + snubber)
+    assert above[0] == pytest.approx(expected, abs=1e-9)
+    assert above == pytest.approx(above[0], abs=1e-6)
+    example(*common, "--set", "duration=1.2", "--out", "snubbed")
+    ledger = read_recording(open_bag(example.work / "snubbed")).ledger
+    assert abs(ledger.residual).max() < 1e-4 * abs(ledger.stored).max()
 
 
 WRITERS = """

@@ -53,6 +53,8 @@ class Effect:
         observer: ``module:name`` of what looks at the outputs of each block, for an effect that acts on
             nothing: a function of a resolved scene that returns a `run.observers.Observer`; empty: the
             rig's own simulation has the effect.
+        elements: ``module:name`` of a function that makes what the effect brings into the motion of a vehicle,
+            masses and elements between them (`rigs/vehicle/acting.py`); empty: none.
         feeds: topics of the contact whose values it changes.
         inputs: sections of the scene, or dotted keys, that act through it, or through others that name
             them too: they go with the last one.
@@ -72,6 +74,7 @@ class Effect:
     publishes: str = ""
     topic: ContactTopic | None = None
     observer: str = ""
+    elements: str = ""
     feeds: tuple[str, ...]
     inputs: tuple[str, ...] = ()
     called_for: Rule = never_called_for

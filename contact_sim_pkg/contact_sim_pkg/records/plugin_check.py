@@ -58,7 +58,7 @@ def _places_of_rig_alone(rig: Rig) -> Iterator[str]:
 
 def places_of_effects(effects: Iterable[Effect]) -> Iterator[str]:
     """Each text ``module:name`` of effects."""
-    return (place for effect in effects for place in (effect.section, effect.observer) if place)
+    return (place for effect in effects for place in (effect.section, effect.observer, effect.elements) if place)
 
 
 def faults_of_rig(package: str, rig: Rig) -> Iterator[str]:
@@ -95,7 +95,7 @@ def faults_of_effects(where: str, effects: Iterable[Effect]) -> Iterator[str]:
             yield f"{here}: two effects have this name; rename one"
         seen.add(effect.name)
         yield from _faults_of_key(here, effect.name, effect.section)
-        yield from _faults_of_places(here, [effect.observer] if effect.observer else [])
+        yield from _faults_of_places(here, filter(None, (effect.observer, effect.elements)))
         if effect.topic is not None:
             yield from _faults_of_topic(here, effect.topic)
 

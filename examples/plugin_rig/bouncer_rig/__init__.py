@@ -1,4 +1,4 @@
-"""A mass that falls on a spring with a damper: rig bouncer. And an effect for the bench's own tire."""
+"""A mass that falls on a spring with a damper: rig bouncer. And two effects for the bench's own tire."""
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
@@ -40,4 +40,11 @@ LOAD_CHANGE = Effect(
     topic=ContactTopic("load_change", "contact_msgs_defs/msg/Series"),
     observer=f"{__name__}.load_change:LoadChange",
 )
-EFFECTS = {"tire": (LOAD_CHANGE,)}
+SNUBBER = Effect(
+    name="snubber",
+    section=f"{__name__}.snubber:SnubberSection",
+    help="rubber snubber between wheel and body",
+    feeds=("force", "wrench"),
+    elements=f"{__name__}.snubber_kernel:snubber_of",
+)
+EFFECTS = {"tire": (LOAD_CHANGE, SNUBBER)}

@@ -21,6 +21,7 @@ from contact_sim_lab.twins.vehicle import normal_force
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.vehicle.model import Model, build
 from contact_sim_pkg.rigs.vehicle.motion import columns
+from contact_sim_pkg.rigs.vehicle.motion.ends import base_of
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["tolerance_rows"]
@@ -129,7 +130,8 @@ def _forces(drive: SceneDrive, states: Vector) -> list[Vector]:
     if seat_law is not None and rig.seat is not None:
         first = rig.seat.offset
         second = first + len(rig.seat.masses)
-        floor = (0.0, 0.0) if rig.seat.floor is None else (states[:, rig.seat.floor], states[:, rig.seat.floor + 1])
+        base = base_of(rig.seat.floor)
+        floor = (0.0, 0.0) if base is None else (states[:, base], states[:, base + 1])
         approach, speed = floor[0] - states[:, first], floor[1] - states[:, second]
         found.append(numpy.array([normal_force(seat_law, x, v) for x, v in zip(approach, speed, strict=True)]))
     return found

@@ -17,7 +17,10 @@ TIRE = Contact(
     section=f"{__name__}.tire.schema:TireSection",
     section_help="quarter car and tire (rigs tire and car); defaults where absent",
     effects=TIRE_EFFECTS,
-    rules=tuple(f"{__name__}.tire.schema_rules:{name}" for name in ("slip_breaches", "tire_effect_breaches")),
+    rules=(
+        *(f"{__name__}.tire.schema_rules:{name}" for name in ("slip_breaches", "tire_effect_breaches")),
+        f"{__name__}.effects.bump_stop:bump_stop_breaches",
+    ),
     topics=(
         FORCE,
         WRENCH,
@@ -34,9 +37,12 @@ SEAT = Contact(
     section=f"{__name__}.seat.schema:SeatSection",
     section_help="occupant and cushion (rigs seat and car); defaults where absent",
     effects=SEAT_EFFECTS,
-    rules=tuple(
-        f"{__name__}.seat.schema_rules:{name}"
-        for name in ("occupant_breaches", "cushion_breaches", "response_breaches")
+    rules=(
+        *(
+            f"{__name__}.seat.schema_rules:{name}"
+            for name in ("occupant_breaches", "cushion_breaches", "response_breaches")
+        ),
+        f"{__name__}.effects.suspension:suspension_breaches",
     ),
     topics=(
         FORCE,
@@ -114,7 +120,7 @@ RIGS = (
         help="occupant on a seat",
         contacts=(SEAT,),
         needs=("vibration",),
-        scenes={"seat_ride": 0, "seat_drop": 17},
+        scenes={"seat_ride": 0, "seat_drop": 17, "suspension_seat": 17},
         simulation=_SIMULATION,
         other_half=_OTHER_HALF,
         work=f"{__name__}.work:work_of_seat",

@@ -14,6 +14,9 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import approach_of_force
 from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, Friction
 from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.records.registry import rigs
+from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.rigs.vehicle.acting import Acting, Chassis
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids, make_grids, tangent_law
 from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
     CouplingRule,
@@ -24,8 +27,11 @@ from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
     shortest_time,
 )
 from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
+from contact_sim_pkg.rigs.vehicle.motion.ends import Floor, Pan, base_of
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
 from contact_sim_pkg.rigs.vehicle.motion.parameters import MasslessNode, Seat, Softening, Vehicle
+from contact_sim_pkg.rigs.vehicle.motion.scales import POSITION_SCALE, VELOCITY_SCALE, contact_scale
+from contact_sim_pkg.rigs.vehicle.rest import settle
 from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
 from contact_sim_pkg.rigs.vehicle.seat.cushion import SeatMap, build_pan_cushion, build_seat_map
 from contact_sim_pkg.rigs.vehicle.seat.lean import Lean, build_back, interface_at_rest, pose_of, rest_of
@@ -51,10 +57,7 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing
 
-POSITION_SCALE = 0.01  # [m], size of the approaches, at most; the integrator's tolerance is relative to it
-VELOCITY_SCALE = 0.5  # [m/s], size of the velocities on a rough road, at most
 LINK = 10.0  # loads at rest that a spring or damper of the occupant carries at the size of a motion, at most
-STIFF = 0.1  # of a contact less deep than that: its swings are many and hardly damped, and their errors add up
 
 
 Fields = tuple[FieldGrids | None, FieldGrids | None]  # of tire and seat
@@ -80,6 +83,7 @@ class Model:
     scale: Vector  # [states] error allowed per step
     coordinates: tuple[Coordinate, ...]
     quarter: QuarterCar | None  # None without a tire
+    acting: Acting  # what effects bring beside quarter car and occupant
     occupant: OccupantModel | None
     lean: Lean | None  # None where the pan alone carries the occupant
     tire_geometry: TireGeometry | None
@@ -136,10 +140,15 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
     tire = build_tire(scene, None if given_seat is None else given_seat.occupant, solver) if with_tire else None
     tire_field = None if tire is None else tire.field
     quarter = None if tire is None else tire.quarter
-    seat = None if occupant is None else _seat(scene, occupant, lean, quarter)
+    acting = _acting(scene, quarter, 0.0 if given_seat is None else occupant_mass(given_seat.occupant))
+    if quarter is not None and acting.of_body:
+        body = quarter.body._replace(mass=quarter.body.mass - acting.of_body)
+        quarter = quarter._replace(body=body, drive_line=quarter.drive_line._replace(mass=body.mass))
+    seat = None if occupant is None else _seat(scene, occupant, lean, quarter, acting)
     cushion = None if occupant is None else build_pan_cushion(scene, rest_of(occupant, pose_of(lean), GRAVITY).pan)
     seat_contact = None if seat is None else _seat_contact(scene, seat, lean, cushion, seat_field, shape)
     masses, elements = ((), ()) if quarter is None else (quarter.masses, quarter.elements)
+    masses, elements = (*masses, *(each.mass for each in acting.joined)), (*elements, *acting.elements)
     rig = Vehicle(GRAVITY, masses, elements, seat, seat_contact)
     if occupant is not None and seat is not None and seat_contact is not None and lean is not None:
         last = _behind_foam(scene, seat, lean) + (0 if seat.softening is None else 1)
@@ -153,13 +162,14 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
     # A footprint on a road bounds the length of the coupling steps, and so the segments.
     footprint = None if tire is None or tire_field is None else tire.footprint_length
     timing = coupled_timing(scene, tire_field is not None or seat_field is not None, footprint)
-    coordinates = _coordinates(rig, quarter)
+    coordinates = _coordinates(rig, quarter, acting)
     return Model(
         rig=rig,
         timing=timing,
-        scale=_scale(rig, coordinates, given(scene.integrator.relative_tolerance)),
+        scale=_scale(rig, coordinates, acting, given(scene.integrator.relative_tolerance)),
         coordinates=coordinates,
         quarter=quarter,
+        acting=acting,
         occupant=occupant,
         lean=lean,
         tire_geometry=None if tire is None else tire.geometry,
@@ -209,14 +219,46 @@ def _coupling(
     return CouplingRule(tolerance, allowances, longest, shortest, segments, ways)
 
 
-def _seat(scene: ResolvedScene, occupant: OccupantModel, lean: Lean | None, quarter: QuarterCar | None) -> Seat:
+def _acting(scene: ResolvedScene, quarter: QuarterCar | None, seated: float) -> Acting:
+    """What the effects of all contacts bring, contact by contact; ``seated`` [kg] of the occupant."""
+    found: list[Acting] = []
+    state, mode = 0 if quarter is None else quarter.states, 1  # behind that of the seat's friction
+    for contact in rigs()[scene.rig].contacts:
+        for effect, keys in scene.effects_at(contact.name):
+            if not effect.elements:
+                continue
+            wheel, body, suspension = (
+                (None, None, 0.0) if quarter is None else (quarter.wheel, quarter.body, quarter.suspension.stiffness)
+            )
+            found.append(load(effect.elements)(keys, Chassis(GRAVITY, wheel, body, seated, suspension, state, mode)))
+            state += 2 * len(found[-1].joined) + len(found[-1].states)
+            mode += found[-1].modes
+    pans = [each.pan for each in found if each.pan is not None]
+    return Acting(
+        tuple(element for each in found for element in each.elements),
+        tuple(joined for each in found for joined in each.joined),
+        tuple(size for each in found for size in each.states),
+        mode - 1,
+        sum(each.of_body for each in found),
+        pans[-1] if pans else None,
+        tuple(scale for each in found for scale in each.scales),
+    )
+
+
+def _seat(
+    scene: ResolvedScene, occupant: OccupantModel, lean: Lean | None, quarter: QuarterCar | None, acting: Acting
+) -> Seat:
     ends = numpy.array([link[:2] for link in occupant.links], dtype=numpy.int64).reshape(-1, 2)
     springs = numpy.array([link[2:] for link in occupant.links], dtype=numpy.float64).reshape(-1, 2)
     node = None
     if occupant.masses[0] == 0.0:
         node = MasslessNode(sum(link.damping for link in occupant.links if 0 in link[:2]))
-    # Its states follow those of the quarter car, whose body is the floor.
+    # Its states follow those of the quarter car, whose body is the floor, and of what effects bring.
+    floor: Floor
     offset, floor = (0, None) if quarter is None else (quarter.states, quarter.body.place)
+    if acting.pan is not None:
+        floor = Pan(acting.pan) if quarter is None else acting.pan
+    offset += 2 * len(acting.joined) + len(acting.states)
     masses = numpy.array(occupant.masses, dtype=numpy.float64)
     seat = Seat(offset, masses, ends, springs.T.copy(), node, floor=floor)
     effect = scene.effect("seat", seat_schema.SofteningSection)
@@ -276,19 +318,6 @@ def _seat_contact(
     return Contact(law, normal_loss(scene, "seat", law, mass), friction(scene, "seat"), memory)
 
 
-def _contact_scale(contact: Contact | None, load: float, mass: float) -> tuple[float, float]:
-    """Sizes in [m] and [m/s] of a body's motion on a contact: of its depth under the ``load`` [N]
-    at rest, and of its swing.
-
-    ``mass`` [kg] is that of the body which touches. A stiff contact turns a small error of place
-    into a large one of force.
-    """
-    size = POSITION_SCALE if contact is None else 2.0 * float(approach_of_force(contact.elastic, load))
-    if size >= POSITION_SCALE:
-        return POSITION_SCALE, VELOCITY_SCALE
-    return STIFF * size, min(VELOCITY_SCALE, STIFF * math.sqrt(load * size / mass))
-
-
 def _link_scale(seat: Seat, load: float) -> Vector:
     """Sizes [2, masses] in [m] and [m/s] of the motion of each mass, by the springs and dampers that end
     there: those of `LINK` times the ``load`` [N] at rest. A stiff damper turns a small error of speed
@@ -305,24 +334,34 @@ def _coordinate(name: str, mass: Mass, scale: tuple[float, float]) -> Coordinate
     return Coordinate(name, mass.place, mass.place + 1, mass.mass, scale)
 
 
-def _coordinates(rig: Vehicle, quarter: QuarterCar | None) -> tuple[Coordinate, ...]:
+def _least(one: tuple[float, float], other: tuple[float, float]) -> tuple[float, float]:
+    return min(one[0], other[0]), min(one[1], other[1])
+
+
+def _coordinates(rig: Vehicle, quarter: QuarterCar | None, acting: Acting) -> tuple[Coordinate, ...]:
     """What moves, in the order of the state vector, with the size of its motion."""
     usual = on_seat = (POSITION_SCALE, VELOCITY_SCALE)
     occupant = 0.0 if rig.seat is None else float(rig.seat.masses.sum())
     if rig.seat is not None:
         touching = float(rig.seat.masses[0]) or occupant  # a massless interface moves with what hangs on it
-        on_seat = _contact_scale(rig.seat_contact, occupant * rig.gravity, touching)
+        on_seat = contact_scale(rig.seat_contact, occupant * rig.gravity, touching)
     found: list[Coordinate] = []
     if quarter is not None:
         wheel, body, belt = quarter.wheel, quarter.body, quarter.belt
         mass = wheel.mass + body.mass + occupant + (0.0 if belt is None else belt.mass)
-        on_road = _contact_scale(quarter.contact.law, mass * rig.gravity, quarter.tread.mass)
+        on_road = contact_scale(quarter.contact.law, mass * rig.gravity, quarter.tread.mass)
         found += [
             _coordinate("wheel_z", wheel, on_road if belt is None else usual),
             _coordinate("body_z", body, on_seat),
         ]
         if belt is not None:
             found.append(_coordinate("belt_z", belt, on_road))
+    for joined in acting.joined:
+        usually = on_seat if joined.mass.place == acting.pan else usual
+        found.append(_coordinate(joined.name, joined.mass, _least(usually, joined.scale)))
+    for place, furthest, quickest in acting.scales:
+        bound = furthest, quickest
+        found = [each._replace(scale=_least(each.scale, bound)) if each.place == place else each for each in found]
     if rig.seat is None:
         return tuple(found)
     # Each mass by the links that end there, the first by its contact as well.
@@ -341,9 +380,11 @@ def _coordinates(rig: Vehicle, quarter: QuarterCar | None) -> tuple[Coordinate, 
     return tuple(found)
 
 
-def _scale(rig: Vehicle, coordinates: tuple[Coordinate, ...], tolerance: float) -> Vector:
+def _scale(rig: Vehicle, coordinates: tuple[Coordinate, ...], acting: Acting, tolerance: float) -> Vector:
     """Error allowed per step and state; the two works at the end are not controlled."""
-    sizes = numpy.zeros(2 * len(coordinates))
+    sizes = numpy.zeros(2 * len(coordinates) + len(acting.states))
+    moving = {place for each in coordinates for place in (each.place, each.speed)}
+    sizes[[place for place in range(len(sizes)) if place not in moving]] = acting.states
     for each in coordinates:
         sizes[[each.place, each.speed]] = each.scale
     scale: list[float] = (tolerance * sizes).tolist()
@@ -381,7 +422,8 @@ def standing_state(model: Model, height: float, rate: float = 0.0) -> Vector:
     quarter = model.quarter
     if quarter is not None:
         (wheel, wheel_mass), (body, body_mass), belt = quarter.wheel, quarter.body, quarter.belt
-        carried = (body_mass + occupant) * rig.gravity
+        beside = sum(joined.mass.mass for joined in model.acting.joined)
+        carried = (body_mass + occupant + beside) * rig.gravity
         on_wheel = carried + wheel_mass * rig.gravity
         on_road = on_wheel + (0.0 if belt is None else belt.mass * rig.gravity)
         state[wheel] = height - approach_of_force(quarter.contact.law.elastic, on_road)
@@ -391,6 +433,13 @@ def standing_state(model: Model, height: float, rate: float = 0.0) -> Vector:
         floor = state[body] = state[wheel] - carried / quarter.suspension.stiffness
         for each in quarter.masses:
             state[each.place + 1] = rate
+    # What effects bring stands where all forces balance.
+    if model.acting.elements:
+        for joined in model.acting.joined:
+            state[joined.mass.place], state[joined.mass.place + 1] = floor, rate
+        settle(rig, model.acting.modes, occupant * rig.gravity, state, (height, rate))
+        base = None if rig.seat is None else base_of(rig.seat.floor)
+        floor = 0.0 if base is None else state[base]
     # The occupant on the cushion, its masses on their springs.
     if rig.seat is not None and rig.seat_contact is not None:
         first, count = rig.seat.offset, len(rig.seat.masses)

@@ -47,7 +47,7 @@ def seat_steps(scene: ResolvedScene, load: float) -> Iterator[Work]:
         for link in occupant.links
     ]
     laws = links_of_laws(scene, "seat", masses[0], load, build_pan_cushion)
-    yield from integrator_steps(scene, "seat", [*links, *laws])
+    yield from integrator_steps(scene, "seat", [*links, *laws, *_links_of_effects(scene, "seat")])
 
 
 def _weight(scene: ResolvedScene) -> float:
@@ -62,4 +62,11 @@ def tire_steps(scene: ResolvedScene) -> Iterator[Work]:
     links = [Link("suspension", least, tire.suspension_stiffness, tire.suspension_damping)]
     if ring is not None:
         links.append(Link("rigid_ring", min(ring.belt_mass, least), given(ring.stiffness), given(ring.damping)))
-    yield from integrator_steps(scene, "tire", links)
+    yield from integrator_steps(scene, "tire", [*links, *_links_of_effects(scene, "tire")])
+
+
+def _links_of_effects(scene: ResolvedScene, contact: str) -> Iterator[Link]:
+    """Of the effects that act as elements, whose keys know their springs."""
+    for effect, keys in scene.effects_at(contact):
+        if effect.elements and (links := getattr(keys, "links", None)) is not None:
+            yield from links(scene)

@@ -9,6 +9,8 @@ table of a law, since what is passed to a kernel costs by its width); its kernel
   [J] that it holds, and what of this is among the losses all the same. So an energy stands where its force stands.
 * ``finish`` runs when the accelerations are known, and returns power [W] brought in.
 * ``events`` writes its event functions, of which there are ``event_count``.
+* ``transition`` answers where one of them has changed its sign, as `integrate/interface.mode_transition`. A class that has
+  one has a mode, and its ``events`` sees the modes: an array that others need not pay for.
 * ``observe`` writes its columns of the samples (``motion/columns.py``).
 
 ``ground``: ``motion/ground.Ground``; state, out, derivative: [states] of the rig.
@@ -23,7 +25,7 @@ from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel_overload
 from contact_sim_pkg.rigs.vehicle.motion.ground import Ground
 
-__all__ = ["act", "events", "events_of", "finish", "observe", "register_element"]
+__all__ = ["act", "events", "events_of", "finish", "observe", "register_element", "transition"]
 
 Work = tuple[float, float, float, float]
 Elements = tuple[Any, ...]
@@ -40,6 +42,11 @@ def _without_events(element, ground, state, first, out):
 
 
 @borrowing_kernel
+def _without_modes(element, ground, mode, state, event, direction):
+    return direction
+
+
+@borrowing_kernel
 def _unobserved(element, ground, state, out):
     pass
 
@@ -49,7 +56,13 @@ class _Kernels(NamedTuple):
     finish: Callable[..., float]
     events: Callable[..., None]
     event_count: int
+    transition: Callable[..., float]
     observe: Callable[..., None]
+
+    @property
+    def has_modes(self) -> bool:
+        """Whether its events depend on a mode."""
+        return self.transition is not _without_modes
 
 
 _KERNELS: dict[type, _Kernels] = {}
@@ -62,13 +75,15 @@ def register_element(
     finish: Callable[..., float] = _finishes_at_once,
     events: Callable[..., None] = _without_events,
     event_count: int = 0,
+    transition: Callable[..., float] = _without_modes,
     observe: Callable[..., None] = _unobserved,
 ) -> None:
     """Register the kernels of a class of elements: ``act(element, ground, mode, state, out)``, ``finish(element,
-    ground, state, out)``, ``events(element, ground, state, first, out)`` from place ``first`` on, and
-    ``observe(element, ground, state, out)``.
+    ground, state, out)``, ``events(element, ground, state, first, out)`` from place ``first`` on, or with modes
+    ``events(element, ground, mode, state, first, out)`` and ``transition(element, ground, mode, state, event, direction)``
+    of its event number ``event``, and ``observe(element, ground, state, out)``.
     """
-    _KERNELS[element_class] = _Kernels(act, finish, events, event_count, observe)
+    _KERNELS[element_class] = _Kernels(act, finish, events, event_count, transition, observe)
 
 
 def events_of(elements: Elements) -> int:
@@ -88,11 +103,25 @@ def finish(elements: Elements, ground: Ground, state: Vector, out: Vector) -> fl
     return sum(_KERNELS[type(each)].finish(each, ground, state, out) for each in elements)
 
 
-def events(elements: Elements, ground: Ground, state: Vector, first: int, out: Vector) -> None:
+def events(elements: Elements, ground: Ground, mode: Modes, state: Vector, first: int, out: Vector) -> None:
     """Write the event functions of all elements from place ``first`` on into ``out``."""
     for each in elements:
-        _KERNELS[type(each)].events(each, ground, state, first, out)
-        first += _KERNELS[type(each)].event_count
+        kernels = _KERNELS[type(each)]
+        seen = (ground, mode, state) if kernels.has_modes else (ground, state)
+        kernels.events(each, *seen, first, out)
+        first += kernels.event_count
+
+
+def transition(elements: Elements, ground: Ground, mode: Modes, state: Vector, event: int, direction: float) -> float:
+    """Let the element answer whose event function this is, in the order of all; returns the sign of that function
+    from now on.
+    """
+    for each in elements:
+        kernels = _KERNELS[type(each)]
+        if event < kernels.event_count:
+            return kernels.transition(each, ground, mode, state, event, direction)
+        event -= kernels.event_count
+    return direction
 
 
 def observe(elements: Elements, ground: Ground, state: Vector, out: Vector) -> None:
@@ -140,14 +169,32 @@ def _finish(elements, ground, state, out):
 
 
 @kernel_overload(events, thin=True)
-def _events(elements, ground, state, first, out):
+def _events(elements, ground, mode, state, first, out):
     if not len(elements):
-        return lambda elements, ground, state, first, out: None
+        return lambda elements, ground, mode, state, first, out: None
     of_first, count = _kernels_of_first(elements).events, _kernels_of_first(elements).event_count
 
-    def implementation(elements, ground, state, first, out):
+    def implementation(elements, ground, mode, state, first, out):
         of_first(elements[0], ground, state, first, out)
-        events(elements[1:], ground, state, first + count, out)
+        events(elements[1:], ground, mode, state, first + count, out)
+
+    def with_modes(elements, ground, mode, state, first, out):
+        of_first(elements[0], ground, mode, state, first, out)
+        events(elements[1:], ground, mode, state, first + count, out)
+
+    return with_modes if _kernels_of_first(elements).has_modes else implementation
+
+
+@kernel_overload(transition, thin=True)
+def _transition(elements, ground, mode, state, event, direction):
+    if not any(_KERNELS[each.instance_class].has_modes for each in elements):
+        return lambda elements, ground, mode, state, event, direction: direction
+    of_first, count = _kernels_of_first(elements).transition, _kernels_of_first(elements).event_count
+
+    def implementation(elements, ground, mode, state, event, direction):
+        if event < count:
+            return of_first(elements[0], ground, mode, state, event, direction)
+        return transition(elements[1:], ground, mode, state, event - count, direction)
 
     return implementation
 

@@ -33,7 +33,7 @@ from contact_sim_pkg.rigs.vehicle.motion.elements import act, observe
 from contact_sim_pkg.rigs.vehicle.motion.ground import Ground, ground_at
 from contact_sim_pkg.rigs.vehicle.motion.heights import effective_between
 from contact_sim_pkg.rigs.vehicle.motion.leaning import back_approach, back_energy, back_force, pan_friction, slid
-from contact_sim_pkg.rigs.vehicle.motion.masses import energies_of_masses
+from contact_sim_pkg.rigs.vehicle.motion.masses import clear, energies_of_masses
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle
 from contact_sim_pkg.rigs.vehicle.motion.seat import seat_energies, seat_mass, slide_index
 
@@ -210,6 +210,19 @@ def _slide_energies(friction, back, seat, mode, normal, state):
         return 0.0, 0.0
     velocity = state[slide_index(seat) + 1]
     return 0.5 * seat_mass(seat) * velocity**2, _spring_energy(friction, back, seat, mode, normal, state)
+
+
+@entry
+def forces_of_elements(
+    rig: Vehicle, mode: Modes, state: Vector, height: float, height_rate: float, out: Vector
+) -> None:
+    """Write the forces [N] of all elements on the masses into the places of their accelerations in ``out`` [states].
+
+    ``height`` [m] of the road and its rate [m/s]; the floor is at rest.
+    """
+    ground = Ground(height, height_rate, 0.0, 0.0, 0.0, 0.0, 0.0)
+    clear(rig.masses, out)
+    act(rig.elements, ground, mode, state, out)
 
 
 @entry

@@ -7,17 +7,17 @@ The tuples are built in ``rigs/vehicle/model.py`` only.
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.laws.parameters import Contact
+from contact_sim_pkg.rigs.vehicle.motion.ends import Floor
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
-from contact_sim_pkg.rigs.vehicle.motion.road import AsperityPush, RoadContact
-from contact_sim_pkg.rigs.vehicle.motion.spring import DriveLine, Spring
 
-Element: TypeAlias = RoadContact | AsperityPush | Spring | DriveLine
+Element: TypeAlias = Any
+"""A tuple of a class that is registered (`motion/elements.py`), by this package or by another."""
 
 
 class MasslessNode(NamedTuple):
@@ -51,7 +51,7 @@ class Seat(NamedTuple):
     springs: Vector  # [2, links] stiffness [N/m], damping [N s/m]
     node: MasslessNode | None = None  # None where the first mass is above 0
     softening: Softening | None = None
-    floor: int | None = None  # place of what the cushion stands on; None: the frame of reference
+    floor: Floor = None  # what the cushion stands on; None: the frame of reference
 
 
 def rigid_occupant(mass: float, offset: int = 0) -> Seat:

@@ -21,6 +21,7 @@ import math
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.laws.contact_force import contact_force, contact_force_rate
+from contact_sim_pkg.rigs.vehicle.motion.ends import is_shaken
 
 ROOT_STEPS = 60
 ROUNDING = 1.0e-14  # of the force: nearer to 0 the balance cannot come
@@ -95,7 +96,7 @@ def seat_rates(seat, gravity, acceleration_z, state, out):
         return 0.0, 0.0
     # On no floor of its own the seat moves in the frame of the shaken one.
     field = -gravity
-    if seat.floor is None:
+    if is_shaken(seat.floor):
         field -= acceleration_z
     count = seat.masses.shape[0]
     z = seat.offset
@@ -115,7 +116,7 @@ def seat_rates(seat, gravity, acceleration_z, state, out):
         out[z + i] = state[v + i]
         out[v + i] = field + out[v + i] / seat.masses[i]
         brought += seat.masses[i] * state[v + i]
-    if seat.floor is None:
+    if is_shaken(seat.floor):
         return lost, -acceleration_z * brought
     return lost, 0.0
 
@@ -210,7 +211,7 @@ def _softening_rate(softening, seat, acceleration_z, state, out):
         return 0.0
     z = seat.offset
     acceleration = out[z + seat.masses.shape[0]]
-    if seat.floor is None:
+    if is_shaken(seat.floor):
         acceleration += acceleration_z
     rate = (acceleration**2 - state[softening.offset]) / softening.time_constant
     out[softening.offset] = rate

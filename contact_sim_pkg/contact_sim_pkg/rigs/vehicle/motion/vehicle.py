@@ -14,13 +14,13 @@ for friction.
   ``rigs/vehicle/motion/leaning.py``
 
 Approaches: tire ``h(t) - z_w`` (belt: ``h(t) - z_r``), h the effective road height; seat ``z_floor
-+ h_c(t) - z_0``, h_c that of the cushion.
++ h_c(t) - z_0``, h_c that of the cushion, which stands on the upper part of a suspension where there is one.
 Without a tire the floor is the (accelerated) frame of reference: z_floor = 0 and every mass feels
-``-m a_z(t)``. State: [z_w, v_w, z_b, v_b] [z_r, v_r] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [z] [q]
-[z_b] [supplied, dissipated]; z and z_b are the hysteresis variables of foam in cushion and seat back
-(``laws/foam_hysteresis.py``), q the mean square of softening links, the last two are the works in
-[J] that the energy ledger needs. Works of friction and foam are counted whole; what their springs
-hold is taken off in ``advance.energies``.
+``-m a_z(t)``. State: [z_w, v_w, z_b, v_b] [z_r, v_r] [masses and own states of effects] [z_0 .. z_n,
+v_0 .. v_n] [x, v_x, s] [z] [q] [z_b] [supplied, dissipated]; z and z_b are the hysteresis variables
+of foam in cushion and seat back (``laws/foam_hysteresis.py``), q the mean square of softening links,
+the last two are the works in [J] that the energy ledger needs. Works of friction and foam are counted
+whole; what their springs hold is taken off in ``advance.energies``.
 """
 
 from __future__ import annotations
@@ -41,7 +41,8 @@ from contact_sim_pkg.laws.friction import (
     slip_event,
     stick_event,
 )
-from contact_sim_pkg.rigs.vehicle.motion.elements import act, events, events_of, finish
+from contact_sim_pkg.rigs.vehicle.motion.elements import act, events, events_of, finish, transition
+from contact_sim_pkg.rigs.vehicle.motion.ends import base_of, motion_of, press
 from contact_sim_pkg.rigs.vehicle.motion.ground import ground_at
 from contact_sim_pkg.rigs.vehicle.motion.leaning import (
     back_approach,
@@ -76,13 +77,6 @@ def event_count(rig: Vehicle) -> int:
 
 
 @borrowing_kernel
-def _of_floor(place, state):
-    if place is None:
-        return 0.0, 0.0
-    return state[place], state[place + 1]
-
-
-@borrowing_kernel
 def _node_of(seat):
     if seat is None:
         return None
@@ -91,10 +85,10 @@ def _node_of(seat):
 
 @borrowing_kernel
 def _floor_acceleration(seat, derivative):
-    """Of the floor in its frame of reference in [m/s^2]."""
+    """Of what the cushion stands on, in its frame of reference in [m/s^2]."""
     if seat is None:
         return 0.0
-    return _of_floor(seat.floor, derivative)[1]
+    return motion_of(base_of(seat.floor), derivative)[1]
 
 
 @borrowing_kernel
@@ -104,7 +98,7 @@ def seat_approach(seat, contact, back, cushion, cushion_rate, state):
     """
     if seat is None:
         return -1.0, 0.0
-    floor, floor_rate = _of_floor(seat.floor, state)
+    floor, floor_rate = motion_of(base_of(seat.floor), state)
     velocity = floor_rate + cushion_rate
     approach = floor + cushion - pan_motion(back, seat, state)[0]
     settle_node(seat.node, seat, contact, approach, velocity + sliding_in(back, seat, state), pan_cosine(back), state)
@@ -112,15 +106,9 @@ def seat_approach(seat, contact, back, cushion, cushion_rate, state):
 
 
 @borrowing_kernel
-def _load_floor(place, force, out):
-    if place is not None:
-        out[place + 1] -= force
-
-
-@borrowing_kernel
 def _load_floor_of(seat, force, out):
     if seat is not None:
-        _load_floor(seat.floor, force, out)
+        press(base_of(seat.floor), -force, out)
 
 
 @borrowing_kernel
@@ -193,7 +181,7 @@ def _back_events(back, seat, state, first, out):
 @borrowing_kernel
 def _event_functions(rig, drive, mode, time, state, derivative, out):
     ground, first = ground_at(drive, time), events_of(rig.elements)
-    events(rig.elements, ground, state, 0, out)
+    events(rig.elements, ground, mode, state, 0, out)
     seat_x, seat_v = seat_approach(rig.seat, rig.seat_contact, rig.back, ground.cushion, ground.cushion_rate, state)
     out[first + SEAT_APPROACH] = seat_x
     out[first + SEAT_TENSION] = contact_tension_event(rig.seat_contact, seat_x, seat_v, state)
@@ -239,6 +227,8 @@ def _friction_transition(friction, contact, back, seat, mode, approach, approach
 @borrowing_kernel
 def _mode_transition(rig, drive, mode, time, state, event, direction):
     ground, of_seat = ground_at(drive, time), event - events_of(rig.elements)
+    if of_seat < 0:
+        return transition(rig.elements, ground, mode, state, event, direction)
     seat_x, seat_v = seat_approach(rig.seat, rig.seat_contact, rig.back, ground.cushion, ground.cushion_rate, state)
     _friction_transition(
         _friction_of(rig.seat_contact), rig.seat_contact, rig.back, rig.seat, mode, seat_x, seat_v, state, of_seat,

@@ -16,6 +16,7 @@ from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.model import Model, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import entries
 from contact_sim_pkg.rigs.vehicle.motion.columns import FORCES
+from contact_sim_pkg.rigs.vehicle.motion.ends import base_of
 from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 from contact_sim_pkg.rigs.vehicle.run.drive import BlockDrive
 from contact_sim_pkg.run.errors import RunError
@@ -72,13 +73,14 @@ class Bodies:
         # States: height of what touches the road, and of who sits
         self._tread = None if model.quarter is None else model.quarter.tread.place
         self._seated = None if seat is None else seat.offset
+        self._base = None if seat is None else base_of(seat.floor)
         self.reset()
 
     def reset(self) -> None:
         """The state before a start."""
         model, timing = self.model, self.model.timing
         self.state: Vector = numpy.zeros(model.states)
-        self.mode: Modes = numpy.zeros(1, dtype=numpy.int64)
+        self.mode: Modes = numpy.zeros(1 + model.acting.modes, dtype=numpy.int64)
         self.work = make_workspace(model.states, event_count(model.rig))
         points, samples = timing.segments + 1, timing.segments // timing.sample_every
         self.sampled: Sampled = (
@@ -185,5 +187,4 @@ class Bodies:
         """
         if self._seated is None:
             return 0.0
-        floor = 0.0 if self.model.quarter is None else self.state.item(self.model.quarter.body.place)
-        return floor + cushion - self.state.item(self._seated)
+        return (0.0 if self._base is None else self.state.item(self._base)) + cushion - self.state.item(self._seated)

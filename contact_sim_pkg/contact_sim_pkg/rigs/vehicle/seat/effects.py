@@ -101,4 +101,9 @@ SEAT_EFFECTS = (
         name="softening", section=f"{_SCHEMA}:SofteningSection", help="occupant that softens with vibration",
         source="Huang and Griffin 2006", feeds=("force", "wrench"),
     ),
+    Effect(
+        name="suspension", section="contact_sim_pkg.rigs.vehicle.effects.suspension:SuspensionSection",
+        help="seat suspension below the cushion: spring, damper, dry friction, end stops", feeds=("force", "wrench"),
+        elements="contact_sim_pkg.rigs.vehicle.effects.suspension_kernel:suspension",
+    ),
 )  # fmt: skip

@@ -128,4 +128,9 @@ TIRE_EFFECTS = (
         name="asperity_impulses", section=f"{_SCHEMA}:AsperityImpulsesSection", help="impulses of road asperities",
         source="Tire/Road Contact", needs=("normal_elastic",), feeds=("force", "wrench"),
     ),
+    Effect(
+        name="bump_stop", section="contact_sim_pkg.rigs.vehicle.effects.bump_stop:BumpStopSection",
+        help="progressive stops of the wheel's travel against the body", feeds=("force", "wrench"),
+        elements="contact_sim_pkg.rigs.vehicle.effects.bump_stop_kernel:bump_stop",
+    ),
 )  # fmt: skip

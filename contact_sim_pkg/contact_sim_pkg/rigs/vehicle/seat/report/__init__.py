@@ -15,6 +15,7 @@ SEAT_REPORT = ContactReport(
     parts=f"{__name__}.drawing:seat_parts",
     answer=(
         "SEAT {factor}: the seat {factor:remark}",
+        "suspension uses {travel_used} of its travel, stops hit {stop_hits} times",
         "T(f) peaks at {peak} at {peak_frequency}",
         "a_w {a_w}, {a_w:remark}",
         "eight hours {a_8:remark}",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from contact_sim_pkg.report.sketch import Part, at, floor_part, foam, leaning, listed, sitter
+from contact_sim_pkg.report.sketch import Part, at, floor_part, foam, leaning, listed, sitter, spring_and_damper
 
 
 def seat_parts(scene: Mapping[str, Any]) -> list[Part]:
@@ -19,7 +19,18 @@ def seat_parts(scene: Mapping[str, Any]) -> list[Part]:
     model = str(occupant.get("model", "")).replace("_", " ")
     return [
         *floor_part(scene),
+        *_suspension(scene),
         Part("foam", at(scene, "effects.seat.cushion.thickness", "{:.0f} mm", 1e3), foam),
         Part("occupant", listed(f"{sum(masses):.3g} kg" if any(masses) else "", model),
              leaning if "backrest" in scene else sitter),
     ]  # fmt: skip
+
+
+def _suspension(scene: Mapping[str, Any]) -> list[Part]:
+    """Below the cushion; none without one."""
+    keys = "effects.seat.suspension"
+    value = listed(
+        at(scene, f"{keys}.stiffness", "{:g} kN/m", 1e-3), at(scene, f"{keys}.damping", "{:g} N s/m"),
+        at(scene, f"{keys}.travel", "travel {:g} mm", 1e3),
+    )  # fmt: skip
+    return [Part("seat suspension", value, spring_and_damper)] if value else []

@@ -27,6 +27,8 @@ from contact_sim_pkg.rigs.vehicle.seat.occupants import H_POINT
 from contact_sim_pkg.rigs.vehicle.seat.report.occupant import apparent_mass_of, occupant_signals, seat_to_head_of
 from contact_sim_pkg.rigs.vehicle.seat.report.response import peak_of, trusted_part
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals, ride_signals
+from contact_sim_pkg.rigs.vehicle.seat.report.travel import seat_travel
+from contact_sim_pkg.rigs.vehicle.travel_report import travel_metrics
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY
 
 SEAT = "seat"
@@ -43,6 +45,7 @@ def seat_metrics(recording: Recording) -> list[Metric]:
         found = shock_metrics(signals, errors.largest("motion", "motion"))
     elif signals is not None:
         found = vibration_metrics(signals, recorded_faults(recording), errors)
+    found[1:1] = travel_metrics(seat_travel(recording))
     if contact is None:
         return found
     window = float(contact.time[0]), float(contact.time[-1]) + contact.sample_period

@@ -8,6 +8,8 @@ from contact_sim_pkg.rigs.vehicle.seat.report.figures_occupant import occupant_p
 from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import seat_spectrum, seat_transmissibility
 from contact_sim_pkg.rigs.vehicle.seat.report.occupant import occupant_signals
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals
+from contact_sim_pkg.rigs.vehicle.seat.report.travel import seat_travel
+from contact_sim_pkg.rigs.vehicle.travel_report import travel_picture
 
 
 def ride_sections(recording: Recording) -> list[Section]:
@@ -17,6 +19,8 @@ def ride_sections(recording: Recording) -> list[Section]:
         return []
     pictures = [seat_spectrum(signals), seat_transmissibility(signals)]
     sections = [Section("ride", "Seat vibration", [each for each in pictures if each is not None], part=FREQUENCY)]
+    if travel := travel_picture(seat_travel(recording)):
+        sections.append(Section("suspension", "Seat suspension", travel))
     occupant = occupant_signals(recording)
     return (
         sections

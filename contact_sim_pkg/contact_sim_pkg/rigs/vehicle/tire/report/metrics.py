@@ -21,7 +21,9 @@ from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
 from contact_sim_pkg.rigs.vehicle.tire.report.standing_series import standing_of
+from contact_sim_pkg.rigs.vehicle.tire.report.travel import wheel_travel
 from contact_sim_pkg.rigs.vehicle.tire.report.work_series import LOST, work_of
+from contact_sim_pkg.rigs.vehicle.travel_report import travel_metrics
 
 SHORTEST = 8.0
 """[s] of a ride over an uneven road that says something of its load: ten periods of the body at 1.2 Hz"""
@@ -71,6 +73,7 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     upright = _load(ride) if stands is None else (*_load(ride), *_standing(ride, stands))
     if field is not None and standing is not None:
         upright = *upright, *_pressures(ride, field)
+    upright = *upright, *travel_metrics(wheel_travel(recording))
     along = [*_along(ride), *_work(ride), *_lean(ride, field)]
     # Of a tire that slips, first what it slips for
     return [*along, *upright] if float(conditions["largest_slip"]) >= LARGE_SLIP else [*upright, *along]

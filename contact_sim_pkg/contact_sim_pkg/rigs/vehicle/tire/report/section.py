@@ -30,6 +30,8 @@ from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
 from contact_sim_pkg.rigs.vehicle.tire.report.tables import footprint_table, peak_table
+from contact_sim_pkg.rigs.vehicle.tire.report.travel import wheel_travel
+from contact_sim_pkg.rigs.vehicle.travel_report import travel_picture
 
 KEY = "rolling"
 FRICTION_KEY = "friction"
@@ -63,6 +65,7 @@ def _rolling_section(recording: Recording) -> Section:
     if field is not None:
         pictures.append(footprint_stages(KEY, TIRE, field, travel))
     pictures += _under_load(field, reference)
+    pictures += travel_picture(wheel_travel(recording))
     tables = [footprint_table(field, reference)] if field is not None else []
     tables += [peak_table(peak_rows(signals))] if signals else []
     return Section(KEY, "Rolling tire", pictures, tables)
