@@ -25,7 +25,7 @@ from contact_sim_pkg.records.state import state_of
 from contact_sim_pkg.run.bag_content import kernel_fingerprint
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["StateError", "load_state", "save_state", "state_paths"]
+__all__ = ["StateError", "load_state", "save_state"]
 
 MAGIC = b"contact bench state 1\n"
 PACKAGE = __name__.partition(".")[0]
@@ -67,26 +67,6 @@ def load_state(data: bytes, simulation: object, scene: ResolvedScene) -> int:
     for write in reader.writes:
         write()
     return int(header["block"])
-
-
-def state_paths(simulation: object) -> dict[str, list[str]]:
-    """Declared names of every class in the state of a ``simulation``, by the name of the class."""
-    found: dict[str, list[str]] = {}
-
-    def look(value: Any) -> None:
-        declared = state_of(value)
-        if declared is not None:
-            found[type(value).__name__] = [*declared.names]
-            for name in declared.names:
-                look(attrgetter(name)(value))
-        elif isinstance(value, (list, tuple)):
-            for each in value:
-                look(each)
-        elif isinstance(value, dict):
-            look([*value.values()])
-
-    look(simulation)
-    return found
 
 
 @functools.cache
