@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy
 import pytest
 
-from contact_sim_lab.pages.state_reference import with_table
+from contact_sim_lab.pages.state_reference import with_list
 from contact_sim_pkg import ContactBench
 from contact_sim_pkg.bag.block_encoder import encode_block
 from contact_sim_pkg.records.state import State
@@ -155,4 +155,4 @@ def test_a_part_that_is_forgotten_is_seen(monkeypatch, scene, blocks, kind, name
 
 def test_the_page_lists_what_the_classes_declare():
     page = ROOT / "docs" / "library.md"
-    assert with_table(page.read_text(encoding="utf-8")) == page.read_text(encoding="utf-8")
+    assert with_list(page.read_text(encoding="utf-8")) == page.read_text(encoding="utf-8")

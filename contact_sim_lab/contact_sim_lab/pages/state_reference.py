@@ -1,4 +1,4 @@
-"""The table of `docs/library.md`: what each class of a run declares as its state.
+"""The list of `docs/library.md`: what each class of a run declares as its state.
 
 `python -m contact_sim_lab.pages.state_reference docs/library.md` writes it between the two marks of that file.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 import importlib
 import pkgutil
 import sys
+import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,18 +19,20 @@ from contact_sim_pkg.records.state import State
 from contact_sim_pkg.report import signal
 
 BEGIN, END = "<!-- states made from the code: begin -->", "<!-- states made from the code: end -->"
+WIDTH = 100
 ROOMS = (contact_sim_pkg.rigs, contact_sim_pkg.rigid, pressure, signal)
 
 
-def with_table(document: str) -> str:
-    """The document with its table made anew. Raises ValueError where one of the two marks is missing."""
+def with_list(document: str) -> str:
+    """The document with its list made anew. Raises ValueError where one of the two marks is missing."""
     before, begin, rest = document.partition(BEGIN)
     _old, end, after = rest.partition(END)
     if not begin or not end:
         raise ValueError(f"{BEGIN} and {END} must stand in the document")
-    lines = ["| class | physics | solver |", "|---|---|---|"]
-    for name, state in sorted(_declared()):
-        lines.append(f"| `{name}` | {_listed(state.physics)} | {_listed(state.solver)} |")
+    lines = [
+        line for name, state in sorted(_declared())
+        for line in textwrap.wrap(f"* **{name}**: {_said(state)}", WIDTH, subsequent_indent="  ", break_on_hyphens=False)
+    ]  # fmt: skip
     return "\n".join([f"{before}{begin}", "", *lines, "", f"{end}{after}"])
 
 
@@ -45,10 +48,13 @@ def _declared() -> Iterator[tuple[str, State]]:
                     yield f"{module.name.partition('.')[2]}.{kind.__name__}", state
 
 
-def _listed(names: tuple[str, ...]) -> str:
-    return ", ".join(f"`{each}`" for each in names) or "–"
+def _said(state: State) -> str:
+    """`physics state, mode; solver step`."""
+    return "; ".join(
+        f"{kind} {', '.join(names)}" for kind, names in state._asdict().items() if names and kind != "held"
+    )
 
 
 if __name__ == "__main__":
     page = Path(sys.argv[1])
-    page.write_text(with_table(page.read_text(encoding="utf-8")), encoding="utf-8")
+    page.write_text(with_list(page.read_text(encoding="utf-8")), encoding="utf-8")
