@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from tests.report import uneven_bag as known
 
+from contact_sim_pkg import load_scene, run
 from contact_sim_pkg.pressure.field.extent import extent
 from contact_sim_pkg.records.metric import STATE
 from contact_sim_pkg.report.field_series import peak_over
@@ -88,3 +89,11 @@ def test_the_resistance_is_the_force_against_the_way_over_the_load(metrics):
         -known.AXLE["longitudinal"].mean() / FORCE["normal"].mean(), rel=1e-12
     )
     assert metrics["resistance"].value > 0.0
+
+
+@pytest.mark.parametrize(("duration", "said"), [(0.2, "too short: ends at 2 m, its obstacle at 10.3 m"), (1.1, "")])
+def test_a_run_that_ends_before_its_obstacle_is_too_short(tmp_path, duration, said):
+    values = ["effects.tire.contact_field=null", f"duration={duration}"]
+    found = run(load_scene("tire_bump", *values), tmp_path / "bag").metrics()
+    for key in ("tire.load_largest", "tire.load_smallest", "tire.off_the_road"):
+        assert "; ".join(found[key].broken) == said

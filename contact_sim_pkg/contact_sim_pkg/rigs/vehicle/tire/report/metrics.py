@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from contact_sim_pkg.excitation.kinds import RoadKind, kind_known
+from contact_sim_pkg.excitation.kinds import Obstacle, RoadKind, kind_known
 from contact_sim_pkg.records.messages import TireStanding
 from contact_sim_pkg.records.metric import EVENT, STATE, Metric
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of, near
@@ -66,7 +66,8 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     standing, conditions = standing_load_of(recording.scene), _conditions(recording)
     ride = _Ride(
         recording, contact, standing, Maker(TIRE, f"{TIRE}/force", window, conditions).make,
-        str(conditions.get("road", "")).startswith("class"), has_one_obstacle(recording.scene), errors_of(recording), conditions,
+        str(conditions.get("road", "")).startswith("class"), one_obstacle(recording.scene) is not None, errors_of(recording),
+        conditions,
     )  # fmt: skip
     field = recording.fields.get(TIRE)
     stands = standing_of(recording)
@@ -97,12 +98,12 @@ def largest_forces(recording: Recording) -> list[Metric]:
     return found
 
 
-def has_one_obstacle(scene: Mapping[str, Any]) -> bool:
-    """Whether the road of a scene is even but for one obstacle."""
+def one_obstacle(scene: Mapping[str, Any]) -> Obstacle | None:
+    """The obstacle of a road that is even but for that; None of another road."""
     road = scene.get("road")
     known: RoadKind | None = kind_known("road", road) if isinstance(road, Mapping) else None
     obstacle = None if known is None else known.obstacle()
-    return obstacle is not None and obstacle.period is None
+    return obstacle if obstacle is not None and obstacle.period is None else None
 
 
 def _conditions(recording: Recording) -> dict[str, float | str]:
@@ -154,19 +155,33 @@ def _load(ride: _Ride) -> Iterator[Metric]:
 
 def _load_of_event(ride: _Ride, carried: FloatArray) -> Iterator[Metric]:
     """What an obstacle does to the load, however long the run goes on behind it."""
-    times, count, normal = ride.contact.time, carried.size, ride.contact.normal
+    times, count, normal, doubts = (
+        ride.contact.time,
+        carried.size,
+        ride.contact.normal,
+        _before_obstacle(ride.recording),
+    )
     error = ride.errors.largest(TIRE, "force") * float(normal.max())
     for key, name, place in (
         ("load_largest", "load, largest", int(carried.argmax())),
         ("load_smallest", "load, smallest", int(carried.argmin())),
     ):
         share = "" if ride.standing is None else f"{carried[place] / ride.standing:.3g} of the standing load, "
-        yield ride.make(key, name, carried[place], "N", count=count, basis=EVENT, error=error,
+        yield ride.make(key, name, carried[place], "N", count=count, basis=EVENT, error=error, broken=doubts,
                         remark=f"{share}at {times[place]:.3f} s")  # fmt: skip
     sample = 1e3 * ride.contact.sample_period
     lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
     yield ride.make("off_the_road", "time off the road", sample * float(np.count_nonzero(normal <= 0.0)), "ms", count=count,
-                    basis=EVENT, error=sample * max(1, lifts))  # fmt: skip
+                    basis=EVENT, error=sample * max(1, lifts), broken=doubts)  # fmt: skip
+
+
+def _before_obstacle(recording: Recording) -> tuple[str, ...]:
+    """That the run ends before its obstacle is passed; empty where it does not, or nobody knows."""
+    obstacle, road = one_obstacle(recording.scene), road_of(recording)
+    if obstacle is None or road is None:
+        return ()
+    last, reached = obstacle.position + 0.5 * obstacle.length, float(road.travel.distance.max())
+    return (f"too short: ends at {reached:.3g} m, its obstacle at {last:.3g} m",) if reached < last else ()
 
 
 def _short(ride: _Ride) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import (
 )
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_shear import friction_over_slip, friction_over_time, shear_maps
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_spectrum import load_spectrum
-from contact_sim_pkg.rigs.vehicle.tire.report.metrics import has_one_obstacle
+from contact_sim_pkg.rigs.vehicle.tire.report.metrics import one_obstacle
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
@@ -43,7 +43,7 @@ def tire_sections(number: int, recording: Recording) -> list[Section]:
     """
     rolling = _rolling_section(recording)
     friction = Section(FRICTION_KEY, "Friction of the tire", _friction_pictures(recording))
-    spectrum = None if has_one_obstacle(recording.scene) else load_spectrum(KEY, TIRE, recording.contacts[TIRE])
+    spectrum = load_spectrum(KEY, TIRE, recording.contacts[TIRE]) if one_obstacle(recording.scene) is None else None
     by_frequency = Section("tire-load", "Load of the tire", [spectrum] if spectrum else [], part=FREQUENCY)
     return [contact_section(number, TIRE, recording), rolling, friction, by_frequency]
 
