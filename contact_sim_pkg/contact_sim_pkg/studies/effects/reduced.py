@@ -81,10 +81,10 @@ def _candidates(study: Study, *, observers: bool) -> list[EffectRow]:
 
 def all_together(scene: ResolvedScene) -> ResolvedScene:
     """The scene with every effect that can act beside what is on: none that replaces another, that only
-    observes, or that the scene does not take.
+    observes, that builds another machine, or that the scene does not take.
     """
     for contact, effect in effects_of(scene):
-        if is_on(scene, contact, effect) or effect.carries or observes(contact, effect):
+        if is_on(scene, contact, effect) or effect.carries or effect.elements or observes(contact, effect):
             continue
         try:
             other = with_effect(scene, contact, effect)

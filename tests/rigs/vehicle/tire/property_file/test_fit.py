@@ -8,9 +8,9 @@ import pytest
 from click.testing import CliRunner
 from tests.rigs.vehicle.tire.property_file.tir_file import write
 
-from contact_sim_lab.rigs.vehicle.machines.flat_track import flat_track
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.cli.tire import command
+from contact_sim_pkg.rigs.vehicle.machines.flat_track import flat_track
 from contact_sim_pkg.rigs.vehicle.tire.property_file.fit import Lines, Target, fitted_slip, standing_on_belt
 from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation
 
