@@ -85,7 +85,11 @@ def along_the_road(key: str, name: str, rolling: Rolling, section: RoadSection) 
     """
     ratios = [3.0, *([1.6] if rolling.axle is not None else []), *([2.2] if rolling.field is not None else []), 2.0]
     figure, axes = new_figure(
-        0.5 + 0.7 * sum(ratios), len(ratios), margins=Margins(left=1.0, right=0.8), sharex=True, height_ratios=ratios
+        0.5 + 0.7 * sum(ratios),
+        len(ratios),
+        margins=Margins(left=1.0, right=0.8, shared=0.28),
+        sharex=True,
+        height_ratios=ratios,
     )
     band = _draw_force(axes[0], rolling, section)
     if rolling.axle is not None:
