@@ -139,10 +139,10 @@ def _whose(tested: Tested) -> str:
 def _shown(procedure: Procedure, curve: Curve) -> tuple[list[str], dict[str, float]]:
     """Quantities that tell the lines of a curve apart; of too many all but the first are held at a middle value."""
     along = curve.along or curve.across
-    told = [name for name, values in procedure.varied.items() if len(values) > 1 and name != along]
-    if math.prod(len(procedure.varied[name]) for name in told) <= len(LINES):
-        return told, {}
-    return told[:1], {name: sorted(procedure.varied[name])[len(procedure.varied[name]) // 2] for name in told[1:]}
+    named = [name for name, values in procedure.varied.items() if len(values) > 1 and name != along]
+    if math.prod(len(procedure.varied[name]) for name in named) <= len(LINES):
+        return named, {}
+    return named[:1], {name: sorted(procedure.varied[name])[len(procedure.varied[name]) // 2] for name in named[1:]}
 
 
 def _middle_of(procedure: Procedure, curve: Curve, quantities: Quantities) -> str:
@@ -152,11 +152,11 @@ def _middle_of(procedure: Procedure, curve: Curve, quantities: Quantities) -> st
 
 def _lines(tested: Tested, sheet: Sheet, curve: Curve, subject: str, quantities: Quantities) -> dict[str, Rows]:
     """Rows of each line by its label."""
-    told, held = _shown(tested.procedure, curve)
+    named, held = _shown(tested.procedure, curve)
     found: dict[str, Rows] = {}
     for row in tested.rows(sheet, subject):
         if all(row[name] == value for name, value in held.items()):
-            found.setdefault(", ".join(_valued(name, row[name], quantities) for name in told), []).append(row)
+            found.setdefault(", ".join(_valued(name, row[name], quantities) for name in named), []).append(row)
     return found
 
 

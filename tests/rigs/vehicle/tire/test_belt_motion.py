@@ -331,7 +331,7 @@ STIFF = "effects.tire.sidewall_compliance={longitudinal: 2.6e8}"
 
 
 @pytest.mark.parametrize(
-    ("speed", "most", "stiff"), [(7, 2e-3, ()), (30, 5e-3, ()), (30, 2e-3, (STIFF,)), (60, 2e-3, ())]
+    ("speed", "most", "stiff"), [(7.0, 1e-3, ()), (30.0, 4e-3, ()), (30.0, 2e-3, (STIFF,)), (60.0, 2e-3, ())]
 )
 def test_what_a_cleat_lifts_the_axle_pays(speed, most, stiff):
     """F_z dh of the vertical motion against F_n V of the motion along when the cleat is behind: the road stands still and

@@ -111,15 +111,16 @@ _PACEJKA = "Pacejka, Tire and Vehicle Dynamics (2012)"
 
 def procedures_of(tire: Specimen) -> dict[str, Procedure]:
     """The procedures by name, at loads and inflations about those of the scene."""
-    load, inflation = round(tire.load, 1), tire.inflation
-    loads = tuple(float(round(part * load, -1)) for part in (0.5, 1.0, 1.5))
-    inflations = tuple(float(round(part * inflation, -3)) for part in (0.8, 1.0, 1.2))
-    track = {"inflation": inflation, "speed": 60.0 * KMH}
-    slow, fast = (30.0, 60.0, 80.0, 100.0, 120.0, 150.0), (20.0, 40.0, 60.0, 80.0)
-    found = (
+    found = (*_standing(tire), *_slipping(tire), *_rolling(tire), *_moving(tire))
+    return {each.name: each for each in found}
+
+
+def _standing(tire: Specimen) -> tuple[Procedure, ...]:
+    """On a plate."""
+    return (
         Procedure(
             "stiffness", "Standing stiffness over load and inflation", f"{_HERE}:standing", f"{_FILE}:standing",
-            {"inflation": inflations, "load": tuple(float(round(part * load, -1)) for part in _steps(0.15, 1.65, 11))},
+            {"inflation": _inflations(tire), "load": _loads(tire, _steps(0.15, 1.65, 11))},
             {"drum_diameter": 0.0},
             (Sheet("", ("deflection", "stiffness", "length", "width", "area", "mean_pressure"), (
                 Curve("deflection", "load", "load"), Curve("load", "stiffness"), Curve("load", "length"), Curve("load", "width"),
@@ -128,14 +129,21 @@ def procedures_of(tire: Specimen) -> dict[str, Procedure]:
         ),
         Procedure(
             "footprint", "Footprint and its pressure", f"{_HERE}:standing", "",
-            {"inflation": inflations, "load": loads}, {"drum_diameter": 0.0},
+            {"inflation": _inflations(tire), "load": _loads(tire)}, {"drum_diameter": 0.0},
             (Sheet("", ("length", "width", "area", "mean_pressure"), (Curve("load", "area"), Curve("load", "mean_pressure"))),
              Sheet("map", ("x", "y", "pressure"), (Map("x", "y", "pressure"),))),
             "on a plate, smooth tread",
         ),
+    )  # fmt: skip
+
+
+def _slipping(tire: Specimen) -> tuple[Procedure, ...]:
+    """On a flat track, steady and after a step of the slip."""
+    track = {"inflation": tire.inflation, "speed": 60.0 * KMH}
+    return (
         Procedure(
             "cornering", "Cornering at three loads", f"{_HERE}:steady_slip", f"{_FILE}:steady_slip",
-            {"load": loads, "slip_angle": ANGLES}, {**track, "slip": 0.0},
+            {"load": _loads(tire), "slip_angle": ANGLES}, {**track, "slip": 0.0},
             (Sheet("", SLIP_COLUMNS, (
                 Curve("slip_angle", "lateral_force"), Curve("slip_angle", "aligning_moment"), Curve("slip_angle", "trail"),
                 Curve("slip_angle", "lateral_coefficient"))),),
@@ -143,14 +151,14 @@ def procedures_of(tire: Specimen) -> dict[str, Procedure]:
         ),
         Procedure(
             "braking", "Braking at three loads", f"{_HERE}:steady_slip", f"{_FILE}:steady_slip",
-            {"load": loads, "slip": SLIPS}, {**track, "slip_angle": 0.0},
+            {"load": _loads(tire), "slip": SLIPS}, {**track, "slip_angle": 0.0},
             (Sheet("", SLIP_COLUMNS, (Curve("slip", "longitudinal_force"), Curve("slip", "longitudinal_coefficient"))),),
             f"{_PACEJKA}, 4.3.2; flat track",
         ),
         Procedure(
             "combined", "Combined slip", f"{_HERE}:steady_slip", f"{_FILE}:steady_slip",
             {"slip_angle": tuple(round(angle * DEGREE, 6) for angle in (1.0, 2.0, 4.0, 8.0)), "slip": COMBINED},
-            {**track, "load": load},
+            {**track, "load": round(tire.load, 1)},
             (Sheet("", SLIP_COLUMNS, (
                 Curve("longitudinal_force", "lateral_force", "slip"), Curve("slip", "lateral_force"),
                 Curve("slip", "longitudinal_force"), Curve("slip", "aligning_moment"))),),
@@ -158,43 +166,57 @@ def procedures_of(tire: Specimen) -> dict[str, Procedure]:
         ),
         Procedure(
             "relaxation", "Relaxation length", f"{_HERE}:relaxation", f"{_FILE}:relaxation",
-            {"slip_step": (0.005, 0.02, 0.05), "load": loads}, track,
+            {"slip_step": (0.005, 0.02, 0.05), "load": _loads(tire)}, track,
             (Sheet("", ("relaxation_side", "relaxation_along"), (
                 Curve("load", "relaxation_side"), Curve("load", "relaxation_along"))),
              Sheet("response", ("distance", "lateral_part", "longitudinal_part"), (
                 Curve("distance", "lateral_part", "distance"), Curve("distance", "longitudinal_part", "distance")))),
             f"{_PACEJKA}, 7.1; step of the slip on the flat track",
         ),
+    )  # fmt: skip
+
+
+def _rolling(tire: Specimen) -> tuple[Procedure, ...]:
+    """On flat ground and on a drum."""
+    slow = tuple(speed * KMH for speed in (30.0, 60.0, 80.0, 100.0, 120.0, 150.0))
+    return (
         Procedure(
             "rolling_speed", "Rolling resistance over speed", f"{_HERE}:rolling", f"{_FILE}:rolling",
-            {"load": loads, "speed": tuple(speed * KMH for speed in slow)}, {"inflation": ISO_PRESSURE, "drum_diameter": 0.0},
+            {"load": _loads(tire), "speed": slow}, {"inflation": ISO_PRESSURE, "drum_diameter": 0.0},
             (Sheet("", ROLLING, (Curve("speed", "resistance"), Curve("speed", "resistance_coefficient"))),),
             "ISO 28580 at other speeds; flat ground",
         ),
         Procedure(
             "rolling_load", "Rolling resistance over load", f"{_HERE}:rolling", f"{_FILE}:rolling",
-            {"inflation": inflations, "load": tuple(float(round(part * load, -1)) for part in _steps(0.4, 1.6, 7))},
+            {"inflation": _inflations(tire), "load": _loads(tire, _steps(0.4, 1.6, 7))},
             {"speed": ISO_SPEED, "drum_diameter": 0.0},
             (Sheet("", ROLLING, (Curve("load", "resistance"), Curve("load", "resistance_coefficient"))),),
             "ISO 28580 at other loads; flat ground",
         ),
         Procedure(
             "rolling_inflation", "Rolling resistance over inflation", f"{_HERE}:rolling", f"{_FILE}:rolling",
-            {"load": loads, "inflation": (160e3, 180e3, ISO_PRESSURE, 240e3, 270e3)}, {"speed": ISO_SPEED, "drum_diameter": 0.0},
+            {"load": _loads(tire), "inflation": (160e3, 180e3, ISO_PRESSURE, 240e3, 270e3)},
+            {"speed": ISO_SPEED, "drum_diameter": 0.0},
             (Sheet("", ROLLING, (Curve("inflation", "resistance"), Curve("inflation", "resistance_coefficient"))),),
             "ISO 28580 at other inflations; flat ground",
         ),
         Procedure(
             "drum", "Rolling resistance on a drum and on flat ground", f"{_HERE}:rolling", "",
-            {"drum_diameter": (0.0, 2.0, DRUM), "speed": tuple(speed * KMH for speed in slow)},
-            {"load": load, "inflation": ISO_PRESSURE},
+            {"drum_diameter": (0.0, 2.0, DRUM), "speed": slow},
+            {"load": round(tire.load, 1), "inflation": ISO_PRESSURE},
             (Sheet("", ROLLING, (Curve("speed", "resistance"), Curve("speed", "drum_factor"), Curve("speed", "usual_factor"))),),
             "ISO 28580; its correction of the drum's curvature",
         ),
+    )  # fmt: skip
+
+
+def _moving(tire: Specimen) -> tuple[Procedure, ...]:
+    """On the held axle, and the frequencies of a standing wheel."""
+    return (
         Procedure(
             "cleat", "Cleats with the axle held", f"{_HERE}:cleat", "",
-            {"cleat_height": (0.010, 0.015, 0.020), "speed": tuple(speed * KMH for speed in fast)},
-            {"load": load, "inflation": inflation, "cleat_length": 0.05},
+            {"cleat_height": (0.010, 0.015, 0.020), "speed": tuple(speed * KMH for speed in (20.0, 40.0, 60.0, 80.0))},
+            {"load": round(tire.load, 1), "inflation": tire.inflation, "cleat_length": 0.05},
             (Sheet("", ("largest_rise", "largest_fall", "largest_along", "line_vertical", "line_along"), (
                 Curve("speed", "largest_rise"), Curve("speed", "largest_along"), Curve("speed", "line_vertical"),
                 Curve("speed", "line_along"))),
@@ -204,7 +226,7 @@ def procedures_of(tire: Specimen) -> dict[str, Procedure]:
         ),
         Procedure(
             "modes", "Wheel and belt modes", f"{_HERE}:modes", "",
-            {"load": loads, "inflation": inflations}, tire.suspension,
+            {"load": _loads(tire), "inflation": _inflations(tire)}, tire.suspension,
             (Sheet("", ("wheel_hop", "belt_vertical", "belt_along", "belt_windup", "belt_side", "belt_yaw", "road_low",
                         "road_high", "road_side", "road_yaw"), (
                 Curve("inflation", "wheel_hop"), Curve("inflation", "belt_vertical"), Curve("inflation", "belt_along"),
@@ -212,7 +234,16 @@ def procedures_of(tire: Specimen) -> dict[str, Procedure]:
             f"{_PACEJKA}, 9.2; undamped, standing",
         ),
     )  # fmt: skip
-    return {each.name: each for each in found}
+
+
+def _loads(tire: Specimen, parts: tuple[float, ...] = (0.5, 1.0, 1.5)) -> tuple[float, ...]:
+    """[N], parts of the standing load."""
+    return tuple(float(round(part * round(tire.load, 1), -1)) for part in parts)
+
+
+def _inflations(tire: Specimen) -> tuple[float, ...]:
+    """[Pa] about that of the scene."""
+    return tuple(float(round(part * tire.inflation, -3)) for part in (0.8, 1.0, 1.2))
 
 
 def _steps(low: float, high: float, count: int) -> tuple[float, ...]:

@@ -51,14 +51,14 @@ def test_the_ring_is_that_of_belt_mass_frequency_and_damping(tmp_path):
 
 @pytest.mark.parametrize(("angle", "modulus"), [(1.2, 6e6), (1.5, 3e6)])
 def test_a_tire_is_found_again_from_its_stiffness_and_contact(tmp_path, angle, modulus):
-    """To 2 %: half and one and a half of the load, where the formulas are another tire, count too."""
+    """To 1 %, though half and one and a half of the load, where the formulas are another tire, count too."""
     tire = standing_on_belt(Inflation(sidewall_angle=angle, tread_modulus=modulus), LOAD)
     ring = {"FREQ_LONG": math.sqrt(1.4e6 / 7.0) / (2.0 * math.pi)}
     shape = tire.stiffness, tire.length, tire.width, tire.deflection
     found = keys_of(tmp_path, **ring, **coefficients(*shape))
     names = ["radius", "stiffness", "deflection", "length of the contact", "width of the contact"]
     assert [row.quantity for row in found.fit[:5]] == names
-    assert [row.difference for row in found.fit[:3]] == pytest.approx([0.0] * 3, abs=0.02)
+    assert [row.difference for row in found.fit[:3]] == pytest.approx([0.0] * 3, abs=0.01)
     assert [row.difference for row in found.fit[3:5]] == pytest.approx([0.0] * 2, abs=0.05)
     assert found.usable
 

@@ -27,7 +27,7 @@ __all__ = ["Measured", "few", "read_measured", "rolling_targets", "standing_targ
 PARTS = (0.5, 1.5)  # of the nominal load
 INFLATIONS = 0.8, 1.25  # of that of the scene
 RANGE = (1.2e5, 3e5)  # [Pa] that the tire is valid for
-NOMINAL, USUAL = 2.0, 0.2  # weights of the nominal load, and of a usual contact
+NOMINAL, USUAL = 2.5, 0.2  # weights of the nominal load, and of a usual contact
 UNITS = {
     "inflation": "Pa", "load": "N", "stiffness": "N/m", "deflection": "m", "length": "m", "width": "m", "braking": "N",
     "cornering": "N/rad", "trail": "m",
