@@ -48,6 +48,18 @@ def test_every_command_of_a_shipped_scene_is_listed(capsys):
     assert all(f"  {command}\n" in text for command in TRIALS)
 
 
+def test_trials_of_one_scene_are_those_of_its_file(capsys):
+    assert main(["list", "--try", "--json", "seat_slap"]) == 0
+    rows = json.loads(capsys.readouterr().out)["rows"]
+    assert [row["command"] for row in rows] == [
+        each.command for each in things_to_try(find_scene("seat_slap").read_text())
+    ]
+    assert main(["list", "seat_slap"]) == 0
+    assert "tire_bump" not in capsys.readouterr().out
+    assert main(["list", "seat_slab"]) == 2
+    assert "seat_slab is no shipped scene" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("command", [each for each in TRIALS if each.startswith("bench run") and "FILE" not in each])
 def test_what_is_to_be_tried_is_a_scene(command, capsys):
     arguments = shlex.split(re.sub(r" --offline| --out \S+", "", command))[2:]
@@ -84,3 +96,6 @@ def test_a_new_scene_begins_with_the_nearest_name_and_overwrites_nothing(tmp_pat
     assert main(["new", "other", "--like", "nothing_like_it"]) == 2
     assert "there is no such scene" in capsys.readouterr().err
     assert not (tmp_path / "other.yaml").exists()
+    assert main(["new", "xyz"]) == 2
+    assert "No shipped scene shares a word with xyz" in capsys.readouterr().err
+    assert not (tmp_path / "xyz.yaml").exists()

@@ -13,14 +13,17 @@ from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
 
 
 @click.command("list")
+@click.argument("scenes", nargs=-1, metavar="[SCENE]...")
 @click.option("--try", "with_trials", is_flag=True, help="What to try with each: commands, and what they show.")
 @json_option
-def list_command(with_trials: bool, as_json: bool) -> None:
-    """Scenes that come with the package, smallest first."""
-    from contact_sim_pkg.scene.load import list_scenes
+def list_command(scenes: tuple[str, ...], with_trials: bool, as_json: bool) -> None:
+    """Scenes that come with the package, smallest first; only those named, where any is."""
+    from contact_sim_pkg.scene.load import list_scenes, shipped_names
     from contact_sim_pkg.scene.things_to_try import things_to_try
 
-    entries = list_scenes()
+    for unknown in set(scenes).difference(shipped_names()):
+        raise click.UsageError(f"{unknown} is no shipped scene; `bench list` names them.")
+    entries = [each for each in list_scenes() if not scenes or each.name in scenes]
     if not with_trials:
         rows = [{"scene": entry.name, "rig": entry.rig, "description": entry.description} for entry in entries]
         show_rows(rows, as_json)
@@ -56,7 +59,7 @@ def show_command(options: SceneOptions, source: bool) -> None:
 
 @click.command("new")
 @click.argument("name")
-@click.option("--like", metavar="SCENE", help="Shipped scene to begin with; else the one whose name is nearest.")
+@click.option("--like", metavar="SCENE", help="Shipped scene to begin with; else the nearest that shares a word.")
 def new_command(name: str, like: str | None) -> None:
     """Write NAME.yaml, a scene of your own, from a shipped one with its comments."""
     from contact_sim_pkg.files import FileRefusedError, wrong_name
@@ -66,6 +69,10 @@ def new_command(name: str, like: str | None) -> None:
     if reason := wrong_name(path):
         raise FileRefusedError(path, reason)
     like = nearest_name(path.stem) if like is None else like
+    if like is None:
+        raise click.UsageError(
+            f"No shipped scene shares a word with {path.stem}: say which one to begin with, --like SCENE of `bench list`."
+        )
     load_scene(like)
     text = find_scene(like).read_text(encoding="utf-8")
     own = re.sub(rf"\b(bench \w+) {re.escape(like)}\b", lambda found: f"{found[1]} {path}", text)

@@ -65,10 +65,11 @@ def shipped_names() -> list[str]:
     return list(shipped_scenes())
 
 
-def nearest_name(wanted: str) -> str:
-    """The shipped scene whose name is nearest to a ``wanted`` one; of several the first."""
-    near = difflib.get_close_matches(wanted.lower(), shipped_names(), n=1, cutoff=0.0)
-    return near[0]
+def nearest_name(wanted: str) -> str | None:
+    """The shipped scene nearest to a ``wanted`` name, among those that share a word with it; None where none does."""
+    words = set(wanted.lower().split("_"))
+    sharing = [each for each in shipped_names() if words & set(each.split("_"))]
+    return next(iter(difflib.get_close_matches(wanted.lower(), sharing, n=1, cutoff=0.0)), None)
 
 
 def list_scenes() -> list[SceneEntry]:

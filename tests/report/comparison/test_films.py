@@ -97,9 +97,12 @@ def test_a_mat_that_is_turned_lies_on_the_cells_of_the_run():
     assert places(swapped) == [[1, 2], [1, 2]]
 
 
-def test_a_contact_that_a_run_lacks_has_no_film():
-    runs = [SimpleNamespace(fields={"seat": SimpleNamespace(film=film([[[1]]]))}), SimpleNamespace(fields={})]
-    assert films_of_runs("AB", runs).views == []
+def test_a_contact_that_a_run_lacks_shows_that_of_the_others_and_says_so():
+    runs = [SimpleNamespace(fields={}), SimpleNamespace(fields={"seat": SimpleNamespace(film=film([[[1]]]))})]
+    found = films_of_runs("AB", runs)
+    assert [each.name for each in found.views] == ["B: seat"]
+    assert found.notes == ["No map of the seat in A."]
+    assert films_of_runs("AB", runs[:1] * 2).views == []
 
 
 @pytest.mark.parametrize("count", [3, 6])

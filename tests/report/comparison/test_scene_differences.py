@@ -34,3 +34,13 @@ def test_how_a_scene_is_run_comes_last():
     first, second = {"duration": 4.0, **SCENE}, changed(name="seat_slip", duration=2.0, vibration={"amplitude": 4.905})
     found = differences([first, second])
     assert [each.key for each in found] == ["vibration.amplitude", "duration", "name"]
+
+
+def test_a_section_that_a_scene_leaves_out_is_one_line_and_its_sections_none():
+    law = {"normal_elastic": {}, "friction": {"coefficient": 0.4, "law": {"kind": "smooth", "speed": 0.01}}}
+    found = differences([changed(effects={"backrest": law}), SCENE])
+    assert found == [("effects.backrest.friction", ("on", "–"))]
+    both = differences(
+        [changed(effects={"backrest": law}), changed(effects={"backrest": {**law, "friction": {"coefficient": 0.5}}})]
+    )
+    assert [each.key for each in both] == ["effects.backrest.friction.coefficient", "effects.backrest.friction.law"]

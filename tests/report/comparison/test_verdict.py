@@ -63,6 +63,17 @@ def test_tiles_are_what_moved_most_with_the_leading_ones_and_no_self_check():
     assert [each.label for each in moved_tiles(NAMES[:2], sides, {"F_z"})] == ["0", "1", "2", "3", "4", "5", "6", "F_z"]
 
 
+def test_the_number_of_a_leading_tile_is_not_shown_again():
+    sides = [
+        side("F_z", 4.0, 5.0),
+        side("load, largest", 4.0, 5.0),
+        side("load, smallest", 0.0, 0.0),
+        side("lift", 0.0, 0.0),
+    ]
+    shown = moved_tiles(NAMES[:2], sides, {"F_z", "lift"})
+    assert [each.label for each in shown] == ["F_z", "load, smallest", "lift"]
+
+
 def test_a_tile_has_values_change_and_a_word_of_each_run():
     (tile,) = moved_tiles(NAMES, [side("SEAT", 60.0, 50.0, math.nan, spread=3.0, limit=AT_MOST)], ())
     assert (tile.letter, tile.value, tile.unit) == ("A", "60", "%")

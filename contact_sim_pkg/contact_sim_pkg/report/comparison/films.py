@@ -68,20 +68,22 @@ class RunFilms(NamedTuple):
 def films_of_runs(
     letters: Sequence[str], recordings: Sequence[Recording], moved: int = 1, by: Alignment = UNMOVED
 ) -> RunFilms:
-    """Films of the contacts that every run has, on one scale a contact, and after them those of each less the first.
+    """Films of all contacts, on one scale a contact, and after them those of each run less the first that has one.
 
     Args:
         letters: of the runs.
-        recordings: the runs; a contact that one of them lacks has no film.
+        recordings: the runs; which lack a contact's film, a note says.
         moved: which of two is laid over the other.
         by: how it is.
     """
     by_run = [dict(films_of(each)) for each in recordings]
     found = RunFilms([], [], [])
-    for contact in by_run[0]:
-        films = [each[contact] for each in by_run if contact in each]
-        if len(films) == len(recordings):
-            _add(found, contact, letters, films, moved, by)
+    for contact in dict.fromkeys(contact for each in by_run for contact in each):
+        having = [(letter, each[contact]) for letter, each in zip(letters, by_run, strict=True) if contact in each]
+        own_letters, films = zip(*having, strict=True)
+        _add(found, contact, own_letters, films, moved, by)
+        if without := [each for each in letters if each not in own_letters]:
+            found.notes.append(f"No map of the {contact} in {', '.join(without)}.")
     return found
 
 

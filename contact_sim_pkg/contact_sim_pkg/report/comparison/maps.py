@@ -1,4 +1,4 @@
-"""Pressure maps of two runs or more: each, and of two their difference, on one scale."""
+"""Pressure maps of two runs or more on one scale, and of two their difference on its own."""
 
 from __future__ import annotations
 
@@ -17,27 +17,34 @@ from contact_sim_pkg.report.series import FloatArray, PressureMap
 DIFFERENCE_COLOURS = "RdBu_r"
 MOST_RUNS = 4
 """Maps in one row."""
+LEAST_SCALE = 0.01
+"""end of the colours of a difference, of the largest pressure: what is less is rounding"""
 ROOM = MULTIPLES._replace(left=0.78, right=0.75, bottom=0.55, top=0.5)
 """Margins beside two colour bars."""
 
 
 def map_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
-    """Mean maps of the runs, and of two B - A on the same scale; None where a run has none."""
-    fields = [run.recording.fields.get(name) for run in runs[:MOST_RUNS]]
-    maps = [each.average for each in fields if each is not None]
-    if len(maps) < len(fields) or not all((each.pressure > 0.0).any() for each in maps):
+    """Mean maps of the runs that have one, and of two B - A on its own scale; None where no run has one."""
+    fields = [(run.label, run.recording.fields.get(name)) for run in runs[:MOST_RUNS]]
+    found = [
+        (label, each.average) for label, each in fields if each is not None and (each.average.pressure > 0.0).any()
+    ]
+    if not found:
         return None
-    difference = on_grid(maps[1], maps[0]) - maps[0].pressure if len(runs) == 2 else None
-    figure, text = figure_of_maps([run.label for run in runs], maps, difference)
-    caption = f"Mean pressure of the {name} over each run, one scale.{text} {FROM_ABOVE.seen}"
+    labels, maps = zip(*found, strict=True)
+    difference = on_grid(maps[1], maps[0]) - maps[0].pressure if len(runs) == len(maps) == 2 else None
+    figure, text = figure_of_maps(labels, maps, difference)
+    without = [label for label, _ in fields if label not in labels]
+    lacking = f" No map in {', '.join(without)}." if without else ""
+    caption = f"Mean pressure of the {name} over each run, one scale.{text}{lacking} {FROM_ABOVE.seen}"
     return picture(f"{key}-maps", figure, f"Mean pressure maps of the {name} in every run", caption)
 
 
 def figure_of_maps(
     labels: Sequence[str], maps: Sequence[PressureMap], difference: FloatArray | None
 ) -> tuple[Figure, str]:
-    """Maps in a row on one scale, and a ``difference`` of the second one from the first [Pa], on the cells of the first;
-    with a sentence on it. Call inside `style()`.
+    """Maps in a row on one scale, and a ``difference`` of the second one from the first [Pa] on its own, on the cells of
+    the first; with a sentence on it. Call inside `style()`.
     """
     windows = [loaded_window(each) for each in maps]
     window = Window(
@@ -57,12 +64,13 @@ def figure_of_maps(
     text = ""
     if difference is not None:
         kilo = difference * 1e-3
-        signed = Normalize(-top, top)
+        end = max(float(np.abs(kilo).max()), LEAST_SCALE * top)
+        signed = Normalize(-end, end)
         draw_map(axes[-1], maps[0], np.where(kilo != 0.0, kilo, np.nan), DIFFERENCE_COLOURS, signed)
         axes[-1].set_title("B − A")
         set_window(axes[-1], window)
         figure.colorbar(ScalarMappable(signed, DIFFERENCE_COLOURS), cax=axes[-1].inset_axes((1.06, 0.0, 0.06, 0.47)))
-        text = f" B − A from {kilo.min():.3g} to {kilo.max():.3g} kPa, red where B presses more."
+        text = f" B − A on its own scale, from {kilo.min():.3g} to {kilo.max():.3g} kPa, red where B presses more."
     bar = axes[-1].inset_axes((1.06, 0.53 if pair else 0.0, 0.06, 0.47 if pair else 1.0))
     figure.colorbar(ScalarMappable(limits, PRESSURE_COLOURS), cax=bar, label="kPa")
     figure.supxlabel("← left, y, mm")

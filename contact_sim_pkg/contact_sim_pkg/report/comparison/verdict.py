@@ -49,8 +49,17 @@ class MovedTile(NamedTuple):
 
 
 def moved_tiles(names: Sequence[str], sides: Sequence[ComparedMetric], leading: Collection[str]) -> list[MovedTile]:
-    """At most `MOST_TILES`, what moved most first, those of the ``leading`` keys among them and no self-check."""
-    defined = [each for each in sides if each.basis != SELF_CHECK and math.isfinite(each.values[0])]
+    """At most `MOST_TILES`, what moved most first, those of the ``leading`` keys among them, no self-check, and no number
+    of a leading one again: the largest force is also the largest load.
+    """
+    said = {(each.unit, *each.values) for each in sides if each.key in leading and any(each.values)}
+    defined = [
+        each
+        for each in sides
+        if each.basis != SELF_CHECK
+        and math.isfinite(each.values[0])
+        and (each.key in leading or (each.unit, *each.values) not in said)
+    ]
     chosen = {each.key for each in sorted(defined, key=lambda each: each.key not in leading)[:MOST_TILES]}
     return [_tile(letters_of(names), each) for each in defined if each.key in chosen]
 
