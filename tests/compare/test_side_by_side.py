@@ -135,3 +135,10 @@ def test_a_stationary_number_whose_spread_nobody_knows_is_not_called_better(basi
     band = Band(-math.inf, 100.0, LIMIT, "s")
     side = ComparedMetric("a", "a", "", (60.0, 50.0), ("good", "good"), (), basis, (0.1, 0.1), (1.0, math.nan), band)
     assert side.comparison == expected
+
+
+def test_what_differs_by_rounding_is_the_same():
+    (side,) = side_by_side([run("A", a=0.457), run("B", a=0.457 * (1.0 + 1e-15))])
+    assert (side.change, side.comparison) == (0.0, "the same")
+    (side,) = side_by_side([run("A", a=0.457), run("B", a=0.457 * (1.0 + 1e-9))])
+    assert side.change > 0.0

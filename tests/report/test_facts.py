@@ -1,9 +1,12 @@
 """What was run, as rows with units."""
 
 import json
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
+from contact_sim_pkg.records.metric import MET, OUTSIDE, SELF_CHECK, Metric
 from contact_sim_pkg.report import facts
 from contact_sim_pkg.report.reading import contact_name
 from contact_sim_pkg.report.rows import described_rows, plain, scene_rows
@@ -100,3 +103,23 @@ def test_a_contact_is_called_after_its_topic(topic, name):
 @pytest.mark.parametrize(("value", "text"), [(True, "yes"), (0.1 + 0.2, "0.3"), ([1.0, 2.5], "1, 2.5"), (12, "12")])
 def test_values_are_written_as_a_person_would(value, text):
     assert plain(value) == text
+
+
+def test_the_largest_force_and_pressure_come_with_their_instants():
+    time = np.array([0.0, 0.1, 0.2])
+    contact = SimpleNamespace(time=time, normal=np.array([1.0, 710.4, 3.0]))
+    field = SimpleNamespace(time=time[1:], peak=np.array([2e3, 11.9e3]))
+    silent = SimpleNamespace(time=time, normal=np.zeros(3))
+    found = facts.largest_values(recording(contacts={"seat": contact, "back": silent}, fields={"seat": field}))
+    assert found == "Largest: seat 710 N at 0.100 s, 11.9 kPa at 0.200 s"
+    assert facts.largest_values(recording(contacts={"back": silent})) == ""
+
+
+def test_numbers_without_any_uncertainty_say_what_speaks_for_them():
+    checks = [
+        Metric(key, key, 1.0, "N", verdict, None, basis=SELF_CHECK) for key, verdict in (("a", MET), ("b", OUTSIDE))
+    ]
+    other = Metric("c", "c", 1.0, "N", "no band", None)
+    assert facts.without_error([*checks, other]) == "Numerical error not estimated: 1 of 2 self-checks met"
+    assert facts.without_error([other]) == "Numerical error not estimated"
+    assert facts.without_error([*checks, other._replace(error=0.1)]) == ""

@@ -91,3 +91,12 @@ def test_the_data_of_a_page_can_end_no_element(rolling):
     values = np.frombuffer(base64.b64decode(data["groups"][0]["series"][0]["values"]), dtype="<f4")
     assert times.size == values.size == 2 * timeline.INTERVALS
     assert values.max() == pytest.approx(contact.normal.max(), rel=0.02)
+
+
+@pytest.mark.parametrize("samples", [101, 20_001])
+def test_a_run_that_ended_before_another_has_a_gap_behind_it(samples):
+    edges = np.linspace(0.0, 10.0, timeline.INTERVALS + 1)
+    time = np.linspace(0.0, 2.0, samples)
+    shown = timeline._on(edges, edges[:-1], time, 3.0 + time)
+    assert shown[edges[:-1] <= 2.0] == pytest.approx(3.0 + edges[:-1][edges[:-1] <= 2.0])
+    assert np.isnan(shown[edges[:-1] > 2.05]).all()

@@ -29,6 +29,8 @@ __all__ = [
 ]
 
 KEYS = ("absolute", "relative", "from", "to")
+ROUNDING = 1e-12
+"""relative change that is rounding"""
 FloatArray = NDArray[np.float64]
 
 
@@ -88,8 +90,9 @@ class ComparedMetric(NamedTuple):
 
     @property
     def change(self) -> float:
-        """Last value less the first."""
-        return self.values[-1] - self.values[0]
+        """Last value less the first; 0 where that is rounding."""
+        first, last = self.values[0], self.values[-1]
+        return 0.0 if math.isclose(first, last, rel_tol=ROUNDING) else last - first
 
     @property
     def relative(self) -> float:

@@ -4,12 +4,17 @@ versions.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from contact_sim_pkg.bag.texts import excitation_of_text
+from contact_sim_pkg.records.metric import MET, SELF_CHECK, Metric
 from contact_sim_pkg.records.registry import effects
 from contact_sim_pkg.report.rig_reports import rig_warnings
-from contact_sim_pkg.report.rows import Row, described_rows, plain_name, scene_rows
+from contact_sim_pkg.report.rows import Row, described_rows, number, plain_name, scene_rows
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY, PUBLISHED_BY
 
@@ -91,6 +96,28 @@ def ended_early(recording: Recording) -> list[str]:
     if recording.metadata.get("stopped"):
         found.append(recording.metadata["stopped"])
     return found
+
+
+def largest_values(recording: Recording) -> str:
+    """Largest force and pressure of each contact, and when: `Largest: tire 4902 N at 4.840 s, 1019 kPa at 4.290 s`."""
+    found = []
+    for name, contact in recording.contacts.items():
+        force, field = contact.normal, recording.fields.get(name)
+        if not np.any(force > 0.0):
+            continue
+        found.append(f"{name} {number(float(force.max()))} N at {contact.time[force.argmax()]:.3f} s")
+        if field is not None and np.any(field.peak > 0.0):
+            found[-1] += f", {number(1e-3 * float(field.peak.max()))} kPa at {field.time[field.peak.argmax()]:.3f} s"
+    return f"Largest: {'; '.join(found)}" if found else ""
+
+
+def without_error(metrics: Sequence[Metric]) -> str:
+    """That no number of the run has an uncertainty, and what speaks for them instead; empty where one has."""
+    if not metrics or any(math.isfinite(each.error) or math.isfinite(each.spread) for each in metrics):
+        return ""
+    checks = [each for each in metrics if each.basis == SELF_CHECK]
+    met = sum(each.verdict == MET for each in checks)
+    return "Numerical error not estimated" + (f": {met} of {len(checks)} self-checks met" if checks else "")
 
 
 def _strange_sources(recording: Recording) -> list[str]:

@@ -97,6 +97,7 @@ def render(
     return rendered(TEMPLATE, {
         "title": title, "description": recording.scene.get("description") or "", "bag_name": recording.name,
         "date": recording.date, "answer": answer_of(recording, metrics), "conditions": conditions,
+        "largest": " · ".join(filter(None, (facts.largest_values(recording), facts.without_error(metrics)))),
         "drawing": drawing_of(of_rig, str(title)), "warnings": [*facts.warnings(recording), *doubts_of(metrics)],
         "tiles": tiles_of(first_metrics(recording, metrics)), "numbers": numbers, "maps": map_views(recording), "lead": lead,
         "drawn": parts, "contents": [Entry("result", "Result"), Entry("time", "Time and maps"),

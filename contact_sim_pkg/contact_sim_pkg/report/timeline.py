@@ -154,14 +154,14 @@ def _span(groups: Sequence[tuple[str, list[Series]]]) -> tuple[float, float]:
 
 def _on(edges: FloatArray, times: FloatArray, time: FloatArray, values: FloatArray) -> FloatArray:
     """Two values an interval, the smallest and the largest in the order in which they came, so that no peak is lost;
-    a series with fewer samples is interpolated at ``times``.
+    a series with fewer samples is interpolated at ``times``, and nan beyond its ends.
     """
     values = np.nan_to_num(values)
-    if time.size <= 2 * edges.size:
-        return np.interp(times, time, values)
     starts = np.clip(np.searchsorted(time, edges[:-1]), 0, time.size - 1)
-    if np.any(np.diff(starts) == 0):
-        return np.interp(times, time, values)
+    if time.size <= 2 * edges.size or np.any(np.diff(starts) == 0):
+        beyond = float(edges[1] - edges[0]) + (float(np.diff(time).max()) if time.size > 1 else np.inf)
+        inside = (times >= time[0] - beyond) & (times <= time[-1] + beyond)
+        return np.where(inside, np.interp(times, time, values), np.nan)
     low, high = np.minimum.reduceat(values, starts), np.maximum.reduceat(values, starts)
     rising = values[starts] <= values[np.append(starts[1:], time.size) - 1]
     found = np.empty(2 * low.size)

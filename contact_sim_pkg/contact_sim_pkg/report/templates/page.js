@@ -99,7 +99,8 @@
     view, height, group.label, group.series.map(each => each.name), [axis, ...group.series.map(each => each.values)],
     {hooks: {setCursor: [plot => { if (plot.cursor.idx != null) show(time[plot.cursor.idx], plot); }]}},
   );
-  for (const group of data.groups) for (const each of group.series) each.values = floats(each.values);
+  // a run that ended before another has a gap behind it
+  for (const group of data.groups) for (const each of group.series) each.values = Array.from(floats(each.values), value => (isNaN(value) ? null : value));
   if (distance) {
     const choice = document.createElement("div");
     choice.className = "switch";

@@ -45,6 +45,12 @@ def roller_breaches(scene: Scene) -> Iterator[Breach]:
     # Each effect has rules of its own.
     if roller.programme is not None:
         yield from _programme(roller.programme)
+        loads, usual = roller.programme.load, RollerRig.model_fields["load"].default
+        if loads is not None and roller.load not in (usual, loads[0]):
+            sentence = (
+                f"{show(roller.load)} N acts on nothing, since the programme gives the load over time; leave one out"
+            )
+            yield Breach("roller.load", sentence, ("roller.programme.load",))
         if roller.programme.bending_load is not None and scene.effect("roller", ShaftBending) is None:
             sentence = "bends a shaft that is not bent; add the effect shaft_bending, or leave it out"
             yield Breach("roller.programme.bending_load", sentence, ("effects.roller.shaft_bending",))
