@@ -18,8 +18,9 @@ from contact_sim_pkg.report.arrangement import Entry, arranged, folds_of, leadin
 from contact_sim_pkg.report.drawing import style
 from contact_sim_pkg.report.figures.bench import energy_balance, real_time_factor
 from contact_sim_pkg.report.figures.contact import contact_section
+from contact_sim_pkg.report.metrics.curve_bands import beyond_bands
 from contact_sim_pkg.report.metrics.listing import metrics_of
-from contact_sim_pkg.report.metrics.requirements import Requirement, required
+from contact_sim_pkg.report.metrics.requirements import Requirement, bands_of, required
 from contact_sim_pkg.report.metrics.tiles import doubts_of, metric_table, published_table, tiles_of
 from contact_sim_pkg.report.page import TRUST, Section, rendered
 from contact_sim_pkg.report.place import free_place, new_page
@@ -82,7 +83,7 @@ def render(
     check: Check | None = None,
 ) -> str:
     """The page as text. Everything that comes from the bag is escaped."""
-    metrics = required(metrics_of(recording), requirements)
+    metrics = required([*metrics_of(recording), *beyond_bands(recording, bands_of(requirements))], requirements)
     drawn = sections(recording, on_section)
     lead = leading(_lead_names(recording), drawn)
     published = published_table(metrics)

@@ -17,6 +17,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.files import RefusedError, new_file
 from contact_sim_pkg.report.export.table import table_of
+from contact_sim_pkg.report.metrics.curve_bands import CurveBand
 from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags
 from contact_sim_pkg.report.metrics.views import rows_of
 from contact_sim_pkg.run.errors import RunError
@@ -74,6 +75,8 @@ class Task(NamedTuple):
     """hash of the bench's sources, see `sources_hash`"""
     series: str = ""
     """`topic.column` that the row is to have too, as `time` and `values`; empty: none"""
+    bands: tuple[CurveBand, ...] = ()
+    """round curves, how far beyond which the run is among its metrics"""
 
 
 def scene_of(scene: str, values: tuple[str, ...]) -> ResolvedScene:
@@ -108,6 +111,7 @@ def run_case(task: Task) -> Row:
         return failed(task, str(error), REFUSED)
     name = case_name(scene, task.sources)
     ending = f"-{task.series.replace('/', '_')}" if task.series else ""
+    ending += f"-{hashlib.sha256(json.dumps(task.bands).encode()).hexdigest()[:8]}" if task.bands else ""
     kept, bag = Path(task.folder) / "cases" / f"{name}{ending}.json", Path(task.folder) / "bags" / name
     found = kept_row(kept)
     if found is not None and (bag.is_dir() or not task.keeps_bag):
@@ -116,7 +120,7 @@ def run_case(task: Task) -> Row:
         "number": task.number,
         "case": name,
         "machine": machine(),
-        **_run(scene, bag if task.keeps_bag else None, task.series),
+        **_run(scene, bag if task.keeps_bag else None, task),
     }
     if row["outcome"] == FINISHED:
         with new_file(kept, overwrite=True) as file:
@@ -138,7 +142,7 @@ def failed(task: Numbered, sentence: str, outcome: str = FAILED) -> Row:
     return {"number": task.number, "case": "", "outcome": outcome, "sentence": sentence, "metrics": []}
 
 
-def _run(scene: ResolvedScene, bag: Path | None, series: str) -> Row:
+def _run(scene: ResolvedScene, bag: Path | None, task: Task) -> Row:
     """Run and measure; the bag goes where it is not to be kept."""
     folder = Path(tempfile.mkdtemp(prefix="contact_bench_"))
     wall, cpu = time.perf_counter(), time.process_time()
@@ -150,7 +154,8 @@ def _run(scene: ResolvedScene, bag: Path | None, series: str) -> Row:
         outcome = run_offline(scene, path)
         if outcome.failure or outcome.loss:
             raise RunError(outcome.failure or outcome.loss)
-        found = {"metrics": rows_of(metrics_of_bags([path]).metrics)} | (_series_of(path, series) if series else {})
+        found: Row = {"metrics": rows_of(metrics_of_bags([path], bands=task.bands).metrics)}
+        found |= _series_of(path, task.series) if task.series else {}
     except (RunError, RefusedError, OSError, MemoryError) as error:
         return {"outcome": FAILED, "sentence": str(error) or "memory ran out", "metrics": []}
     finally:

@@ -12,7 +12,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
 from contact_sim_pkg.records.metric import OUTSIDE, REQUIRED, STATIONARY, UNDECIDED, Metric, exit_status
 from contact_sim_pkg.report.metrics.repeated import repeated
-from contact_sim_pkg.report.metrics.requirements import Requirement, places_of, required, requirements_of
+from contact_sim_pkg.report.metrics.requirements import Requirement, bands_of, places_of, required, requirements_of
 from contact_sim_pkg.report.metrics.views import metric_of, suite_of, value_text, xml_text
 from contact_sim_pkg.sweep.case import FINISHED, Row
 from contact_sim_pkg.sweep.kept import NONE, read_kept
@@ -164,6 +164,7 @@ def run_plan(
     for each in plan.sweeps:
         table = sweep(
             each.scene, each.values, folder / each.name, jobs=jobs, scheduler=scheduler, keep_bags=keep_bags,
+            bands=bands_of(each.requirements),
             notify=lambda text, done, name=each.name: notify(f"{name}: {text}", done),  # type: ignore[misc]
         )  # fmt: skip
         _refuse_missing(each, table)

@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from contact_sim_pkg.files import FileRefusedError, new_file, wrong_name
+from contact_sim_pkg.report.metrics.curve_bands import CurveBand
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.cluster import run_on_cluster
 from contact_sim_pkg.sweep.kept import NONE, read_kept, worst_cases
@@ -44,6 +45,7 @@ def sweep(
     jobs: int | None = None,
     scheduler: str = "",
     keep_bags: str = NONE,
+    bands: tuple[CurveBand, ...] = (),
     notify: Notify = lambda _text, _done: None,
 ) -> SweepTable:
     """Run all cases of a scene and return their table, which is written to ``table.csv`` in the folder as well.
@@ -55,6 +57,7 @@ def sweep(
         jobs: processes; None: as many as there are processors.
         scheduler: address of a Dask scheduler whose workers run the cases in place of processes; empty: none.
         keep_bags: which bags stay, in ``bags``; see `read_kept`. The worst run once more, when they are known.
+        bands: round curves, how far beyond which a run is among its metrics.
         notify: gets what is being done.
 
     Raises:
@@ -67,7 +70,7 @@ def sweep(
     (folder / CASES).mkdir(parents=True, exist_ok=True)
     count = jobs or processors()
     tasks = [
-        Task(number, scene, texts_of(each), str(folder.absolute()), kept.all, sources_hash())
+        Task(number, scene, texts_of(each), str(folder.absolute()), kept.all, sources_hash(), bands=bands)
         for number, each in enumerate(values)
     ]
     rows: list[Row] = []

@@ -72,13 +72,15 @@ def command(
     """
     from contact_sim_pkg.report.metrics.foreign import ForeignOptions
     from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags, suite_name
-    from contact_sim_pkg.report.metrics.requirements import exit_code, read_requirements, required
+    from contact_sim_pkg.report.metrics.requirements import bands_of, exit_code, read_requirements, required
     from contact_sim_pkg.report.metrics.views import csv_of, junit_of, lines_of, rows_of, verdict_line
 
     given = ForeignOptions(axis, topic, unit, up)
     for_foreign = None if given == ForeignOptions() else given
     requirements = read_requirements(wanted)
-    found = metrics_of_bags(bags, whole=whole, loaded=loaded, chosen=for_foreign, skip_bad=skip_bad)
+    found = metrics_of_bags(
+        bags, whole=whole, loaded=loaded, chosen=for_foreign, skip_bad=skip_bad, bands=bands_of(requirements)
+    )
     _notes([*found.warnings, *found.notes])
     if pair and (for_foreign is not None or loaded is not None):
         raise click.UsageError(

@@ -13,6 +13,7 @@ from contact_sim_pkg.compare.estimated import Above, above_request, accuracy_num
 from contact_sim_pkg.records.metric import Metric
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.facts import warnings_of
+from contact_sim_pkg.report.metrics.curve_bands import CurveBand, beyond_bands
 from contact_sim_pkg.report.metrics.foreign import ForeignOptions, axes_of, foreign_metrics
 from contact_sim_pkg.report.metrics.listing import all_metrics, metrics_of
 from contact_sim_pkg.report.metrics.repeated import repeated
@@ -41,6 +42,7 @@ def metrics_of_bags(
     loaded: float | None = None,
     chosen: ForeignOptions | None = None,
     skip_bad: bool = False,
+    bands: Sequence[CurveBand] = (),
 ) -> FoundMetrics:
     """Metrics of one bag, or mean and spread of repeated runs.
 
@@ -50,6 +52,7 @@ def metrics_of_bags(
         loaded: [Pa] above which a cell of a mat counts; implies `whole`.
         chosen: what is known of a bag of anybody; None: taken so where the bag is none of ours.
         skip_bad: go on after damaged chunks.
+        bands: round curves; how far a run is beyond each is a metric of it.
 
     Raises:
         BagError: a bag cannot be read, holds nothing to measure, or two of them are one run.
@@ -81,6 +84,7 @@ def metrics_of_bags(
                 lists.append(weighted_metrics(recording, chosen))
             else:
                 lists.append(all_metrics(recording, loaded) if whole or loaded is not None else metrics_of(recording))
+            lists[-1].extend(beyond_bands(recording, bands))
             notes += [f"{bag.path.name}: {bag.metadata['imported_as']}"] if IMPORTED_FROM in bag.metadata else []
             warnings += [f"{suite_name([bag.path])}: {said}" for said in warnings_of(recording)]
             scenes.append(recording.scene)

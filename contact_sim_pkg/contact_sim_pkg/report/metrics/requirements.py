@@ -13,8 +13,9 @@ from typing import Any, NamedTuple
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.texts import table_of_file
 from contact_sim_pkg.records.metric import NO_BAND, OUTSIDE, REQUIRED, UNDECIDED, Band, Metric, exit_status, judged
+from contact_sim_pkg.report.metrics.curve_bands import CurveBand, read_curve_band
 
-__all__ = ["Requirement", "exit_code", "places_of", "read_requirements", "required", "requirements_of"]
+__all__ = ["Requirement", "bands_of", "exit_code", "places_of", "read_requirements", "required", "requirements_of"]
 
 SENTENCE = re.compile(
     r"\s*(?P<metric>[^<>=]+?)\s*(?P<sign><=|>=|<|>)\s*(?P<limit>[-+.\deE]+)\s*(?P<unit>[^\s\d]\S*)?\s*"
@@ -23,6 +24,7 @@ SENTENCE = re.compile(
 MOST_SHOWN = 20
 """metrics in a sentence"""
 KEYS = ("min", "max", "unit", "when")
+WITHIN = "within"
 FORM = 'write `SEAT < 60 %`, or a line `seat.factor: {max: 60, unit: "%"}` of a YAML file'
 
 
@@ -42,6 +44,8 @@ class Requirement(NamedTuple):
     """file or text that it stands in"""
     of_file: bool = False
     """a file may serve runs of several rigs, so not each has its metric"""
+    curve: CurveBand | None = None
+    """that a curve must stay within; `metric` says how far it is beyond"""
 
     @property
     def band(self) -> Band:
@@ -81,8 +85,13 @@ def requirements_of(given: Mapping[str, object], path: Path) -> list[Requirement
 
 def _of_line(path: Path, key: str, values: object) -> Requirement:
     where = f"{path}: {key}"
+    if isinstance(values, dict) and isinstance(values.get(WITHIN), str) and len(values) == 1:
+        band = read_curve_band(key, path.parent / values[WITHIN])
+        return Requirement(band.metric, -math.inf, 0.0, None, {}, path.name, of_file=True, curve=band)
     if not isinstance(values, dict) or not set(values) <= set(KEYS) or not set(values) & {"min", "max"}:
-        raise BagError(f"{where} needs min or max, and takes {', '.join(KEYS)}; found {values!r:.60}")
+        raise BagError(
+            f"{where} needs min or max, and takes {', '.join(KEYS)}; a curve takes {WITHIN}: FILE.csv; found {values!r:.60}"
+        )
     low, high = _ends(values, where, "min", "max")
     when = values.get("when", {})
     if not isinstance(when, dict) or not all(isinstance(ends, list) and len(ends) == 2 for ends in when.values()):
@@ -108,6 +117,11 @@ def _finite(value: object, where: str) -> float:
     if not math.isfinite(number):
         raise BagError(f"{where}: {value!r:.40} is no number")
     return number
+
+
+def bands_of(requirements: Sequence[Requirement]) -> tuple[CurveBand, ...]:
+    """The bands round curves among them."""
+    return tuple(each.curve for each in requirements if each.curve is not None)
 
 
 def required(metrics: Sequence[Metric], requirements: Sequence[Requirement]) -> list[Metric]:
