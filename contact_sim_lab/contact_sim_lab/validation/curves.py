@@ -85,9 +85,14 @@ def as_rows(found: Sequence[Judged]) -> list[dict[str, Any]]:
 def total(found: Sequence[Judged]) -> str:
     """How many curves hold, and how many points lie inside."""
     measured = [each for each in found if each.curve.kind == MEASURED]
+    blind = [each for each in found if each.curve.blind]
+    alone = sum(
+        abs(ours - y) <= error
+        for each in found for ours, y, error in zip(each.ours, each.curve.y, each.curve.error, strict=True)
+    )  # fmt: skip
     return (
         f"{sum(each.holds is True for each in found)} of {len(found)} curves hold; {_points(found)} points lie inside, of the "
-        f"measured ones {_points(measured)}, of those of blind curves {_points([each for each in found if each.curve.blind])}"
+        f"measured ones {_points(measured)}, of those of blind curves {_points(blind)}; {alone} by the published uncertainty alone"
     )
 
 
@@ -126,7 +131,7 @@ def page(found: Sequence[Judged], folder: str, head: str = "") -> str:
         parts += [
             f"## {picture}",
             "",
-            f"![{picture}: published points, lines of the bench]({folder}/{_file(picture)})",
+            f"![{picture}]({folder}/{_file(picture)})",
             "",
         ]
         lines = [_line(own) for own in _panels(group)]

@@ -38,7 +38,7 @@ published)/published.
 
 Not drawn: a truck tire 335/65 R22.5 at 4.8 and 6.5 bar (Project Chrono), for the inflation of a
 scene ends at 4 bar; the thickness of tissue under the tuberosities, for the bench has no tissue;
-rolling resistance over inflation of a coast-down, for its source is a forum.
+rolling resistance over inflation of one small car, for its source is a forum.
 """
 _FIGURES = """## Single figures
 

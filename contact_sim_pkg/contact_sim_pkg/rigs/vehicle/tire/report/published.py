@@ -87,6 +87,6 @@ def _drawn(curves: list[PublishedCurve], standing: TireStanding, field: FieldSer
     first, source = curves[0], curves[0].source.partition(". Licence")[0]
     caption = (
         f"{first.picture}; {first.kind}, at {first.name}. Standing under {number(standing.load)} N: {'; '.join(said)}, linear "
-        f"between the published points. Fields are those of the run on its road. Source: {first.source.partition('. Licence')[0]}."
+        f"between the published points. Fields are those of the run on its road. Source: {source}."
     )
     return picture("published-tire", figure, "Published deflection and footprint over load beside this run", caption)
