@@ -57,7 +57,7 @@ def draw_panel(axes: Axes, curves: Sequence[PublishedCurve], ours: Sequence[Sequ
     """
     colours = matplotlib.colormaps[PRESSURE_COLOURS]
     for number, curve in enumerate(curves):
-        colour = colours(BRIGHTEST * number / max(len(curves) - 1, 1))
+        colour = colours(BRIGHTEST * number / (len(curves) - 1)) if len(curves) > 1 else INK
         axes.errorbar(
             curve.x, curve.y, curve.error, color=colour, linestyle="none", marker="o" if curve.kind == MEASURED else "s",
             markersize=4.0, markerfacecolor="none" if curve.blind else colour, elinewidth=0.8, capsize=2.0, label=curve.name,

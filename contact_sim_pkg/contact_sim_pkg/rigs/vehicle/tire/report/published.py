@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from contact_sim_pkg.records.messages import TireStanding
 from contact_sim_pkg.records.published_curve import PublishedCurve, curves_of
-from contact_sim_pkg.report.drawing import ACCENT, INK, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.published import MARGINS, PANEL, draw_panel
 from contact_sim_pkg.report.page import PUBLISHED, Section
 from contact_sim_pkg.report.rows import number
@@ -74,19 +75,28 @@ def _drawn(curves: list[PublishedCurve], standing: TireStanding, field: FieldSer
     figure, axes = new_figure(PANEL + 0.3, 1, len(curves), MARGINS)
     said = []
     for place, curve, value in zip(axes, curves, (standing.deflection, standing.length), strict=True):
-        draw_panel(place, [curve])
+        draw_panel(place, [replace(curve, name=f"published, {curve.name}")])
+        place.plot(curve.x, curve.y, color=MUTED, linewidth=0.7, linestyle=":", zorder=1.0)
         if field is not None and curve is curves[-1]:
             some = slice(None, None, max(1, len(field.load) // MOST_FIELDS))
             place.plot(field.load[some], 1e3 * field.length[some], ".", color=ACCENT, markersize=2.5, zorder=0.0,
-                       label="fields of this run")  # fmt: skip
-        place.plot([standing.load], [1e3 * value], "D", color=ACCENT, label="this run, standing")
+                       label="fields of this run on its road")  # fmt: skip
+        place.plot(
+            [standing.load],
+            [1e3 * value],
+            "D",
+            color=ACCENT,
+            markeredgecolor=INK,
+            markersize=5.0,
+            label="this run, standing",
+        )
         y, error = (float(np.interp(standing.load, curve.x, each)) for each in (curve.y, curve.error))
         name, unit = curve.up.split(", ")
         said.append(f"{name} {number(1e3 * value)} {unit}, published {number(y)} ± {number(error)} {unit}")
-    figure.legend(*axes[-1].get_legend_handles_labels(), loc="upper center", ncols=3, labelcolor=INK)
+    figure.legend(*axes[-1].get_legend_handles_labels(), loc="upper center", ncols=3)
     first, source = curves[0], curves[0].source.partition(". Licence")[0]
     caption = (
         f"{first.picture}; {first.kind}, at {first.name}. Standing under {number(standing.load)} N: {'; '.join(said)}, linear "
-        f"between the published points. Fields are those of the run on its road. Source: {source}."
+        f"between the published points. Source: {source}."
     )
     return picture("published-tire", figure, "Published deflection and footprint over load beside this run", caption)
