@@ -47,6 +47,7 @@ setup(
             "rigs/*/scenes/*.yaml",
             "sweep/plans/*.yaml",
             "rigs/**/README.md",
+            "rigs/**/published/*.csv",
             "py.typed",
             "**/*.pyi",
         ],

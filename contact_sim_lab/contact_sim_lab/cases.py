@@ -32,6 +32,7 @@ class RigStudies(NamedTuple):
         goals: their `GOALS` holds `records.goal.GoalPart`: `bench goals`.
         hard_cases: their `CASES` holds `records.hard_case.HardCase`: `bench hard`.
         validation: their `VALIDATION` holds `records.metric.Published`: `bench validation`.
+        curves: their `CURVES` holds `records.published_curve.PublishedCurve`: the same command.
     """
 
     accuracy: tuple[str, ...] = ()
@@ -39,6 +40,7 @@ class RigStudies(NamedTuple):
     goals: tuple[str, ...] = ()
     hard_cases: tuple[str, ...] = ()
     validation: tuple[str, ...] = ()
+    curves: tuple[str, ...] = ()
 
 
 def _of(rig: str, *names: str) -> tuple[str, ...]:
@@ -51,6 +53,7 @@ _OURS: dict[str, RigStudies] = {
         work_precision=_of("vehicle.work_precision", "elliptic", "force", "smooth", "rough", "area", "exponent", "road"),
         hard_cases=_of("vehicle.hard_cases", "tire", "inflation", "rolling", "obstacles", "scenes", "occupant"),
         validation=_of("vehicle", "validation_tire"),
+        curves=_of("vehicle", "curves_tire"),
     ),
     "seat": RigStudies(
         accuracy=_of("vehicle", "accuracy"),
@@ -63,6 +66,7 @@ _OURS: dict[str, RigStudies] = {
         ),
         hard_cases=_of("vehicle.hard_cases", "cushion"),
         validation=_of("vehicle", "validation_occupant", "validation_seat"),
+        curves=_of("vehicle", "curves_seat"),
     ),
     "car": RigStudies(accuracy=_of("vehicle", "accuracy"), goals=_of("vehicle", "goals")),
     "backrest": RigStudies(

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from contact_sim_lab.validation import validation
+from contact_sim_lab.validation import curves, validation
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.records.metric import exit_status
 from contact_sim_pkg.studies.effects import effects_study, effects_table
@@ -27,6 +27,7 @@ def test_validation_ends_by_its_figures(monkeypatch, capsys, ours, code):
         for each in ours
     ]  # fmt: skip
     monkeypatch.setattr(validation, "study", lambda _progress: rows)
+    monkeypatch.setattr(curves, "study", lambda _progress: [])
     assert main(["validation"]) == code
     assert "length" in capsys.readouterr().out
 

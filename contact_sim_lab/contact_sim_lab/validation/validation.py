@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from contact_sim_lab import cases
+from contact_sim_lab.validation import curves
+from contact_sim_lab.validation.curves import Judged
 from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.records.table import Section
 
@@ -17,8 +19,28 @@ _COMMAND = "bench validation --page docs/validation.md --overwrite"
 _WIDTH = 100
 _HEAD = f"""# Validation
 
-Published figures beside those of the bench. Made by
-`{_COMMAND}`.
+Published curves and figures of seats and tires beside those of the bench. Made, with its pictures,
+by `{_COMMAND}`.
+"""
+_CURVES = """
+A point is *inside* where the bench lies as near to it as both uncertainties together allow; a curve
+*holds* where at least 70 % of its points do. *Measured*: points of a measurement; *formula*: values
+of a formula that was fitted to measurements. *Fitted*: a constant of the bench was chosen by the
+curve; all others are *blind*. Published: bars in the pictures; scatter of the points where none is
+given, for a formula 5 % of a standing tire, 10 % of a rolling one; of people two standard
+deviations. Ours: twice the standard deviation that `bench tire` fits with (deflection and stiffness
+3.5 %, length, area and slip stiffness 6, width 14, trail 12 %), rolling resistance 10 %, a seat's
+area and mean pressure 5, its peak 10 %.
+
+In the pictures: round points measured, square ones of a formula, filled where fitted; lines of the
+bench; a cross on what lies outside. *Difference*: from the smallest to the largest of (bench −
+published)/published.
+
+Not drawn: a truck tire 335/65 R22.5 at 4.8 and 6.5 bar (Project Chrono), for the inflation of a
+scene ends at 4 bar; the thickness of tissue under the tuberosities, for the bench has no tissue;
+rolling resistance over inflation of one small car, for its source is a forum.
+"""
+_FIGURES = """## Single figures
 
 *Band*: values that agree with the publication, its scatter included. *Fitted*: a constant of the
 bench was chosen by this figure; all others were not used. What leaves its band says why. *Usual
@@ -67,12 +89,17 @@ def sections(rows: list[dict[str, Any]]) -> list[Section]:
     return found
 
 
-def page(rows: list[dict[str, Any]]) -> str:
-    """The page `docs/validation.md`: a table a machine, then sources and remarks by number."""
+def page(rows: list[dict[str, Any]], found: Sequence[Judged] = (), folder: str = "validation") -> str:
+    """The page `docs/validation.md`: the curves, their pictures in a ``folder``, then a table a machine with sources and
+    remarks by number.
+    """
     parts = [_HEAD]
+    if found:
+        parts += [curves.page(found, folder, _CURVES)]
+    parts += [f"{_FIGURES}\n{sum(row['inside'] for row in rows)} of {len(rows)} lie inside their band.\n"]
     for machine in dict.fromkeys(row["machine"] for row in rows):
         own = [row for row in rows if row["machine"] == machine]
-        parts.append(f"## {machine[0].upper()}{machine[1:]}\n")
+        parts.append(f"### {machine[0].upper()}{machine[1:]}\n")
         parts.append("| quantity | unit | published | bench | band | | source |\n|---|---|---|---|---|---|---|")
         sources = list(dict.fromkeys(row["source"] for row in own))
         for row in own:
@@ -86,7 +113,7 @@ def page(rows: list[dict[str, Any]]) -> str:
         remarks = [_item("* ", f"{row['quantity']}: {row['note']}") for row in own if row["note"]]
         if remarks:
             parts.append("\n" + "\n".join(remarks))
-        parts.append(f"\n### Sources: {machine}\n")
+        parts.append(f"\n#### Sources: {machine}\n")
         parts.append("\n".join(_item(f"{number}. ", source) for number, source in enumerate(sources, 1)) + "\n")
     return "\n".join(parts).rstrip() + "\n"
 

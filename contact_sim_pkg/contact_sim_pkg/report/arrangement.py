@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from contact_sim_pkg.report.drawing import Picture
-from contact_sim_pkg.report.page import CONTACT, FREQUENCY, TRUST, Section
+from contact_sim_pkg.report.page import CONTACT, FREQUENCY, PUBLISHED, TRUST, Section
 from contact_sim_pkg.report.tables import Table
 
 __all__ = ["Entry", "Part", "arranged", "folds_of", "leading"]
 
 MOST_SHOWN = 6
 """Pictures that are shown at once, those of the first screen among them."""
-TITLES = {FREQUENCY: "Frequency", CONTACT: "Contact", "published": "Against published", TRUST: "Trust"}
+TITLES = {FREQUENCY: "Frequency", CONTACT: "Contact", PUBLISHED: "Against published", TRUST: "Trust"}
 
 
 class Entry(NamedTuple):
@@ -49,7 +49,8 @@ def leading(names: Sequence[str], drawn: list[Section]) -> list[Picture]:
 
 
 def arranged(sections: Sequence[Section], shown: int, tables: dict[str, list[Table]]) -> list[Part]:
-    """Parts of the page with the first picture of each section open as long as there is room, the rest folded.
+    """Parts of the page with the first picture of each section open as long as there is room, the rest folded; what is
+    published has its room.
 
     Args:
         sections: those that were drawn.
@@ -57,11 +58,13 @@ def arranged(sections: Sequence[Section], shown: int, tables: dict[str, list[Tab
         tables: further tables of a part, which stand open.
     """
     parts = []
+    room = MOST_SHOWN - sum(each.part == PUBLISHED for each in sections)
     for key, title in TITLES.items():
+        room = MOST_SHOWN if key == PUBLISHED else room
         inside = [each for each in sections if each.part == key]
         part = Part(key, title, [], [], tables.get(key, []), [])
         for section in inside:
-            first = 1 if shown < MOST_SHOWN and key != TRUST else 0
+            first = 1 if shown < room and key != TRUST else 0
             shown += min(first, len(section.pictures))
             part.shown.extend(section.pictures[:first])
             part.folded.extend(section.pictures[first:])

@@ -14,9 +14,20 @@ from markupsafe import Markup
 from contact_sim_pkg.report.drawing import Picture
 from contact_sim_pkg.report.tables import Table
 
-__all__ = ["CONTACT", "FREQUENCY", "LIVE_SCRIPTS", "SCRIPTS", "TRUST", "Section", "Shell", "rendered", "shell_of"]
+__all__ = [
+    "CONTACT",
+    "FREQUENCY",
+    "LIVE_SCRIPTS",
+    "PUBLISHED",
+    "SCRIPTS",
+    "TRUST",
+    "Section",
+    "Shell",
+    "rendered",
+    "shell_of",
+]
 
-FREQUENCY, CONTACT, TRUST = "frequency", "contact", "trust"
+FREQUENCY, CONTACT, PUBLISHED, TRUST = "frequency", "contact", "published", "trust"
 """Parts of the page that pictures stand in."""
 STYLES = ("page.css", "uplot/uPlot.min.css")
 SCRIPTS = ("uplot/uPlot.iife.min.js", "plots.js", "page.js")

@@ -22,7 +22,7 @@ from contact_sim_pkg.report.metrics.curve_bands import beyond_bands
 from contact_sim_pkg.report.metrics.listing import metrics_of
 from contact_sim_pkg.report.metrics.requirements import Requirement, bands_of, required
 from contact_sim_pkg.report.metrics.tiles import doubts_of, metric_table, published_table, tiles_of
-from contact_sim_pkg.report.page import TRUST, Section, rendered
+from contact_sim_pkg.report.page import PUBLISHED, TRUST, Section, rendered
 from contact_sim_pkg.report.place import free_place, new_page
 from contact_sim_pkg.report.reading import OnRead, read_recording
 from contact_sim_pkg.report.rows import scene_rows
@@ -88,7 +88,7 @@ def render(
     lead = leading(_lead_names(recording), drawn)
     published = published_table(metrics)
     parts = arranged(drawn, len(lead), {
-        "published": [] if published is None else [published], TRUST: trust_tables(recording, metrics, check),
+        PUBLISHED: [] if published is None else [published], TRUST: trust_tables(recording, metrics, check),
     })  # fmt: skip
     of_rig = rig_reports.parts_of(recording)
     conditions = conditions_of([Part("", f"{recording.duration:.4g} s"), *of_rig])

@@ -28,7 +28,7 @@ from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.schema.laws import USUAL_REVERSAL
 
-__all__ = ["VALIDATION"]
+__all__ = ["OFFICE_FOAM", "THIGHS_FROM", "VALIDATION", "SittingMap", "default_hardness", "sitting"]
 
 Field = NDArray[numpy.float64]
 CELL = 0.01  # [m]
@@ -48,7 +48,7 @@ ROAD = ("vibration=null", "road.length=1200", "road.texture=null", "travel.speed
 FLOOR, SEAT = range(2)  # signals
 
 
-class _Map(NamedTuple):
+class SittingMap(NamedTuple):
     """Pressure map of a person at rest."""
 
     x: Field  # [rows] [m] before the tuberosities
@@ -59,10 +59,10 @@ class _Map(NamedTuple):
         """Pressures [Pa] of the loaded cells."""
         return self.pressure[self.pressure > LOADED]
 
-    def between(self, first: float, last: float) -> _Map:
+    def between(self, first: float, last: float) -> SittingMap:
         """The part between two distances [m] before the tuberosities."""
         inside = (self.x >= first) & (self.x < last)
-        return _Map(self.x[inside], self.pressure[inside])
+        return SittingMap(self.x[inside], self.pressure[inside])
 
     def share(self, first: float, last: float) -> float:
         """Part of the load in [%] between two distances [m] before the tuberosities."""
@@ -85,14 +85,14 @@ class _Map(NamedTuple):
 
 
 @cache
-def _sitting(load: float, percentile: int = 50, thickness: float = 0.08, hardness: float | None = None) -> _Map:
+def sitting(load: float, percentile: int = 50, thickness: float = 0.08, hardness: float | None = None) -> SittingMap:
     """Map of a percentile under ``load`` [N] on the default foam, or on one of another ``thickness``
     [m] and ``hardness`` [Pa].
     """
     x, y = (CELL * numpy.arange(first, last, dtype=numpy.float64) for first, last in ((-24.0, 48.0), (-31.5, 32.0)))
     foam = foam_of(SeatCushion(thickness=thickness, hardness=hardness))
     layer = FoamLayer(FoamGrid(len(x), len(y), CELL, CELL), foam, pan_gap(PERCENTILES[percentile], x, y))
-    return _Map(x, _at_load(layer, load, foam.thickness).pressure)
+    return SittingMap(x, _at_load(layer, load, foam.thickness).pressure)
 
 
 def _at_load(layer: FoamLayer, load: float, thickness: float) -> Compression:
@@ -100,7 +100,7 @@ def _at_load(layer: FoamLayer, load: float, thickness: float) -> Compression:
     return layer.solve(float(approach))
 
 
-def _default_hardness() -> float:
+def default_hardness() -> float:
     """Stress [Pa] of the default foam at 40 % strain."""
     foam = foam_of(SeatCushion())._replace(area=1.0)
     return float(elastic_force(foam, 0.4 * foam.thickness))
@@ -108,7 +108,7 @@ def _default_hardness() -> float:
 
 def _change_with_hardness(largest: bool) -> float:
     """Change of the largest or mean pressure [Pa] for each Pa of hardness."""
-    softer, harder = (_sitting(LOAD, hardness=_default_hardness() + step).loaded for step in (-500.0, 500.0))
+    softer, harder = (sitting(LOAD, hardness=default_hardness() + step).loaded for step in (-500.0, 500.0))
     return float((harder.max() - softer.max() if largest else harder.mean() - softer.mean()) / 1000.0)
 
 
@@ -189,10 +189,10 @@ def _seat_factor(densities: CrossDensity) -> float:
     return seat_factor(weighted_rms(densities.power(SEAT)), weighted_rms(densities.power(FLOOR)))
 
 
-def _office() -> _Map:
+def _office() -> SittingMap:
     """Map of an office chair under buttocks and thighs."""
     thickness, factor = OFFICE_FOAM
-    return _sitting(sum(OFFICE_LOADS), 50, thickness, factor * _default_hardness())
+    return sitting(sum(OFFICE_LOADS), 50, thickness, factor * default_hardness())
 
 
 AREA, MEAN_PRESSURE, PEAK_PRESSURE = (
@@ -233,11 +233,11 @@ def _by_percentile(percentile: int) -> Iterator[Published]:
     load = SEATED_MASS[percentile] * GRAVITY
     who = f"{_PERSONS[percentile]}, {load:.0f} N"
     yield _published("cushion", _ADULTS, f"loaded area, {who}", "cm²", "1000 to 1500", AREA,
-                     lambda: _sitting(load, percentile).area, note=_SMALL if percentile == 5 else "")  # fmt: skip
+                     lambda: sitting(load, percentile).area, note=_SMALL if percentile == 5 else "")  # fmt: skip
     yield _published("cushion", _ADULTS, f"mean pressure of the loaded area, {who}", "kPa", "3 to 8", MEAN_PRESSURE,
-                     lambda: _sitting(load, percentile).mean)  # fmt: skip
+                     lambda: sitting(load, percentile).mean)  # fmt: skip
     yield _published("cushion", _ADULTS, f"largest pressure, {who}", "kPa", "8 to 20", PEAK_PRESSURE,
-                     lambda: _sitting(load, percentile).largest)  # fmt: skip
+                     lambda: sitting(load, percentile).largest)  # fmt: skip
 
 
 VALIDATION = [
@@ -255,22 +255,22 @@ VALIDATION = [
     _published("seat", _SEAT_FACTORS, "SEAT in the car, road of class B, 20 m/s", "%", "60 to 90", SEAT_FACTOR,
                lambda: _seat_factor(_densities("car_full_bench", "body_z", *ROAD))),
     _published("cushion", _CAR_MAPS, "loaded area, 50th percentile of shape, 498 N (`wei_griffin_2`)", "cm²", "1000 to 1500",
-               AREA, lambda: _sitting(LOAD).area, fitted=True),
+               AREA, lambda: sitting(LOAD).area, fitted=True),
     _published("cushion", _CAR_MAPS, "mean pressure of the loaded area, the same", "kPa", "3 to 8", MEAN_PRESSURE,
-               lambda: _sitting(LOAD).mean, fitted=True),
-    _published("cushion", _CAR_MAPS, "largest pressure, the same", "kPa", "8 to 20", PEAK_PRESSURE, lambda: _sitting(LOAD).largest),
+               lambda: sitting(LOAD).mean, fitted=True),
+    _published("cushion", _CAR_MAPS, "largest pressure, the same", "kPa", "8 to 20", PEAK_PRESSURE, lambda: sitting(LOAD).largest),
     *(each for percentile in _PERSONS for each in _by_percentile(percentile)),
     _published("cushion", _FOAMS, "work lost in a slow loop up to 705 N", "%", "15 to 30", (15.0, 30.0), _slow_loop),
     _published("cushion", _FOAMS, "indentation force at 40 % over area times stress, 100 mm", "", "1.25 to 1.45",
                (1.25, 1.45), _indentation_ratio, fitted=True),
     _published("cushion", _ZONES, "load behind 0.12 m before the tuberosities", "%", "49 to 58", (49.0, 58.0),
-               lambda: _sitting(LOAD).share(-1.0, THIGHS_FROM),
+               lambda: sitting(LOAD).share(-1.0, THIGHS_FROM),
                note="hips and buttocks together; the publication's zones end elsewhere"),
     _published("cushion", _ZONES, "load from 0.12 to 0.25 m", "%", "below 28", (0.0, 28.0),
-               lambda: _sitting(LOAD).share(THIGHS_FROM, FRONT_FROM),
+               lambda: sitting(LOAD).share(THIGHS_FROM, FRONT_FROM),
                note="hips and buttocks as above"),
     _published("cushion", _ZONES, "load beyond 0.25 m", "%", "below 6", (0.0, 6.0),
-               lambda: _sitting(LOAD).share(FRONT_FROM, 1.0)),
+               lambda: sitting(LOAD).share(FRONT_FROM, 1.0)),
     _published("cushion", _HARDNESS, "largest pressure by hardness", "kPa/kPa", "0.09", (0.03, 0.27),
                lambda: _change_with_hardness(largest=True), note=_RIGID),
     _published("cushion", _HARDNESS, "mean pressure by hardness", "kPa/kPa", "0.04", (0.013, 0.12),

@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, SHADE, Picture, new_figure, picture
+from contact_sim_pkg.report.metrics.bands import published_range
 from contact_sim_pkg.report.signal.spectrum import (
     HIGHEST_FREQUENCY,
     Density,
@@ -44,8 +45,10 @@ def seat_spectrum(signals: RideSignals) -> Picture:
     return picture("ride-spectrum", figure, "Spectrum of the vertical acceleration of floor and seat", caption)
 
 
-def seat_transmissibility(signals: RideSignals) -> Picture | None:
-    """Magnitude, phase and coherence of the seat over the floor; None for a floor at rest."""
+def seat_transmissibility(signals: RideSignals, *, published: bool) -> Picture | None:
+    """Magnitude, phase and coherence of the seat over the floor; None for a floor at rest. ``published``: whether the seat is
+    one that published peaks are of.
+    """
     result = transmissibility(signals.floor, signals.seat, signals.sample_rate)
     trusted = trusted_part(result, signals.floor, signals.sample_rate)
     if trusted is None:
@@ -53,9 +56,13 @@ def seat_transmissibility(signals: RideSignals) -> Picture | None:
     figure, axes = response_figure(result, trusted, "seat / floor")
     axes[0].axhline(1.0, color=MUTED, linewidth=0.7)
     axes[0].set_ylim(0.0, 1.5 * max(1.0, float(result.magnitude[trusted].max(initial=1.0))))
+    caption = _transmissibility_caption(result, trusted)
+    if published:
+        (left, right), (low, high) = published_range("seat_peak_frequency"), published_range("seat_peak")
+        axes[0].fill_between([left, right], low, high, color=SHADE, alpha=0.6, linewidth=0.0, zorder=0.0)
+        caption += " Shaded: where textbooks have the peak of car seats with people."
     return picture(
-        "ride-transmissibility", figure, "Transmissibility from floor to seat: magnitude, phase, coherence",
-        _transmissibility_caption(result, trusted),
+        "ride-transmissibility", figure, "Transmissibility from floor to seat: magnitude, phase, coherence", caption
     )  # fmt: skip
 
 

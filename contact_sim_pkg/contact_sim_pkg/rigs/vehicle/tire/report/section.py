@@ -27,6 +27,7 @@ from contact_sim_pkg.rigs.vehicle.tire.report.figures_shear import friction_over
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_spectrum import load_spectrum
 from contact_sim_pkg.rigs.vehicle.tire.report.metrics import one_obstacle
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE
+from contact_sim_pkg.rigs.vehicle.tire.report.published import published_section
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
 from contact_sim_pkg.rigs.vehicle.tire.report.tables import footprint_table, peak_table
@@ -45,7 +46,9 @@ def tire_sections(number: int, recording: Recording) -> list[Section]:
     friction = Section(FRICTION_KEY, "Friction of the tire", _friction_pictures(recording))
     spectrum = load_spectrum(KEY, TIRE, recording.contacts[TIRE]) if one_obstacle(recording.scene) is None else None
     by_frequency = Section("tire-load", "Load of the tire", [spectrum] if spectrum else [], part=FREQUENCY)
-    return [contact_section(number, TIRE, recording), rolling, friction, by_frequency]
+    published = published_section(recording)
+    found = [contact_section(number, TIRE, recording), rolling, friction, by_frequency]
+    return found if published is None else [*found, published]
 
 
 def _rolling_section(recording: Recording) -> Section:
