@@ -46,6 +46,7 @@ def _draw(axes: Axes, signal: FilteredSignal) -> None:
     axes.plot([signal.peak.time], [signal.peak.value * scale], marker="x", color=MUTED, markersize=7, linestyle="")
     if time[0] <= soft.time <= time[-1]:
         axes.plot([soft.time], [soft.value * scale], marker="x", color=ACCENT, markersize=7, linestyle="")
+    axes.locator_params(axis="x", nbins=4)  # instants of a long run have many digits
     axes.set_xlabel("simulated time, s")
     axes.set_ylabel(f"{signal.name}, {unit}")
     axes.legend(loc="best")
