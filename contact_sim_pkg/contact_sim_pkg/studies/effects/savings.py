@@ -29,7 +29,7 @@ SCENES = (
 FROM_ALL = ("impact_rubber_drop",)
 RIDE, LOADS = ("dynamic load coefficient", "load, mean"), ("load, largest", "load, smallest")
 ASKED = (
-    ("tire_rough_road", (), RIDE), ("tire_belgian_block", (), RIDE), ("tire_braking", (), ("load, mean", "vertical stiffness")),
+    ("tire_rough_road", (), RIDE), ("tire_belgian_block", (), RIDE), ("tire_braking", (), ("load, largest", "vertical stiffness")),
     ("tire_cleat", (), LOADS), ("car_ride", (), ("SEAT", "a_w, Wk", "dynamic load coefficient")),
     ("car_full_bench", (), ("SEAT", "T(f) at its peak")), ("seat_ride_full", ("accuracy=1e-2",), ("SEAT",)),
     ("impact_rubber_drop", (), ("all",)),

@@ -38,6 +38,7 @@ TIRE_REPORT = ContactReport(
     parts=f"{__name__}.drawing:tire_parts",
     compared=f"{__name__}.metrics:largest_forces",
     answer=(
+        "friction up to {friction} of the load, {friction:remark}",
         "load {load}, {load:remark}",
         "dynamic load coefficient {dlc}",
         "off the road {lift_off} of the time",

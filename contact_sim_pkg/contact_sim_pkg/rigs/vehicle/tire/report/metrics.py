@@ -51,6 +51,8 @@ class _Ride(NamedTuple):
     """whether the road is uneven all along, so that a mean needs time"""
     event: bool
     """whether the road is even but for one obstacle, so that what varies is over when it is passed"""
+    slips: bool
+    """whether it brakes, drives or is steered: the manoeuvre is what the run is for, however short"""
     errors: Errors
     """numerical ones of the run"""
     conditions: dict[str, float | str]
@@ -66,8 +68,8 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     standing, conditions = standing_load_of(recording.scene), _conditions(recording)
     ride = _Ride(
         recording, contact, standing, Maker(TIRE, f"{TIRE}/force", window, conditions).make,
-        str(conditions.get("road", "")).startswith("class"), one_obstacle(recording.scene) is not None, errors_of(recording),
-        conditions,
+        str(conditions.get("road", "")).startswith("class"), one_obstacle(recording.scene) is not None,
+        float(conditions["largest_slip"]) >= LARGE_SLIP, errors_of(recording), conditions,
     )  # fmt: skip
     field = recording.fields.get(TIRE)
     stands = standing_of(recording)
@@ -77,7 +79,7 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     upright = *upright, *travel_metrics(wheel_travel(recording))
     along = [*_along(ride), *_work(ride), *_lean(ride, field)]
     # Of a tire that slips, first what it slips for
-    return [*along, *upright] if float(conditions["largest_slip"]) >= LARGE_SLIP else [*upright, *along]
+    return [*along, *upright] if ride.slips else [*upright, *along]
 
 
 def largest_forces(recording: Recording) -> list[Metric]:
@@ -125,13 +127,13 @@ def _conditions(recording: Recording) -> dict[str, float | str]:
 
 
 def _load(ride: _Ride) -> Iterator[Metric]:
-    """Of an obstacle the largest and the smallest load and how long the tire is off the road; of any other road the
-    load's variation and mean over the run, and the share of it off the road.
+    """Of an obstacle, and of a tire that brakes or is steered, the largest and the smallest load and how long the tire is
+    off the road; of any other ride the load's variation and mean over the run, and the share of it off the road.
     """
     normal, rate, count = ride.contact.normal, 1.0 / ride.contact.sample_period, ride.contact.normal.size
     # The asperities carry a share of the weight beside the contact.
     carried = normal + ride.contact.impulses if ride.contact.impulses.size else normal
-    if ride.event:
+    if ride.event or ride.slips:
         yield from _load_of_event(ride, carried)
         return
     doubts = _short(ride)
@@ -187,7 +189,8 @@ def _before_obstacle(recording: Recording) -> tuple[str, ...]:
 def _short(ride: _Ride) -> tuple[str, ...]:
     """That the ride is too short for its road; empty where it is not."""
     duration = ride.contact.normal.size * ride.contact.sample_period
-    return (f"too short: {duration:.3g} s, {SHORTEST:g} s needed",) if ride.rough and duration < SHORTEST else ()
+    rough = ride.rough and not ride.slips
+    return (f"too short: {duration:.3g} s, {SHORTEST:g} s needed",) if rough and duration < SHORTEST else ()
 
 
 def _standing(ride: _Ride, stands: TireStanding) -> Iterator[Metric]:
