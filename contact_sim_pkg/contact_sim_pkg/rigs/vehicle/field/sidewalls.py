@@ -42,7 +42,7 @@ goes too far.
 PARTS, SETTLED = (1.0, 0.5, 0.25, 0.0), 1e-3
 """Of what sidewalls yield with the load, and its last change at which it is taken."""
 
-CONTACT, OF_PLATEAU, SETTLING = 0.26, 2.05, 30
+CONTACT, OF_PLATEAU, SETTLING = 0.31, 1.9, 30
 """Of a usual contact: length over the radius, line load over the hoop's T / R, passes that settle the sidewalls beside it. How
 soon a field settles hangs on them, nothing else.
 """
