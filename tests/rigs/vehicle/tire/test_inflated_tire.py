@@ -246,7 +246,7 @@ def test_sidewalls_go_with_the_load_that_a_solution_finds():
 
     def settled(length):
         line = numpy.clip(0.5 * length / cell + 0.5 - x / cell, 0.0, 1.0) * 1.9 * belt.tension / belt.radius
-        missed = [sidewalls.follow(line) for _ in range(40)]
+        missed = [sidewalls.follow(line[:, None], 1.0) for _ in range(40)]
         return missed[0], float(line @ sidewalls.gap[sidewalls.rows(rows)]) / float(line.sum())
 
     before = settled(0.100)[1]
@@ -292,7 +292,7 @@ def test_a_grid_that_follows_by_a_cell_leaves_the_sidewalls_as_they_were():
         line = numpy.zeros(rows)
         line[first : first + 30] = 4e4
         for _ in range(40):
-            sidewalls.follow(line)
+            sidewalls.follow(line[:, None], 1.0)
         return sidewalls.gap[sidewalls.rows(rows)][first : first + 30]
 
     assert gap_at(-0.5 * cell, 51) == pytest.approx(gap_at(0.5 * cell, 50), abs=1e-9)

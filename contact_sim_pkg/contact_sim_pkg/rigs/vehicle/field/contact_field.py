@@ -30,7 +30,7 @@ from contact_sim_pkg.pressure.field.window import Part
 from contact_sim_pkg.pressure.settings import FieldSettings, InflatedBelt, widened
 from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.envelopment import yielding_of
-from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening, line_loads
+from contact_sim_pkg.rigs.vehicle.field.sidewalls import Softening
 from contact_sim_pkg.scene.errors import Fault, SceneError
 
 Field = NDArray[numpy.float64]
@@ -164,10 +164,10 @@ class PressureField:
             yield gap
             return
         self.softening.start()
-        lowest = float(gap.min())
         for count in range(SOFTENING_PASSES):
-            yield self.opened(gap)
-            self.unsettled = self.softening.follow(line_loads(self.pressure, self.settings.cell_y))
+            lowest = self.softening.open(gap, self._opened)
+            yield self._opened
+            self.unsettled = self.softening.follow(self.pressure, self.settings.cell_y)
             allowed = self.looser_sidewalls * OF_SIDEWALLS * tolerance
             if count >= FEW_PASSES:
                 allowed = max(allowed, NOISE)

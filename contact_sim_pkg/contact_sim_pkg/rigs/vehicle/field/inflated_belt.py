@@ -42,6 +42,7 @@ Tire and Vehicle Dynamics, ch. 9, for the rigid ring; the membrane is derived in
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy
 from numpy.typing import NDArray
@@ -165,11 +166,17 @@ def inflated_influence(
     The exact integral of G over the loaded cell, term n of it by ``sin(n c / 2R) / (n c / 2R)``, and
     the translation of the rigid ring. cell_x, cell_y: size of a cell [m].
     """
+    along = _influence_along(belt, rows, cell_x)
+    return numpy.repeat(((along + belt.ring_compliance) * cell_x * cell_y)[:, None], cols, axis=1)
+
+
+@lru_cache(16)  # grids of one tire
+def _influence_along(belt: InflatedBelt, rows: int, cell_x: float) -> Field:
+    """The sum over the modes, a cell's length taken out [m/N], [rows]."""
     n = numpy.arange(2, MODES + 1, dtype=numpy.float64)
     half = 0.5 * n * cell_x / belt.radius
     weight = numpy.sin(half) / half / ring_modes(belt, n)[0] / (math.pi * belt.radius)
-    along = numpy.cos(numpy.outer(numpy.arange(rows) * cell_x / belt.radius, n)) @ weight
-    return numpy.repeat(((along + belt.ring_compliance) * cell_x * cell_y)[:, None], cols, axis=1)
+    return numpy.asarray(numpy.cos(numpy.outer(numpy.arange(rows) * cell_x / belt.radius, n)) @ weight)
 
 
 def arc_force(arc: SidewallArc) -> tuple[Field, Field]:

@@ -30,7 +30,7 @@ from contact_sim_pkg.pressure.settings import InflatedBelt
 from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import arc_force, inflated_influence, membrane_stiffness
 
-__all__ = ["Softening", "line_loads"]
+__all__ = ["Softening"]
 
 Field = NDArray[numpy.float64]
 
@@ -134,15 +134,20 @@ class Softening:
         first = self._middle - count // 2
         return slice(first, first + count)
 
+    def _first(self, field: Field) -> int:
+        """Place of the first row of a field [rows, cols] there."""
+        return self._middle - len(field) // 2
+
     def start(self) -> None:
         """Begin an instant: its first pass is a whole one."""
         self._part = math.nan
 
-    def follow(self, line: Field) -> float:
-        """Take the line load ``line`` [N/m] [rows of a grid] of the road; returns by how much the belt under it
-        opens further [m]: the change of `opening`, the mean under the load, without one the largest.
+    def follow(self, pressure: Field, cell_y: float) -> float:
+        """Take the line load [N/m] of a ``pressure`` [rows, cols] [Pa] of the road on cells ``cell_y`` [m] wide; returns
+        by how much the belt under it opens further [m]: the change of `opening`, the mean under the load, without one the
+        largest.
         """
-        change, self._part = _follow(*self._held, line, self.rows(len(line)).start, self._part)
+        change, self._part = _follow(*self._held, pressure, cell_y, self._first(pressure), self._part)
         return change
 
     def yields(self, rows: int) -> Field:
@@ -151,21 +156,22 @@ class Softening:
         along[:count] = self._ring.yields[len(self.load) - 1 :][:count]
         return along
 
-    def open(self, gap: Field, opened: Field) -> None:
-        """Write a ``gap`` [rows, cols] [m] into ``opened`` as D opens it."""
-        _open(self._held[1], gap, self.rows(len(gap)).start, opened)
+    def open(self, gap: Field, opened: Field) -> float:
+        """Write a ``gap`` [rows, cols] [m] into ``opened`` as D opens it; returns its least [m] before."""
+        return float(_open(self._held[1], gap, self._first(gap), opened))
 
     @property
     def gap(self) -> Field:
         """How far the load moves the belt [m]."""
         return self.opening + self._borne.yielded
 
-    def climb(self, line: Field) -> float:
-        """Force [N] against the travel of a line load ``line`` [N/m] [rows of a grid] on the slope of the gap that it was
-        found with: of the ring's translation, which stays with the wheel; what the belt's memory does in it is
-        `remembered`.
+    def climb(self, pressure: Field, cell_y: float) -> float:
+        """Force against the travel [N/m] a row, over its line load [N/m] in all, of a ``pressure`` [rows, cols] [Pa] on cells
+        ``cell_y`` [m] wide, on the slope of the gap that it was found with; 0 without one. Of the ring's translation,
+        which stays with the wheel; what the belt's memory does in it is `remembered`.
         """
-        return float(_climb(self._held[1], line, self.rows(len(line)).start)) - self.remembered()
+        climb, total = _climb(self._held[1], pressure, cell_y, self._first(pressure))
+        return (climb - self.remembered()) / total if total > 0.0 else 0.0
 
     def remembered(self) -> float:
         """Force [N] against the travel, negative where it takes energy, of `load` on the slope of `bent`."""
@@ -274,15 +280,6 @@ def _soften(ring: Held[_Ring], borne: Held[_Borne], total: float) -> None:
 
 
 @entry
-def line_loads(pressure: Field, cell_y: float) -> Field:
-    """Line load [rows] [N/m] of a pressure field [rows, cols] [Pa] on cells ``cell_y`` [m] wide."""
-    line = numpy.empty(pressure.shape[0])
-    for i in range(len(line)):
-        line[i] = total_of_row(pressure[i]) * cell_y
-    return line
-
-
-@entry
 def _place(
     ring_held: Held[_Ring], borne_held: Held[_Borne], angles: Field, moved: float, middle: float, cell_x: float, radius: float
 ) -> None:  # fmt: skip
@@ -314,30 +311,37 @@ def _shift(values: Field, moved: float, before: Field) -> None:
 
 
 @entry
-def _open(borne_held: Held[_Borne], gap: Field, first: int, opened: Field) -> None:
+def _open(borne_held: Held[_Borne], gap: Field, first: int, opened: Field) -> float:
     """As `Softening.open`, row 0 of the ``gap`` being row ``first``."""
-    opening = borne_held.value.opening
+    opening, least = borne_held.value.opening, numpy.inf
     for i in range(gap.shape[0]):
         for j in range(gap.shape[1]):
-            opened[i, j] = gap[i, j] + opening[first + i]
+            here = gap[i, j]
+            least = here if here < least else least  # `min` would take longer, for NaN
+            opened[i, j] = here + opening[first + i]
+    return least
 
 
 @entry
-def _climb(borne_held: Held[_Borne], line: Field, first: int) -> float:
-    """Force [N] of a ``line`` load [rows] [N/m] on the differences of what opens the gap under it, from row ``first`` on."""
-    borne, last, climb = borne_held.value, len(line) - 1, 0.0
-    for i in range(len(line)):
+def _climb(borne_held: Held[_Borne], pressure: Field, cell_y: float, first: int) -> tuple[float, float]:
+    """Force [N] of a ``pressure`` [rows, cols] [Pa] on the differences of what opens the gap under it, from row ``first`` on,
+    and the sum of its line loads [N/m].
+    """
+    borne, last, climb, total = borne_held.value, len(pressure) - 1, 0.0, 0.0
+    for i in range(len(pressure)):
         behind, ahead = first + max(i - 1, 0), first + min(i + 1, last)
         rise = borne.taken[ahead] + borne.yielded[ahead] - (borne.taken[behind] + borne.yielded[behind])
-        climb += line[i] * rise / max(ahead - behind, 1)
-    return climb
+        line = total_of_row(pressure[i]) * cell_y
+        total += line
+        climb += line * rise / max(ahead - behind, 1)
+    return climb, total
 
 
 @entry
 def _follow(
-    ring_held: Held[_Ring], borne_held: Held[_Borne], line: Field, first: int, part: float
+    ring_held: Held[_Ring], borne_held: Held[_Borne], pressure: Field, cell_y: float, first: int, part: float
 ) -> tuple[float, float]:
-    """One pass under the line load ``line`` of the rows from the ``first``: as `Softening.follow`, and the Aitken part.
+    """One pass under the ``pressure`` on the rows from the ``first``: as `Softening.follow`, and the Aitken part.
 
     part: that of the pass before at this instant, NaN at its first.
     """
@@ -346,7 +350,7 @@ def _follow(
     # D goes with the line load as about a usual contact
     total = 0.0
     for i in range(rows):
-        now = line[i - first] if first <= i < first + line.size else 0.0
+        now = total_of_row(pressure[i - first]) * cell_y if first <= i < first + len(pressure) else 0.0
         total += now
         borne.missed[i], borne.line[i] = now - borne.line[i], now
     _spread(ring.more, borne.missed, borne.load)

@@ -23,7 +23,6 @@ from contact_sim_pkg.pressure.field.patch import contact_area
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, PressureField, approach_at
-from contact_sim_pkg.rigs.vehicle.field.sidewalls import line_loads
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import level_under, mean_slope, tire_gap
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry
@@ -85,12 +84,9 @@ def slope_under(form: TireForm, field: PressureField, pressure: NDArray[numpy.fl
     """Effective slope [1] under a ``pressure`` [Pa] on the grid of a field whose row 0 lies ``origin`` [m] before the
     wheel's centre: see `RoadField.effective_slope`.
     """
-    slope, softening = mean_slope(form, pressure, origin, field.settings.cell_x), field.softening
-    if softening is None:
-        return slope
-    line = line_loads(pressure, field.settings.cell_y)
-    total = float(line.sum())
-    return slope + softening.climb(line) / total / field.settings.cell_x if total > 0.0 else slope
+    settings, softening = field.settings, field.softening
+    slope = mean_slope(form, pressure, origin, settings.cell_x)
+    return slope if softening is None else slope + softening.climb(pressure, settings.cell_y) / settings.cell_x
 
 
 class CoarseLevel:

@@ -123,7 +123,7 @@ def _lost_in_belt(
     if softening is not None:
         softening.start()
         for _pass in range(PASSES):
-            softening.follow(line)
+            softening.follow(pressure, float(cell[1]))
         line = softening.load.copy()
         line[softening.rows(len(pressure))] += pressure.sum(axis=1) * float(cell[1])
         place = (numpy.arange(len(line)) - len(line) // 2) * float(cell[0])

@@ -353,8 +353,9 @@ def stress_between(
     stress = math.sqrt(tau_x * tau_x + tau_y * tau_y)
     if stress <= 0.0:
         return 0.0, 0.0
-    if bristles.sliding[near, j]:
-        factor = brush.coefficient_kinetic * pressure / stress
-    else:
-        factor = min(1.0, brush.coefficient_static * pressure / stress)
+    slides = bristles.sliding[near, j]
+    limit = (brush.coefficient_kinetic if slides else brush.coefficient_static) * pressure
+    if not slides and stress <= limit:
+        return tau_x, tau_y
+    factor = limit / stress
     return tau_x * factor, tau_y * factor

@@ -216,9 +216,9 @@ class RollingShear:
         """Kinetic energy of belt and rim in the plane of the road, and energy in the bristles [J]."""
         sidewalls, belt, brush = self._friction.sidewalls, self._belt, self._friction.brush
         area, bristles = self._wide.cell_x * self._wide.cell_y, self._bristles.bristles
-        strained = 0.5 * area * float(
-            (brush.stiffness_x * bristles.deflection_x**2 + brush.stiffness_y * bristles.deflection_y**2).sum()
-        )  # fmt: skip
+        squares = (numpy.einsum("ij,ij->", u, u) for u in (bristles.deflection_x, bristles.deflection_y))
+        along, across = (float(square) for square in squares)
+        strained = 0.5 * area * (brush.stiffness_x * along + brush.stiffness_y * across)
         if sidewalls is None or math.isnan(self._speed):
             return 0.0, strained
         aside = self._speed * math.tan(self._angle) + belt[Y_RATE]

@@ -137,69 +137,51 @@ def advance_bristles(
     for n in range(window.last - window.first):
         # Never read what was just written
         m = window.first + n if segment.read == 0 else window.last - 1 - n
-        source, target = m - segment.read, m - segment.write
+        source, target, slide_y = m - segment.read, m - segment.write, slide.y + m * slide.y_by_label
         for j in range(window.left, window.right):
             x, y, slid = deflection_x[source, j], deflection_y[source, j], sliding[source, j]
             here, following = pressure[m, j], pressure[m - 1, j]
-            if (following if segment.end > 0.5 else here) > 0.0:
-                x, y, slid, work = carry(
-                    brush, x, y, slid, here, following, segment=segment,
-                    slide_x=slide.x + j * slide.x_by_col + m * slide.x_by_label, slide_y=slide.y + m * slide.y_by_label,
-                )  # fmt: skip
-                dissipated += work
-            else:
+            if not (following if segment.end > 0.5 else here) > 0.0:
                 released += 0.5 * (brush.stiffness_x * x * x + brush.stiffness_y * y * y)
-                x, y, slid = 0.0, 0.0, numpy.uint8(0)
-            deflection_x[target, j], deflection_y[target, j], sliding[target, j] = x, y, slid
+                deflection_x[target, j], deflection_y[target, j], sliding[target, j] = 0.0, 0.0, numpy.uint8(0)
+                continue
+            # It grows in the loaded cells; up to its limit it sticks, and at the very limit its flag stays as it is
+            share = (segment.share_here if here > 0.0 else 0.0) + (segment.share_next if following > 0.0 else 0.0)
+            grown_x = x + share * (slide.x + j * slide.x_by_col + m * slide.x_by_label)
+            grown_y = y + share * slide_y
+            at_end = here + segment.end * (following - here)
+            holds = (brush.coefficient_kinetic if slid else brush.coefficient_static) * at_end
+            trial = shear_of(brush, grown_x, grown_y)
+            if trial <= holds * (1.0 + ROUNDING):
+                deflection_x[target, j], deflection_y[target, j] = grown_x, grown_y
+                sliding[target, j] = numpy.uint8(slid and trial >= holds * (1.0 - ROUNDING))
+                continue
+            # Else it slides; the mean of the stress at which it began to, in this segment or before, and that at its end
+            limit, before = brush.coefficient_kinetic * at_end, shear_of(brush, x, y)
+            if not slid:
+                held = brush.coefficient_static * max(here + segment.start * (following - here), at_end)
+                before = max(before, min(trial, held), limit)
+            new_x, new_y, way = slide_onto(brush, grown_x, grown_y, trial, limit)
+            dissipated += way * limit * 0.5 * (limit + before) if way > 0.0 else 0.0
+            deflection_x[target, j], deflection_y[target, j], sliding[target, j] = new_x, new_y, numpy.uint8(1)
     return dissipated, released
 
 
 @kernel
-def carry(
-    brush: Brush, x: float, y: float, slid: int, here: float, following: float, segment: BeltSegment,
-    slide_x: float, slide_y: float,
-) -> tuple[float, float, numpy.uint8, float]:  # fmt: skip
-    """One bristle along one segment that ends under load: it grows in the loaded cells, then it
-    sticks or slides.
-
-    here, following: pressure [Pa] of the cells m and m - 1. Returns deflection [m], flag and work
-    of friction [J/m^2].
+def slide_onto(brush: Brush, x: float, y: float, trial: float, limit: float) -> tuple[float, float, float]:
+    """Deflection [m] and `unit_slide` [m/Pa] of a bristle with the trial deflection `x`, `y` [m] of the stress
+    `trial` [Pa], once it has slid on to a `limit` [Pa] below that.
     """
-    share = (segment.share_here if here > 0.0 else 0.0) + (segment.share_next if following > 0.0 else 0.0)
-    grown_x, grown_y = x + share * slide_x, y + share * slide_y
-    at_end = here + segment.end * (following - here)
-    new_x, new_y, slides, way = slide_onto(brush, grown_x, grown_y, slid, at_end)
-    if way <= 0.0:
-        return new_x, new_y, slides, 0.0
-    # The mean of the stress at which it began to slide, in this segment or before, and that at its end
-    stress = brush.coefficient_kinetic * at_end
-    stress_before = shear_of(brush, x, y)
-    if not slid:
-        held = brush.coefficient_static * max(here + segment.start * (following - here), at_end)
-        stress_before = max(stress_before, min(shear_of(brush, grown_x, grown_y), held), stress)
-    return new_x, new_y, slides, way * stress * 0.5 * (stress + stress_before)
-
-
-@kernel
-def slide_onto(brush: Brush, x: float, y: float, slid: int, pressure: float) -> tuple[float, float, numpy.uint8, float]:
-    """Deflection [m], flag, and `unit_slide` [m/Pa] of a bristle with the trial deflection `x`, `y`
-    [m].
-
-    It sticks up to `mu_s p` (up to `mu_k p` if it slid), and slides on to `mu_k p`. At the very
-    limit a flag stays as it is.
-    """
-    holds = (brush.coefficient_kinetic if slid else brush.coefficient_static) * pressure
-    trial = shear_of(brush, x, y)
-    if trial <= holds * (1.0 + ROUNDING):
-        return x, y, numpy.uint8(slid and trial >= holds * (1.0 - ROUNDING)), 0.0
-    limit = brush.coefficient_kinetic * pressure
     if limit < LEAST_LIMIT:
-        return 0.0, 0.0, numpy.uint8(1), 0.0
+        return 0.0, 0.0, 0.0
+    if brush.stiffness_x == brush.stiffness_y:  # straight back
+        part = limit / trial
+        return part * x, part * y, (trial / limit - 1.0) / brush.stiffness_x
     way = unit_slide(brush, brush.stiffness_x * x, brush.stiffness_y * y, limit)
     x /= 1.0 + way * brush.stiffness_x
     y /= 1.0 + way * brush.stiffness_y
     factor = limit / shear_of(brush, x, y)
-    return x * factor, y * factor, numpy.uint8(1), way
+    return x * factor, y * factor, way
 
 
 @kernel
