@@ -111,7 +111,9 @@ def test_the_largest_force_and_pressure_come_with_their_instants():
     field = SimpleNamespace(time=time[1:], peak=np.array([2e3, 11.9e3]))
     silent = SimpleNamespace(time=time, normal=np.zeros(3))
     found = facts.largest_values(recording(contacts={"seat": contact, "back": silent}, fields={"seat": field}))
-    assert found == "Largest: seat 710 N at 0.100 s, 11.9 kPa at 0.200 s"
+    assert found == "Largest as sampled: seat 710 N at 0.100 s, 11.9 kPa at 0.200 s"
+    steady = contact.__class__(time=time, normal=np.array([300.0, 300.1, 300.0]))
+    assert facts.largest_values(recording(contacts={"roller": steady})) == "Largest as sampled: roller 300 N all along"
     assert facts.largest_values(recording(contacts={"back": silent})) == ""
 
 

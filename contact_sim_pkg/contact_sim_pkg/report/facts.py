@@ -18,6 +18,8 @@ from contact_sim_pkg.report.rows import Row, described_rows, number, plain_name,
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY, PUBLISHED_BY
 
+CONSTANT = 1e-3
+"""of the largest value: what varies by less has no instant of it"""
 OUTCOME_KEYS = ("ended", "failure", "blocks_done", "wall_s", "stopped")
 
 
@@ -99,16 +101,20 @@ def ended_early(recording: Recording) -> list[str]:
 
 
 def largest_values(recording: Recording) -> str:
-    """Largest force and pressure of each contact, and when: `Largest: tire 4902 N at 4.840 s, 1019 kPa at 4.290 s`."""
+    """Largest force and pressure of each contact, and when: `Largest as sampled: tire 4902 N at 4.840 s, 1019 kPa at
+    4.290 s`; of a force that is the same all along, that it is.
+    """
     found = []
     for name, contact in recording.contacts.items():
         force, field = contact.normal, recording.fields.get(name)
         if not np.any(force > 0.0):
             continue
-        found.append(f"{name} {number(float(force.max()))} N at {contact.time[force.argmax()]:.3f} s")
+        constant = np.ptp(force) <= CONSTANT * force.max()
+        instant = "all along" if constant else f"at {contact.time[force.argmax()]:.3f} s"
+        found.append(f"{name} {number(float(force.max()))} N {instant}")
         if field is not None and np.any(field.peak > 0.0):
             found[-1] += f", {number(1e-3 * float(field.peak.max()))} kPa at {field.time[field.peak.argmax()]:.3f} s"
-    return f"Largest: {'; '.join(found)}" if found else ""
+    return f"Largest as sampled: {'; '.join(found)}" if found else ""
 
 
 def without_error(metrics: Sequence[Metric]) -> str:

@@ -10,5 +10,5 @@ BLOCK_REPORT = ContactReport(
     metrics=f"{__name__}.metrics:block_metrics",
     lead=("block-way",),
     parts=f"{__name__}.drawing:block_parts",
-    answer=("at rest from {rest}", "{contacts} contacts", "largest impulse {impulse_largest}", "{loss} lost"),
+    answer=("at rest from {rest}", "contacts {contacts}", "largest impulse {impulse_largest}", "{loss} lost"),
 )
