@@ -32,7 +32,9 @@ COLUMNS = "key", "value", "from", "to", "remark"
     metavar="KEY=LOW:HIGH",
     help="Key to fit, and its range; :log behind it.",
 )
-@click.option("--set", "fixed", multiple=True, metavar="KEY=VALUE", help="Set in every run, as of bench run; an accuracy is held.")
+@click.option(
+    "--set", "fixed", multiple=True, metavar="KEY=VALUE", help="Set in every run, as of bench run; an accuracy is held."
+)
 @click.option("--metric", "metrics", multiple=True, metavar="NAME", help="Column of the points, a metric by its key.")
 @click.option("--series", metavar="TOPIC.COLUMN", default=None, help="What of a run is compared over time.")
 @click.option(
