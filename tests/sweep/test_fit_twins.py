@@ -1,8 +1,9 @@
 """Hidden values of the bench's own finer runs, fitted: what is true is known by construction."""
 
+import pytest
 from scipy import stats
 
-from contact_sim_lab.twins.fit_twins import KINDS, PAIRS, is_named, twins
+from contact_sim_lab.twins.fit_twins import KINDS, PAIRS, REFUSED, is_named, refused, twins
 from contact_sim_pkg.sweep.pool import Workers
 
 
@@ -18,7 +19,13 @@ def test_intervals_hold_hidden_values_of_a_slapping_back():
 
 
 def test_restitution_is_not_told_apart_from_its_speed():
-    kind, count = PAIRS["slap"]
+    kind, count = PAIRS["damping"]
     with Workers(1) as workers:
         (twin,) = twins(kind, 1, workers)
     assert is_named(count, twin.found)
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_a_recording_that_the_scene_cannot_follow_is_refused(what):
+    with Workers(1) as workers:
+        assert not refused(what, workers, 0).follows

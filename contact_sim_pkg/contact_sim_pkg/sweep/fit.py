@@ -225,9 +225,9 @@ class _Concluded:
             if float(numpy.sum(at([best])[0] ** 2)) > found.square - 0.1 * self.scatter**2:
                 break
             found = minimum(at, best)
-        self.found, self.probability = found, residual.probability(found.left, count)
+        self.found, self.given = found, runs([found.place])[0]
+        self.probability = residual.probability(found.left, count, self.given)
         self.parameters = _parameters(runs, found.place, ends, blind)
-        self.given = runs([found.place])[0]
 
     def as_fit(self, runs: Runs, misfit: float, unit: str, compared: list[Compared], shift: float = 0.0) -> Fit:
         """The result."""
@@ -286,8 +286,6 @@ def _fitted_series(runs: Runs, to: Series, most_shift: float) -> Fit:
     concluded = _Concluded(runs, residual, found, fewer=1)
     given = concluded.given
     fitted = residual.fitted(given)
-    if residual.is_exact(given):
-        concluded.probability = math.nan
     compared = [Compared(to.name, residual.time, residual.measured, fitted, "time, s")]
     misfit = float(numpy.std(fitted - residual.measured))
     return concluded.as_fit(runs, misfit, "", compared, residual.shift(given))

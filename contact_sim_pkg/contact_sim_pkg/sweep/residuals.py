@@ -1,8 +1,8 @@
 """What a fit makes small: the difference between what a run gives and what was measured, in standard deviations of chance as
 far as these are known.
 
-Sources: Seber and Wild, Nonlinear Regression (1989), section 6.4; Ljung and Box, Biometrika 65 (1978) 297; Akima, J. ACM 17
-(1970) 589.
+Sources: Seber and Wild, Nonlinear Regression (1989), section 6.4; Ljung and Box, Biometrika 65 (1978) 297; Ljung, System
+Identification (1999); Akima, J. ACM 17 (1970) 589.
 """
 
 from __future__ import annotations
@@ -25,6 +25,8 @@ Field = NDArray[numpy.float64]
 ORDER = 4
 """Of the autoregression that whitens a series."""
 LAGS = 20
+AROUND = 4
+"""Samples on either side, that what is left may hang on."""
 EXACT = 2e-3
 """Of a recording's own standard deviation: what is left below it is numerical, chance has no part in it."""
 LEFT_OUT = 0.02
@@ -43,8 +45,8 @@ class Residual(Protocol):
     def of(self, given: Field) -> Field:
         """Of what a run gives. Raises SweepError where it cannot be compared."""
 
-    def probability(self, left: Field, keys: int) -> float:
-        """Of what is ``left`` if the scene with so many free keys is right; nan where nothing says it."""
+    def probability(self, left: Field, keys: int, given: Field) -> float:
+        """Of what is ``left`` of a run if the scene with so many free keys is right; nan where nothing says it."""
 
 
 class PointsResidual:
@@ -64,7 +66,7 @@ class PointsResidual:
             raise SweepError("a metric has no value in a case where it was measured; narrow the ranges of --free")
         return numpy.asarray(found)
 
-    def probability(self, left: Field, keys: int) -> float:
+    def probability(self, left: Field, keys: int, given: Field) -> float:
         """By chi-squared."""
         freedom = left.size - keys
         return math.nan if math.isnan(self.scatter) or freedom == 0 else float(stats.chi2.sf(left @ left, freedom))
@@ -95,7 +97,7 @@ class DensityResidual:
             )
         return numpy.asarray(found)
 
-    def probability(self, left: Field, keys: int) -> float:
+    def probability(self, left: Field, keys: int, given: Field) -> float:
         """By chi-squared."""
         return float(stats.chi2.sf(left @ left, left.size - keys))
 
@@ -151,16 +153,29 @@ class SeriesResidual:
         """Whether what a run leaves is too small for chance."""
         return float(numpy.std(self.fitted(given) - self.measured)) < EXACT * float(self.measured.std())
 
-    def probability(self, left: Field, keys: int) -> float:
-        """Of the autocorrelations of what is left up to `LAGS` if it is white, by Ljung and Box."""
-        centred = left - left.mean()
-        square = float(centred @ centred)
-        if square == 0.0:
-            return 1.0
-        lags = numpy.arange(1, LAGS + 1)
-        found = numpy.array([float(centred[lag:] @ centred[:-lag]) / square for lag in lags])
-        statistic = left.size * (left.size + 2.0) * float((found**2 / (left.size - lags)).sum())
-        return float(stats.chi2.sf(statistic, LAGS - ORDER))
+    def probability(self, left: Field, keys: int, given: Field) -> float:
+        """Twice the least of two: of the autocorrelations of what is left if it is white (Ljung and Box), and of what follows the
+        run's own values in it (Ljung, section 16.6). An autoregression can whiten what another model leaves; but that stays
+        a function of the run, and chance is none.
+        """
+        if self.is_exact(given):
+            return math.nan
+        return min(1.0, 2.0 * min(_of_whiteness(left), self._of_independence(left, given, keys)))
+
+    def _of_independence(self, left: Field, given: Field, keys: int) -> float:
+        """By an F test of the values of the run, `AROUND` samples before and behind, and of their square."""
+        values = self.fitted(given)
+        values = (values - values.mean()) / max(float(values.std()), 1e-300)
+        inner = values.size - 2 * AROUND
+        columns = [values[i : i + inner] for i in range(2 * AROUND + 1)]
+        columns += [columns[AROUND] ** 2, columns[AROUND] ** 3, numpy.ones(inner)]
+        whitened = numpy.array([signal.lfilter(self.filter, [1.0], each)[self.filter.size - 1 :] for each in columns]).T
+        own = left[AROUND : AROUND + whitened.shape[0]]
+        followed, _, rank, _ = numpy.linalg.lstsq(whitened, own, rcond=1e-7)
+        rest = float(numpy.sum((own - whitened @ followed) ** 2))
+        freedom = own.size - int(rank) - keys
+        gain = float(own @ own) - rest
+        return float(stats.f.sf(gain / rank / (rest / freedom), rank, freedom)) if rest > 0.0 and freedom > 0 else 1.0
 
     def _path(self, given: Field) -> interpolate.Akima1DInterpolator:
         """What a run gives over time: straight lines would damp what is fast wherever the shift is no whole step."""
@@ -193,6 +208,18 @@ class SeriesResidual:
             self._late = found if is_inside else math.nan
             if is_inside or self._most - abs(found) < 1e-3 * step:
                 return found
+
+
+def _of_whiteness(left: Field) -> float:
+    """Probability of the autocorrelations of what is left up to `LAGS` if it is white, by Ljung and Box."""
+    centred = left - left.mean()
+    square = float(centred @ centred)
+    if square == 0.0:
+        return 1.0
+    lags = numpy.arange(1, LAGS + 1)
+    found = numpy.array([float(centred[lag:] @ centred[:-lag]) / square for lag in lags])
+    statistic = left.size * (left.size + 2.0) * float((found**2 / (left.size - lags)).sum())
+    return float(stats.chi2.sf(statistic, LAGS - ORDER))
 
 
 def too_short(given: Field, to: Series) -> SweepError:
