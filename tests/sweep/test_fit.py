@@ -50,6 +50,8 @@ def test_a_modulus_from_contact_times(tmp_path):
 class Linear:
     """In place of runs: ``a exp(-t / 0.3) sin(w t)`` of two parameters, so that hundreds of fits cost nothing."""
 
+    accuracy, is_held, end = 1e-2, True, None
+
     def __init__(self, names):
         self.free = free(*names)
         self.count = 0
@@ -220,3 +222,34 @@ def test_what_cannot_be_fitted_is_one_sentence(tmp_path, capsys, arguments, word
     ]
     assert main([*given, *arguments]) == 2
     assert word in capsys.readouterr().err
+
+
+def test_a_finer_accuracy_is_taken_where_it_moves_a_key():
+    """Runs that are off by their accuracy times 3: within 0.3 of 0.013 (the half interval of the size over t) from 1e-3 on."""
+
+    class Rough(Linear):
+        is_held = False
+
+        def __call__(self, places):
+            return [given * numpy.array([[1.0], [1.0 + 3.0 * self.accuracy]]) for given in super().__call__(places)]
+
+    runs = Rough(KEYS)
+    found = fits._fitted_series(runs, recorded(2), 0.02)
+    assert found.accuracy == runs.accuracy <= 1e-3
+    held = fits._fitted_series(Linear(KEYS), recorded(2), 0.02)
+    deviation = (held.parameters[0].high - held.parameters[0].low) / 2.0 / stats.norm.ppf(0.95)
+    assert abs(found.parameters[0].value - held.parameters[0].value) < 0.5 * deviation
+
+
+def test_many_impacts_are_fitted_from_a_distant_start():
+    """Of 40 periods, 4 % of frequency are more than one: the whole of them has minima by the dozen."""
+
+    class Long(Linear):
+        @staticmethod
+        def model(time, size, frequency, *_rest):
+            return size * numpy.sin(2.0 * math.pi * frequency * time)
+
+    noise = numpy.random.default_rng(5).normal(0.0, 0.05, TIME.size)
+    to = Series("x.y", TIME, Long.model(TIME, 3.0, 20.0) + noise)
+    _, frequency = fits._fitted_series(Long(("size=1:10:log", "frequency=15:30:log")), to, 0.0).parameters
+    assert frequency.low < 20.0 < frequency.high

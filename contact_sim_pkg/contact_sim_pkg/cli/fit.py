@@ -32,7 +32,9 @@ COLUMNS = "key", "value", "from", "to", "remark"
     metavar="KEY=LOW:HIGH",
     help="Key to fit, and its range; :log behind it.",
 )
-@click.option("--set", "fixed", multiple=True, metavar="KEY=VALUE", help="Set in every run, as of bench run.")
+@click.option(
+    "--set", "fixed", multiple=True, metavar="KEY=VALUE", help="Set in every run, as of bench run; an accuracy is held."
+)
 @click.option("--metric", "metrics", multiple=True, metavar="NAME", help="Column of the points, a metric by its key.")
 @click.option("--series", metavar="TOPIC.COLUMN", default=None, help="What of a run is compared over time.")
 @click.option(
@@ -66,7 +68,8 @@ def command(
     """Fit keys of SCENE to what was measured, and say between what they are.
 
     With --metric FILE is a table: columns of keys set the cases, columns of metrics are what was measured. With --series it
-    is a recording of one run. Writes fitted.yaml and fit.html. Exit code 1 where the scene cannot follow what was
+    is a recording of one run. Runs request a finer accuracy than the scene where the intervals need it. Writes
+    fitted.yaml and fit.html. Exit code 1 where the scene cannot follow what was
     measured, 3 where a key is not identifiable.
     """
     from contact_sim_pkg.sweep.fit import fit
@@ -122,7 +125,8 @@ def _say(found: Fit, out: Path, page: Path) -> None:
         False,
     )
     late = f", the recording {1e3 * found.shift:.2f} ms late" if found.shift else ""
-    say(f"90 % intervals; misfit {found.misfit:.3g} {found.unit}".rstrip() + f"{late}; {found.cases} runs")
+    request = f", accuracy {found.accuracy:.2g}" if math.isfinite(found.accuracy) else ""
+    say(f"90 % intervals; misfit {found.misfit:.3g} {found.unit}".rstrip() + f"{late}; {found.cases} runs{request}")
     if not found.follows:
         say(
             f"the scene does not follow what was measured (probability {found.probability:.1g}): an effect, a filter or "

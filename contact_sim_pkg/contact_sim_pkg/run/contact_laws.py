@@ -24,7 +24,14 @@ from contact_sim_pkg.laws.restitution import damping_of_restitution
 from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, coefficient_of_restitution
 from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
 from contact_sim_pkg.pressure.cushion.foam_layer import CushionError, FoamGrid, FoamLayer
-from contact_sim_pkg.pressure.cushion.force_table import ForceTable, kept_table, make_table
+from contact_sim_pkg.pressure.cushion.force_table import (
+    BELOW,
+    SPARSE,
+    ForceTable,
+    kept_table,
+    make_table,
+    smoothed,
+)
 from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.run.compilation import note_computation
 from contact_sim_pkg.scene.errors import Fault, SceneError
@@ -153,13 +160,13 @@ def foam_of(keys: CushionSection) -> parameters.FoamElastic:
     )
 
 
-def layer_under(keys: CushionSection, body: PressingBody) -> FoamLayer:
-    """Foam layer of a cushion under a body."""
-    cell = given(keys.cell)
-    grid = FoamGrid(len(body.x), len(body.y), cell, cell)
-    return FoamLayer(
-        grid, foam_of(keys), body.gap(body.x, body.y), keys.shear_share, inextensible=keys.cover == "inextensible"
-    )
+def layer_under(keys: CushionSection, body: PressingBody, below: int = 1) -> FoamLayer:
+    """Foam layer of a cushion under a body, each cell of the map cut into ``below`` along either side."""
+    side = given(keys.cell) / below
+    parts = side * (numpy.arange(below) - 0.5 * (below - 1))
+    x, y = ((centres[:, None] + parts).ravel() for centres in (body.x, body.y))
+    grid = FoamGrid(len(x), len(y), side, side)
+    return FoamLayer(grid, foam_of(keys), body.gap(x, y), keys.shear_share, inextensible=keys.cover == "inextensible")
 
 
 def build_cushion(contact: str, keys: CushionSection, load: float, body: PressingBody) -> Cushion:
@@ -175,13 +182,13 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
     description = repr((foam_of(keys), grid, keys.shear_share, keys.cover, spacing, REACH, body.sizes))
 
     def compute() -> ForceTable:
-        layer = layer_under(keys, body)
-
         def note(part: float) -> None:
             note_computation(f"computing the force table of the {contact}'s cushion, once: {100.0 * part:.0f} %")
 
         try:
-            return make_table(layer, spacing, on_progress=note)
+            maps = make_table(layer_under(keys, body), spacing, on_progress=lambda part: note(0.5 * part))
+            below = layer_under(keys, body, BELOW)
+            return smoothed(maps, make_table(below, SPARSE * spacing, on_progress=lambda part: note(0.5 + 0.5 * part)))
         except CushionError as error:
             raise SceneError([Fault("scene", 0, 0, f"effects.{contact}.cushion", str(error))]) from None
         finally:

@@ -13,15 +13,17 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.compiled.jit import closed
+from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.files import RefusedError, new_file
-from contact_sim_pkg.report.export.table import table_of
+from contact_sim_pkg.report.export.table import has_columns, table_of_records
 from contact_sim_pkg.report.metrics.curve_bands import CurveBand
 from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags
 from contact_sim_pkg.report.metrics.views import rows_of
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.run.offline import NANOSECONDS, run_offline
+from contact_sim_pkg.run.rigs import make_simulation
+from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
@@ -74,7 +76,7 @@ class Task(NamedTuple):
     sources: str
     """hash of the bench's sources, see `sources_hash`"""
     series: str = ""
-    """`topic.column` that the row is to have too, as `time` and `values`; empty: none"""
+    """`topic.column` that the row is to have in place of metrics, as `time` and `values`; empty: none"""
     bands: tuple[CurveBand, ...] = ()
     """round curves, how far beyond which the run is among its metrics"""
 
@@ -150,28 +152,46 @@ def _run(scene: ResolvedScene, bag: Path | None, task: Task) -> Row:
         if bag is not None:
             shutil.rmtree(bag, ignore_errors=True)  # of a run that was interrupted
             bag.parent.mkdir(exist_ok=True)
-        path = folder / "bag" if bag is None else bag
-        outcome = run_offline(scene, path)
-        if outcome.failure or outcome.loss:
-            raise RunError(outcome.failure or outcome.loss)
-        found: Row = {"metrics": rows_of(metrics_of_bags([path], bands=task.bands).metrics)}
-        found |= _series_of(path, task.series) if task.series else {}
-    except (RunError, RefusedError, OSError, MemoryError) as error:
+        if task.series:
+            found = _series_of(scene, task.series)
+        else:
+            path = folder / "bag" if bag is None else bag
+            outcome = run_offline(scene, path)
+            if outcome.failure or outcome.loss:
+                raise RunError(outcome.failure or outcome.loss)
+            found = {"metrics": rows_of(metrics_of_bags([path], bands=task.bands).metrics)}
+    except (RunError, ExcitationError, RefusedError, OSError, MemoryError) as error:
         return {"outcome": FAILED, "sentence": str(error) or "memory ran out", "metrics": []}
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     spent = {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu}
-    return {"outcome": FINISHED, "sentence": "", **found, **spent}
+    return {"outcome": FINISHED, "sentence": "", "metrics": [], **found, **spent}
 
 
-def _series_of(path: Path, series: str) -> Row:
-    """The column of a bag. Raises BagError where there is none."""
+def _series_of(scene: ResolvedScene, series: str) -> Row:
+    """The column of a run, of the records of its blocks: to write a bag and to read it costs more than a short run.
+
+    Raises RunError where there is none, or the run fails.
+    """
     topic, _, column = series.rpartition(".")
-    time, *columns = table_of(open_bag(path), topic).columns
+    sources, simulation = make_sources(scene), make_simulation(scene)
+    simulation.prepare()
+    times, records, seen = [], [], set()
+    with closed():
+        for block in range(simulation.blocks):
+            inputs = {name: source.block(block) for name, source in sources.items()}
+            for output in simulation.advance(block, inputs).outputs:
+                seen.add(output.topic)
+                if output.topic == topic:
+                    times.append(output.stamp / NANOSECONDS)
+                    records.append(output.record)
+    if not records or not has_columns(records[0]):
+        raise RunError(f"the run has no table {topic}; it has {', '.join(sorted(seen))}")
+    time, *columns = table_of_records(topic, times, records).columns
     for each in columns:
         if each.name == column:
             return {"time": [*map(float, time.values)], "values": [*map(float, each.values)], "unit": each.unit}
-    raise BagError(f"{topic} has no column {column!r}; it has {', '.join(each.name for each in columns)}")
+    raise RunError(f"{topic} has no column {column!r}; it has {', '.join(each.name for each in columns)}")
 
 
 def machine() -> str:

@@ -1,61 +1,80 @@
 """Keys of a scene fitted to what was measured, with intervals, and whether the scene can follow it at all.
 
-Least squares over the residual ``r = (model - measured) / scatter``: of points with their own scatter, or one that is
-estimated; of the spectrum of a series with the scatter of chance; of a series itself whitened by an autoregression of order
-`ORDER` that is fitted to what is left (without that, coloured noise makes intervals half as wide as they are), the time
-between recording and run free within a bound. Parameters lie in [0, 1] between their bounds, by their logarithm where asked;
-differences are cases over processes.
-
-The interval of a parameter is ``t(0.95) s sqrt((J^T J)^-1)`` in that measure, both ends put back into the unit of the key: a
-linear picture, right where a parameter moves little within it. A direction in which the parameters move nothing more than
-differences of two steps disagree is named, no interval is given then.
-
-Sources: Seber and Wild, Nonlinear Regression (1989), sections 5.1 and 6.4; Ljung and Box, Biometrika 65 (1978) 297.
+Least squares (`sweep/least_squares.py`) over residuals (`sweep/residuals.py`) of runs that are cases over processes, their
+keys in [0, 1] between their bounds, by the logarithm where asked. A series is fitted to its beginning first, then to longer
+parts: over many impacts at once the square has minima by the hundred. Then the accuracy that the runs request is tightened
+until a finer one moves what is left by less than chance tells.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
+from typing import Protocol
 
 import numpy
 from numpy.typing import NDArray
-from scipy import optimize, signal, stats
+from scipy import stats
 
 from contact_sim_pkg.scene.schema.accuracy import requested
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.fit_result import LEAST_PROBABILITY, Compared, Fit, Fitted
+from contact_sim_pkg.sweep.intervals import LEVEL, Interval, intervals, unidentified
+from contact_sim_pkg.sweep.least_squares import ROUGH, At, Minimum, minimum
 from contact_sim_pkg.sweep.measured import Points, Series
 from contact_sim_pkg.sweep.pool import Workers
-from contact_sim_pkg.sweep.spectrum import log_density, loud
+from contact_sim_pkg.sweep.residuals import DensityResidual, PointsResidual, Residual, SeriesResidual
 from contact_sim_pkg.sweep.sweep import CASES, Notify, check_folder, processors, texts_of
 from contact_sim_pkg.sweep.variation import SweepError, Values, Variation, samples_of
 
-__all__ = ["Compared", "Fit", "Fitted", "fit"]
+__all__ = ["Compared", "Fit", "Fitted", "Runs", "fit"]
 
 Field = NDArray[numpy.float64]
 
-ORDER = 4
-STEP = 3e-3
-"""Of a parameter's range: of the differences; the second ones are twice that."""
 STARTS = 4
 """Cases a parameter, drawn over the ranges, of which the best is the start."""
-LEVEL = 0.90
-LAGS = 20
-EXACT = 2e-3
-"""Of a recording's own standard deviation: what is left below it is numerical, chance has no part in it."""
+PARTS = 0.125, 0.35, 1.0
+"""Of a recording's square, that are fitted one after the other."""
 MOST_ROUNDS = 4
 """Of fitting and whitening."""
-MOST_STEPS = 30
-UNSEEN = 3.0
-"""Times that by which differences of two steps disagree: what moves the residual less is not seen."""
-LEFT_OUT = 0.02
-"""Of a series' time at either end, beyond the shift."""
+WHITE = 0.02
+"""By which the filter of two rounds may differ."""
+FINEST = 1e-8
+"""Accuracy that runs may request."""
+FINER = 0.1
+"""Times the accuracy, of the run beside which one is looked at."""
+STILL, FAINT = 0.3, 0.1
+"""Standard deviations of its own by which a parameter, and of chance by which what is left may move under a finer accuracy."""
 
 
-Model = Callable[[Sequence[Field]], list[Field]]
-"""Of parameters in [0, 1] what the scene gives."""
+def _within_request(found: Fit, scene: str) -> float:
+    """Accuracy that the runs request if what is left is no more than it allows, else 0."""
+    (compared,) = found.compared
+    accuracy = requested(scene_of(scene, texts_of(found.values)).data["accuracy"])
+    left = float(abs(compared.fitted - compared.measured).max())
+    return accuracy if left <= accuracy * float(abs(compared.measured).max()) else 0.0
+
+
+class Runs(Protocol):
+    """What the scene gives at places in [0, 1], each parameter between its bounds."""
+
+    free: Sequence[Variation]
+    count: int
+    """runs so far"""
+    accuracy: float
+    """that the runs request"""
+    is_held: bool
+    """whether that stays"""
+    end: float | None
+    """[s] to which a run is needed; None: all of it"""
+
+    def __call__(self, places: Sequence[Field]) -> list[Field]:
+        """Of points the metrics [cases, metrics], of a series its times and values [2, samples], of each place."""
+
+    def values_at(self, place: Field) -> Values:
+        """What a place sets."""
 
 
 def fit(
@@ -68,6 +87,7 @@ def fit(
     jobs: int | None = None,
     most_shift: float = 0.02,
     by_spectrum: bool = False,
+    workers: Workers | None = None,
     notify: Notify = lambda _text, _done: None,
 ) -> Fit:
     """Fit keys of a scene; the fitted scene is written to ``fitted.yaml`` in the folder.
@@ -77,10 +97,11 @@ def fit(
         to: what was measured.
         free: keys with their ranges.
         folder: new, empty, or of this fit: cases that it holds do not run again.
-        fixed: what is set in every case.
+        fixed: what is set in every case; an ``accuracy`` there is held, else the runs request a finer one where they must.
         jobs: processes; None: as many as there are processors.
         most_shift: [s] by which a recording may be late or early; 0 holds it.
         by_spectrum: whether the densities of a series are compared in place of its samples.
+        workers: processes that have begun already, in place of ``jobs``.
         notify: gets what is being done.
 
     Raises:
@@ -97,29 +118,27 @@ def fit(
     cases: list[Values] = [{**(fixed or {}), **each} for each in (to.values if isinstance(to, Points) else [{}])]
     for each in free:
         for end in each.ends:
-            scene_of(scene, texts_of({**cases[0], **{other.key: other.at(0.5) for other in free}, each.key: end}))
+            middle = scene_of(
+                scene, texts_of({**cases[0], **{other.key: other.at(0.5) for other in free}, each.key: end})
+            )
     (folder / CASES).mkdir(parents=True, exist_ok=True)
-    with Workers(jobs or processors()) as workers:
-        runs = _Runs(scene, to, cases, free, folder, workers, notify)
+    with ExitStack() as stack:
+        if workers is None:
+            workers = stack.enter_context(Workers(jobs or processors()))
+        runs = _SceneRuns(scene, to, cases, free, folder, workers, notify)
+        runs.accuracy = requested(middle.data["accuracy"])
+        runs.is_held = any("accuracy" in each for each in cases)
         if isinstance(to, Points):
             found = _fitted_points(runs, to)
         else:
             found = _fitted_spectrum(runs, to) if by_spectrum else _fitted_series(runs, to, most_shift)
-    if found.probability < LEAST_PROBABILITY and isinstance(to, Series) and not by_spectrum:
+    if found.probability < LEAST_PROBABILITY and isinstance(to, Series) and not by_spectrum and runs.is_held:
         found = found._replace(coarse=_within_request(found, scene))
     (folder / "fitted.yaml").write_text(_text_of(scene, found), encoding="utf-8")
     return found
 
 
-def _within_request(found: Fit, scene: str) -> float:
-    """Accuracy that the runs request if what is left is no more than it allows, else 0."""
-    (compared,) = found.compared
-    accuracy = requested(scene_of(scene, texts_of(found.values)).data["accuracy"])
-    left = float(abs(compared.fitted - compared.measured).max())
-    return accuracy if left <= accuracy * float(abs(compared.measured).max()) else 0.0
-
-
-class _Runs:
+class _SceneRuns:
     """What the scene gives at parameters, by cases."""
 
     def __init__(
@@ -129,15 +148,21 @@ class _Runs:
         self._scene, self._to, self._cases, self.free = scene, to, cases, free
         self._folder, self._workers, self._notify = folder, workers, notify
         self.count = 0
+        self.accuracy, self.is_held = 0.0, True
+        self.end: float | None = None
+        block = scene_of(scene, texts_of(cases[0])).data
+        self._whole, self._block = float(block["duration"]), float(block["block_length"])
+        self._known: dict[tuple[str, ...], Field] = {}
 
     def __call__(self, places: Sequence[Field]) -> list[Field]:
-        """Of points the metrics [cases, metrics], of a series what the run has at its times, of each place."""
-        cases = self._cases
+        cases, settings = self._cases, self._settings()
         series = self._to.name if isinstance(self._to, Series) else ""
+        named = [texts_of({**self.values_at(place), **settings}) for place in places]
+        new = [texts for texts in dict.fromkeys(named) if texts not in self._known]
         tasks = [
-            Task(len(cases) * i + j, self._scene, texts_of({**case, **self.values_at(place)}), str(self._folder.absolute()),
-                 False, sources_hash(), series)
-            for i, place in enumerate(places) for j, case in enumerate(cases)
+            Task(len(cases) * i + j, self._scene, (*texts_of(case), *texts), str(self._folder.absolute()), False,
+                 sources_hash(), series)
+            for i, texts in enumerate(new) for j, case in enumerate(cases)
         ]  # fmt: skip
         rows: dict[int, Row] = {}
         for row in self._workers.run(tasks):
@@ -146,11 +171,21 @@ class _Runs:
             rows[row["number"]] = row
             self._notify(f"{self.count + len(rows)} runs", 0.0)
         self.count += len(tasks)
-        return [self._given([rows[len(cases) * i + j] for j in range(len(cases))]) for i in range(len(places))]
+        for i, texts in enumerate(new):
+            self._known[texts] = self._given([rows[len(cases) * i + j] for j in range(len(cases))])
+        return [self._known[texts] for texts in named]
 
     def values_at(self, place: Field) -> Values:
         """What a place sets."""
         return {each.key: each.at(float(part)) for each, part in zip(self.free, place, strict=True)}
+
+    def _settings(self) -> Values:
+        """Accuracy and duration where they are not those of the scene."""
+        found: Values = {} if self.is_held else {"accuracy": f"{self.accuracy:.6g}"}
+        blocks = math.inf if self.end is None else math.ceil(self.end / self._block) + 2
+        if blocks * self._block < self._whole:
+            found["duration"] = f"{blocks * self._block:.9g}"
+        return found
 
     def _given(self, rows: Sequence[Row]) -> Field:
         if isinstance(self._to, Points):
@@ -169,222 +204,140 @@ def _metric(row: Row, key: str, unit: str | None) -> float:
     raise SweepError(f"the run has no metric {key}; it has {', '.join(each['key'] for each in row['metrics'])}")
 
 
-def _fitted_points(runs: _Runs, to: Points) -> Fit:
-    """Points, weighed by their scatter where it is known, else by the mean size of each metric."""
-    known = numpy.isfinite(to.measured)
-    _require_enough(int(known.sum()), runs)
-    size = numpy.nanmean(abs(to.measured), axis=0)
-    scale = (
-        to.scatter if to.scatter is not None else numpy.broadcast_to(numpy.where(size > 0.0, size, 1.0), known.shape)
-    )
+class _Concluded:
+    """A least square that was found, its intervals, and what is left."""
 
-    def residual(given: Field) -> Field:
-        found = (given - to.measured)[known] / scale[known]
-        if not numpy.isfinite(found).all():
-            raise SweepError("a metric has no value in a case where it was measured; narrow the ranges of --free")
-        return numpy.asarray(found)
+    def __init__(self, runs: Runs, residual: Residual, found: Minimum, fewer: int = 0) -> None:
+        """Of a residual with ``fewer`` degrees of freedom than its keys leave."""
+        at, count = _at(runs, residual), found.place.size
+        for _ in range(2):
+            freedom = found.freedom - fewer
+            self.scatter = residual.scatter
+            if math.isnan(residual.scatter) and freedom > 0:
+                self.scatter = math.sqrt(found.square / freedom)
+            blind = unidentified(at, found, self.scatter)
+            ends = [Interval(math.nan, math.nan)] * count
+            if blind.any() or not self.scatter > 0.0:
+                break
+            quantile = stats.t.ppf(0.5 + 0.5 * LEVEL, freedom if math.isnan(residual.scatter) else math.inf)
+            ends, best = intervals(at, found, self.scatter, quantile)
+            # A profile may come upon a place that is better than where it began
+            if float(numpy.sum(at([best])[0] ** 2)) > found.square - 0.1 * self.scatter**2:
+                break
+            found = minimum(at, best)
+        self.found, self.given = found, runs([found.place])[0]
+        self.probability = residual.probability(found.left, count, self.given)
+        self.parameters = _parameters(runs, found.place, ends, blind)
 
-    place, left, slope, disagreement = _minimum(runs, residual)
-    freedom = left.size - place.size
-    square = float(left @ left)
-    probability = math.nan if to.scatter is None or freedom == 0 else float(stats.chi2.sf(square, freedom))
-    scatter = 1.0 if to.scatter is not None else math.sqrt(square / freedom) if freedom else math.nan
-    parameters = _parameters(runs, place, slope, disagreement, scatter, freedom if to.scatter is None else math.inf)
-    unit = "of its scatter" if to.scatter is not None else "of the mean size"
-    misfit = math.sqrt(square / left.size)
-    given, number = runs([place])[0], numpy.arange(1.0, 1.0 + len(to.values))
-    compared = [
-        Compared(
-            _titled(each, to.units.get(each, "")), number, to.measured[:, column], given[:, column], "row of the table"
-        )
-        for column, each in enumerate(to.metrics)
-    ]
-    return Fit(parameters, misfit, unit, probability, 0.0, runs.count, runs.values_at(place), compared)
-
-
-def _fitted_series(runs: _Runs, to: Series, most_shift: float) -> Fit:
-    """A series, whitened anew round by round; the shift is fitted beside each run without another."""
-    margin = most_shift + LEFT_OUT * float(to.time[-1] - to.time[0])
-    inside = (to.time >= to.time[0] + margin) & (to.time <= to.time[-1] - margin)
-    time, measured = to.time[inside], to.values[inside]
-    _require_enough(time.size, runs)
-    filters = numpy.array([1.0])
-    shift = 0.0
-
-    def residual_at(given: Field, late: float) -> Field:
-        if given[0, 0] > time[0] - late or given[0, -1] < time[-1] - late:
-            raise SweepError(
-                f"the run ends at {given[0, -1]:.6g} s, the recording at {to.time[-1]:.6g} s; set duration"
-            )
-        found = numpy.interp(time - late, given[0], given[1]) - measured
-        return numpy.asarray(signal.lfilter(filters, [1.0], found)[len(filters) - 1 :])
-
-    def best_shift(given: Field) -> float:
-        if most_shift == 0.0:
-            return 0.0
-        found = optimize.minimize_scalar(
-            lambda late: float(numpy.sum(residual_at(given, late) ** 2)), bounds=(-most_shift, most_shift), method="bounded",
-            options={"xatol": 1e-6 * most_shift},
+    def as_fit(self, runs: Runs, misfit: float, unit: str, compared: list[Compared], shift: float = 0.0) -> Fit:
+        """The result."""
+        return Fit(
+            self.parameters, misfit, unit, self.probability, shift, runs.count, runs.values_at(self.found.place), compared,
+            accuracy=runs.accuracy,
         )  # fmt: skip
-        return float(found.x)
 
+
+def _at(runs: Runs, residual: Residual) -> At:
+    return lambda places: [residual.of(given) for given in runs(places)]
+
+
+def _fitted_points(runs: Runs, to: Points) -> Fit:
+    residual = PointsResidual(to)
+    _require_enough(int(residual.known.sum()), runs)
+    at = _at(runs, residual)
+    found = _settled(runs, residual, minimum(at, _start(runs, at)))
+    concluded = _Concluded(runs, residual, found)
+    number, given = numpy.arange(1.0, 1.0 + len(to.values)), concluded.given
+    compared = [
+        Compared(_titled(each, to.units.get(each, "")), number, to.measured[:, i], given[:, i], "row of the table")
+        for i, each in enumerate(to.metrics)
+    ]
+    unit = "of its scatter" if to.scatter is not None else "of the mean size"
+    return concluded.as_fit(runs, math.sqrt(concluded.found.square / found.left.size), unit, compared)
+
+
+def _fitted_spectrum(runs: Runs, to: Series) -> Fit:
+    residual = DensityResidual(to)
+    _require_enough(int(residual.lines.sum()), runs)
+    at = _at(runs, residual)
+    concluded = _Concluded(runs, residual, _settled(runs, residual, minimum(at, _start(runs, at))))
+    lines, given = residual.lines, concluded.given
+    both = numpy.exp(residual.measured.values[lines]), numpy.exp(residual.density(given)[lines])
+    compared = [Compared(f"density of {to.name}", residual.measured.frequency[lines], *both, "frequency, Hz")]
+    left = concluded.found.left
+    return concluded.as_fit(runs, math.sqrt(float(left @ left) / left.size), "of the scatter of its lines", compared)
+
+
+def _fitted_series(runs: Runs, to: Series, most_shift: float) -> Fit:
+    """A series, in parts that grow, then whitened anew round by round."""
+    _require_enough(SeriesResidual(to, most_shift).time.size, runs)
     place: Field | None = None
-    for number in range(1, MOST_ROUNDS + 1):
-        place, left, slope, disagreement = _minimum(runs, lambda given: residual_at(given, best_shift(given)), place)
-        given = runs([place])[0]
-        shift, used = best_shift(given), filters
-        filters = numpy.array([1.0])
-        found = _whitener(residual_at(given, shift))
-        filters = used
-        if number == MOST_ROUNDS or (number > 1 and abs(found - filters).max() < 0.02):
+    for part in PARTS:
+        residual = SeriesResidual(to, most_shift, part)
+        at = _at(runs, residual)
+        runs.end = residual.end if part < 1.0 else None
+        found = minimum(at, _start(runs, at) if place is None else place, ROUGH)
+        place = found.place
+    for _ in range(MOST_ROUNDS):
+        changed = residual.whiten(runs([found.place])[0])
+        found = _settled(runs, residual, minimum(at, found.place))
+        if changed < WHITE:
             break
-        filters = found
-    assert place is not None
-    # The shift takes what goes along with it out of every derivative
-    if most_shift > 0.0:
-        along = (residual_at(given, shift + 1e-5) - residual_at(given, shift - 1e-5)) / 2e-5
-        slope = slope - numpy.outer(along, along @ slope) / max(float(along @ along), 1e-300)
-    freedom = left.size - place.size - 1
-    misfit = float(numpy.std(numpy.interp(time - shift, *given) - measured))
-    probability = math.nan if misfit < EXACT * float(measured.std()) else _ljung_box(left)
-    scatter = math.sqrt(float(left @ left) / freedom)
-    parameters = _parameters(runs, place, slope, disagreement, scatter, freedom)
-    compared = [Compared(to.name, time, measured, numpy.interp(time - shift, *given), "time, s")]
-    return Fit(parameters, misfit, "", probability, shift, runs.count, runs.values_at(place), compared)
+    concluded = _Concluded(runs, residual, found, fewer=1)
+    given = concluded.given
+    fitted = residual.fitted(given)
+    compared = [Compared(to.name, residual.time, residual.measured, fitted, "time, s")]
+    misfit = float(numpy.std(fitted - residual.measured))
+    return concluded.as_fit(runs, misfit, "", compared, residual.shift(given))
 
 
-def _fitted_spectrum(runs: _Runs, to: Series) -> Fit:
-    """The logarithm of a series' density, both estimates with the scatter of chance; a run may go another way in time."""
-    measured = log_density(to.time, to.values)
-    lines = loud(measured)
-    _require_enough(int(lines.sum()), runs)
-    scatter = math.sqrt(2.0) * measured.scatter
+def _start(runs: Runs, at: At) -> Field:
+    """The best of `STARTS` cases a parameter and the middle."""
+    count = len(runs.free)
+    unit = [Variation(str(i), (), 0.0, 1.0) for i in range(count)]
+    drawn = samples_of(unit, f"lhs:{STARTS * count}", 0, 1)
+    places = [numpy.full(count, 0.5), *(numpy.array([float(each[str(i)]) for i in range(count)]) for each in drawn)]
+    return places[int(numpy.argmin([float(each @ each) for each in at(places)]))]
 
-    def density(given: Field) -> Field:
-        time, values = given
-        if time[0] > to.time[0] or time[-1] < to.time[-1]:
-            raise SweepError(f"the run ends at {time[-1]:.6g} s, the recording at {to.time[-1]:.6g} s; set duration")
-        return log_density(to.time, numpy.interp(to.time, time, values)).values
 
-    def residual(given: Field) -> Field:
-        found = (density(given) - measured.values)[lines] / scatter
-        if not numpy.isfinite(found).all():
-            raise SweepError(f"{to.name} of a run stands still where the recording moves; narrow the ranges of --free")
-        return numpy.asarray(found)
-
-    place, left, slope, disagreement = _minimum(runs, residual)
-    square = float(left @ left)
-    probability = float(stats.chi2.sf(square, left.size - place.size))
-    parameters = _parameters(runs, place, slope, disagreement, 1.0, math.inf)
-    fitted = density(runs([place])[0])
-    both = numpy.exp(measured.values[lines]), numpy.exp(fitted[lines])
-    compared = [Compared(f"density of {to.name}", measured.frequency[lines], *both, "frequency, Hz")]
-    misfit = math.sqrt(square / left.size)
-    return Fit(
-        parameters, misfit, "of the scatter of its lines", probability, 0.0, runs.count, runs.values_at(place), compared
-    )
+def _settled(runs: Runs, residual: Residual, found: Minimum) -> Minimum:
+    """The least square of runs that request enough."""
+    at = _at(runs, residual)
+    while not runs.is_held and runs.accuracy > FINEST:
+        usual = runs.accuracy
+        scatter = (
+            residual.scatter if math.isfinite(residual.scatter) else math.sqrt(found.square / max(found.freedom, 1))
+        )
+        runs.accuracy = max(FINER * usual, FINEST)
+        moved = at([found.place])[0] - found.left
+        basis, _ = numpy.linalg.qr(found.slope)
+        is_still = float(numpy.linalg.norm(basis.T @ moved)) <= STILL * scatter
+        if is_still and float(numpy.std(moved)) <= FAINT * scatter:
+            runs.accuracy = usual
+            break
+        found = minimum(at, found.place)
+    return found
 
 
 def _titled(name: str, unit: str) -> str:
     return f"{name}, {unit}" if unit else name
 
 
-def _minimum(
-    runs: _Runs, residual: Callable[[Field], Field], start: Field | None = None
-) -> tuple[Field, Field, Field, Field]:
-    """The place of least squares, what is left there, and its slopes by differences of `STEP` [residuals, parameters], with
-    how far those of twice the step disagree.
-
-    Without a ``start`` the best of `STARTS` cases a parameter.
-    """
-    count = len(runs.free)
-    known: dict[tuple[float, ...], Field] = {}
-
-    def at(places: Sequence[Field]) -> list[Field]:
-        new = [place for place in places if tuple(place) not in known]
-        for place, given in zip(new, runs(new) if new else [], strict=True):
-            known[tuple(place)] = residual(given)
-        return [known[tuple(place)] for place in places]
-
-    def slopes(place: Field, step: float) -> Field:
-        ways = [step if part + step <= 1.0 else -step for part in place]
-        moved = [place + way * numpy.eye(count)[i] for i, way in enumerate(ways)]
-        here, *there = at([place, *moved])
-        return numpy.array([(each - here) / way for each, way in zip(there, ways, strict=True)]).T
-
-    if start is None:
-        unit = [Variation(str(i), (), 0.0, 1.0) for i in range(count)]
-        drawn = samples_of(unit, f"lhs:{STARTS * count}", 0, 1)
-        places = [numpy.full(count, 0.5), *(numpy.array([float(each[str(i)]) for i in range(count)]) for each in drawn)]
-        squares = [float(each @ each) for each in at(places)]
-        start = places[int(numpy.argmin(squares))]
-    found = optimize.least_squares(
-        lambda place: at([place])[0], start, lambda place: slopes(place, STEP), bounds=(0.0, 1.0), max_nfev=MOST_STEPS,
-        xtol=1e-6, ftol=1e-9, gtol=1e-12,
-    )  # fmt: skip
-    place = numpy.asarray(found.x)
-    slope = slopes(place, STEP)
-    return place, at([place])[0], slope, slopes(place, 2.0 * STEP) - slope
-
-
-def _whitener(left: Field) -> Field:
-    """Coefficients of the filter ``1 - sum a_k z^-k`` that whitens a series, a_k by least squares."""
-    columns = numpy.array([left[ORDER - lag : len(left) - lag] for lag in range(1, ORDER + 1)]).T
-    found, *_ = numpy.linalg.lstsq(columns, left[ORDER:], rcond=None)
-    return numpy.concatenate(([1.0], -found))
-
-
-def _ljung_box(left: Field) -> float:
-    """Probability of the autocorrelations of a series up to `LAGS` if it is white."""
-    centred = left - left.mean()
-    square = float(centred @ centred)
-    if square == 0.0:
-        return 1.0
-    lags = numpy.arange(1, LAGS + 1)
-    found = numpy.array([float(centred[lag:] @ centred[:-lag]) / square for lag in lags])
-    statistic = left.size * (left.size + 2.0) * float((found**2 / (left.size - lags)).sum())
-    return float(stats.chi2.sf(statistic, LAGS - ORDER))
-
-
-def _parameters(
-    runs: _Runs, place: Field, slope: Field, disagreement: Field, scatter: float, freedom: float
-) -> list[Fitted]:
+def _parameters(runs: Runs, place: Field, ends: Sequence[Interval], blind: NDArray[numpy.bool_]) -> list[Fitted]:
     """Values with their intervals, and what is not identifiable."""
-    blind = _unidentified(slope, disagreement, scatter)
-    half = numpy.full(place.size, math.nan)
-    if not blind.any() and math.isfinite(scatter):
-        half = (
-            stats.t.ppf(0.5 + 0.5 * LEVEL, freedom)
-            * scatter
-            * numpy.sqrt(numpy.diag(numpy.linalg.inv(slope.T @ slope)))
-        )
-    others = [each.key for each, unseen in zip(runs.free, blind, strict=True) if unseen]
+    unseen = [each.key for each, is_blind in zip(runs.free, blind, strict=True) if is_blind]
     found = []
-    for each, part, width, unseen in zip(runs.free, place, half, blind, strict=True):
-        value, low, high = (_value(each, part + side * width) for side in (0.0, -1.0, 1.0)) if math.isfinite(width) else (
-            _value(each, part), math.nan, math.nan
-        )  # fmt: skip
+    for each, part, (low, high), is_blind in zip(runs.free, place, ends, blind, strict=True):
         remark = ""
-        if unseen:
-            beside = [other for other in others if other != each.key]
+        if is_blind:
+            beside = [other for other in unseen if other != each.key]
             remark = f"not identifiable beside {', '.join(beside)}" if beside else "moves nothing that was measured"
         elif part < 1e-6 or part > 1.0 - 1e-6:
             remark = "at the end of its range"
-        found.append(Fitted(each.key, value, low, high, remark))
+        elif low < 0.0 or high > 1.0:
+            remark = "interval beyond its range"
+        found.append(Fitted(each.key, _value(each, float(part)), _value(each, low), _value(each, high), remark))
     return found
-
-
-def _unidentified(slope: Field, disagreement: Field, scatter: float) -> NDArray[numpy.bool_]:
-    """Of each parameter, whether it lies in a direction in which nothing is seen: differences of two steps disagree by
-    as much as they are, or the interval is wider than the range.
-    """
-    _left, sizes, directions = numpy.linalg.svd(slope, full_matrices=False)
-    blind = numpy.zeros(slope.shape[1], dtype=bool)
-    for size, direction in zip(sizes, directions, strict=True):
-        unsure = UNSEEN * float(numpy.linalg.norm(disagreement @ direction))
-        if size <= unsure or (math.isfinite(scatter) and 2.0 * scatter > size):
-            blind |= abs(direction) > 0.3
-    return blind
 
 
 def _value(free: Variation, part: float) -> float:
@@ -394,7 +347,7 @@ def _value(free: Variation, part: float) -> float:
     return free.low + part * (free.high - free.low)
 
 
-def _require_enough(count: int, runs: _Runs) -> None:
+def _require_enough(count: int, runs: Runs) -> None:
     if count < len(runs.free):
         raise SweepError(f"{count} measured values for {len(runs.free)} free keys: measure more, or free less")
 

@@ -62,6 +62,9 @@ class Fit(NamedTuple):
     coarse: float = 0.0
     """accuracy that the runs request, where what is left of a series may be their own error; 0 where it is more"""
 
+    accuracy: float = math.nan
+    """that the runs request"""
+
     @property
     def follows(self) -> bool:
         """Whether the scene can follow what was measured, as far as its runs are accurate enough to say it."""

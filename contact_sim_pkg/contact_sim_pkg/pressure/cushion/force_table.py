@@ -1,6 +1,10 @@
 """Force and pressure maps of a cushion at evenly spaced approaches: the force law of a run, and the
 map that belongs to it, from the same solutions.
 
+A cell enters the contact as a whole, which bends the force: with cells of 10 mm its slope scatters by 1 %, up to 4 %, over
+the approach and over a key of the foam. So the forces of a run are solved on cells below those of its maps, at fewer
+approaches, with a cubic spline between them (`smoothed`).
+
 The law is the monotone cubic through the forces (``laws/tabulated_elastic.py``). A map between two
 nodes is the linear mixture of theirs, scaled so that it adds up to the force that acts; the loss of
 a contact multiplies force and pressure alike. A map never acts back on the force.
@@ -14,6 +18,7 @@ from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 
 from contact_sim_pkg.compiled.guards import require_positive
 from contact_sim_pkg.laws import foam_elastic
@@ -23,11 +28,15 @@ from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
 from contact_sim_pkg.pressure.cushion.foam_layer import Compression, CushionError, FoamLayer
 from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 
-__all__ = ["SPACING", "ForceTable", "kept_table", "make_table"]
+__all__ = ["BELOW", "SPACING", "SPARSE", "ForceTable", "kept_table", "make_table", "smoothed"]
 
 Field = NDArray[numpy.float64]
 SPACING = 5e-4  # [m]; the force between two nodes is then right to 4e-4
 FEWEST_NODES = 3
+BELOW = 2
+"""Cells along a side of one of the maps, on which forces are solved."""
+SPARSE = 4
+"""Nodes of the table to one at which they are: so many cost no more than all of them on the cells of the maps."""
 
 
 class ForceTable(NamedTuple):
@@ -56,7 +65,7 @@ class ForceTable(NamedTuple):
         if force <= 0.0:
             return numpy.zeros(self.pressure.shape[1:])
         last = len(self.force) - 1
-        first = int(numpy.argmax(self.force > 0.0))  # a node before has no map to take the form of
+        first = int(numpy.argmax(self.largest_strain > 0.0))  # a node before has no map to take the form of
         place = min(max(approach / self.spacing, float(first)), float(last))
         i = min(int(place), last - 1)
         part = place - i
@@ -95,6 +104,21 @@ def make_table(
         if on_progress is not None:
             on_progress(i / (nodes - 1))
     return ForceTable(spacing, layer.grid.cell_area, force[:nodes], strain[:nodes], pressure[:nodes], end)
+
+
+def smoothed(maps: ForceTable, forces: ForceTable) -> ForceTable:
+    """The table of ``maps`` with the forces of another one, on smaller cells at fewer approaches: their cubic spline with no
+    slope at the beginning, as under a round body. It ends where either does.
+    """
+    reach = forces.spacing * (len(forces.force) - 1)
+    nodes = min(len(maps.force), int(reach / maps.spacing + 1e-9) + 1)
+    spline = CubicSpline(
+        forces.spacing * numpy.arange(len(forces.force)), forces.force, bc_type=("clamped", "not-a-knot")
+    )
+    force = numpy.maximum.accumulate(numpy.maximum(spline(maps.spacing * numpy.arange(nodes)), 0.0))
+    return ForceTable(
+        maps.spacing, maps.cell_area, force, maps.largest_strain[:nodes], maps.pressure[:nodes], maps.end or forces.end
+    )
 
 
 def kept_table(description: str, make: Callable[[], ForceTable], directory: Path | None = None) -> ForceTable:
