@@ -17,6 +17,7 @@ G = 9.81
 MIRRORED = "block.rotation=[0.0, 0.463647609, 0.0]"
 SOON = {
     # as long as the regime needs; a rig that shows it late shows it sooner by the values beside
+    "office_chair": ("duration=1",), "plate": ("duration=1",),
     "seat_ride": ("duration=1",), "seat_ride_full": ("duration=1",), "car_full_bench": ("duration=0.1",),
     "seat_drop": ("duration=0.5",), "seat_shell": ("duration=1",), "seat_shock": ("duration=0.4",), "seat_slip": ("duration=1",),
     "block_painleve": ("duration=0.06",), "block_slope": ("duration=0.25",), "block_fall": ("duration=0.5",),

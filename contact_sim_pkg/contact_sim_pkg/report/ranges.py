@@ -18,11 +18,11 @@ ellipse it is more, up to 1.67 (Tresca) or 1.79 (von Mises) under a line; under 
 
 def cushion_warnings(contact: str, recording: Recording) -> list[str]:
     """Sentences on a ``contact`` whose cushion was compressed beyond the range of its foam, or of
-    its table.
+    its table; none where tissue takes a part of the approach.
     """
     keys = ((recording.scene.get("effects") or {}).get(contact) or {}).get("cushion")
     series = recording.contacts.get(contact)
-    if not keys or series is None or series.approach.size == 0:
+    if not keys or "tissue" in keys or series is None or series.approach.size == 0:
         return []
     strain = series.approach / float(keys["thickness"])
     if strain.max() <= VALID_STRAIN:

@@ -32,6 +32,7 @@ from contact_sim_pkg.pressure.cushion.force_table import (
     make_table,
     smoothed,
 )
+from contact_sim_pkg.pressure.cushion.tissue import PlateUnderTissue, Tissue, TissueOnFoam
 from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.run.compilation import note_computation
 from contact_sim_pkg.scene.errors import Fault, SceneError
@@ -63,6 +64,7 @@ __all__ = [
 Field = NDArray[numpy.float64]
 HARDNESS_STRAIN = 0.4
 MOST_SPACING, LEAST_NODES = 5e-4, 160  # [m] between the approaches of a table, nodes over the thickness
+TISSUE_NODES = 20  # over the depth of tissue
 
 
 def elastic_law(scene: ResolvedScene, contact: str) -> ElasticLaw:
@@ -145,6 +147,8 @@ class PressingBody(NamedTuple):
     y: Vector  # [cols] [m]
     sizes: tuple[Any, ...]  # everything that the gap follows from
     gap: Callable[[Vector, Vector], Field]  # x, y -> [rows, cols] [m] over the cells
+    tissue: Tissue | None = None  # of the body, whose gap then is that without load
+    on_plate: bool = False  # a rigid plate carries the body, not foam; it has tissue
 
 
 def foam_of(keys: CushionSection) -> parameters.FoamElastic:
@@ -160,13 +164,19 @@ def foam_of(keys: CushionSection) -> parameters.FoamElastic:
     )
 
 
-def layer_under(keys: CushionSection, body: PressingBody, below: int = 1) -> FoamLayer:
-    """Foam layer of a cushion under a body, each cell of the map cut into ``below`` along either side."""
+def layer_under(keys: CushionSection, body: PressingBody, below: int = 1) -> FoamLayer | PlateUnderTissue:
+    """Foam layer of a cushion, or the plate in its place, under a body, each cell of the map cut into ``below`` along
+    either side.
+    """
     side = given(keys.cell) / below
     parts = side * (numpy.arange(below) - 0.5 * (below - 1))
     x, y = ((centres[:, None] + parts).ravel() for centres in (body.x, body.y))
-    grid = FoamGrid(len(x), len(y), side, side)
-    return FoamLayer(grid, foam_of(keys), body.gap(x, y), keys.shear_share, inextensible=keys.cover == "inextensible")
+    grid, gap, inextensible = FoamGrid(len(x), len(y), side, side), body.gap(x, y), keys.cover == "inextensible"
+    if body.tissue is None:
+        return FoamLayer(grid, foam_of(keys), gap, keys.shear_share, inextensible=inextensible)
+    if body.on_plate:
+        return PlateUnderTissue(grid, gap, body.tissue)
+    return TissueOnFoam(grid, foam_of(keys), gap, body.tissue, keys.shear_share, inextensible=inextensible)
 
 
 def build_cushion(contact: str, keys: CushionSection, load: float, body: PressingBody) -> Cushion:
@@ -177,15 +187,21 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
     """
     _refuse_modulus(contact, foam_of(keys).modulus)
     spacing = min(MOST_SPACING, keys.thickness / LEAST_NODES)
+    if body.tissue is not None:
+        spacing = min(spacing, body.tissue.depth / TISSUE_NODES)
     place, cell = (float(body.x[0]), float(body.y[0])), given(keys.cell)
     grid = len(body.x), len(body.y), cell, place
     description = repr((foam_of(keys), grid, keys.shear_share, keys.cover, spacing, REACH, body.sizes))
+    if body.tissue is not None:
+        description += repr((body.tissue, body.on_plate))
 
     def compute() -> ForceTable:
         def note(part: float) -> None:
             note_computation(f"computing the force table of the {contact}'s cushion, once: {100.0 * part:.0f} %")
 
         try:
+            if body.tissue is not None:  # whose pressure rises from nothing: a cell that enters bends no force
+                return make_table(layer_under(keys, body), spacing, on_progress=note)
             maps = make_table(layer_under(keys, body), spacing, on_progress=lambda part: note(0.5 * part))
             below = layer_under(keys, body, BELOW)
             return smoothed(maps, make_table(below, SPARSE * spacing, on_progress=lambda part: note(0.5 + 0.5 * part)))
@@ -211,6 +227,9 @@ def _refuse_load(contact: str, keys: CushionSection, table: ForceTable, load: fl
     most = table.most_force
     if load <= most:
         return
+    if not table.largest_strain.any():
+        reason = f"the plate carries {most:.4g} N at most by the tissue, the load at rest is {load:.4g} N; take a lighter body"
+        raise SceneError([Fault("scene", 0, 0, f"effects.{contact}.cushion", reason)])
     if table.largest_strain.max() > VALID_STRAIN:
         reason, thicker = f"its strain reaches {VALID_STRAIN:g}", keys.thickness < THICKEST
     else:

@@ -267,3 +267,59 @@ def test_a_hardness_that_scales_the_modulus_beyond_its_range_is_refused():
     values = ("effects.seat.cushion.modulus=1e6", "effects.seat.cushion.hardness=1e5")
     with pytest.raises(SceneError, match=r"seat\.cushion\.hardness: scales the modulus to .* Pa, 1e\+06 Pa at most"):
         build(resolved("seat_drop", *values))
+
+
+def test_a_cushion_without_tissue_is_the_foam_layer_to_the_bit():
+    from contact_sim_pkg.pressure.cushion.foam_layer import FoamGrid, FoamLayer
+    from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, pan_gap
+    from contact_sim_pkg.rigs.vehicle.seat.cushion import pan_layer
+    from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion
+    from contact_sim_pkg.run.contact_laws import foam_of
+
+    keys = SeatCushion(percentile=50, cell=0.01)
+    x, y = (numpy.arange(72, dtype=float) - 24) * 0.01, (numpy.arange(64, dtype=float) - 31.5) * 0.01
+    exact = FoamLayer(FoamGrid(72, 64, 0.01, 0.01), foam_of(keys), pan_gap(PERCENTILES[50], x, y)).solve(0.04)
+    assert (pan_layer(keys).solve(0.04).pressure == exact.pressure).all()
+    cushion = resolved("seat_ride").data["effects"]["seat"]["cushion"]
+    assert "tissue" not in cushion
+    assert "tissue_depth" not in cushion
+
+
+@pytest.mark.parametrize("name", ["office_chair", "plate"])
+def test_a_hard_seat_has_one_law_with_and_without_its_map(name):
+    found = {values: messages(name, "duration=0.5", *values) for values in ((), ("effects.seat.contact_field=null",))}
+    mapped, bare = found.values()
+    assert (joined(mapped["seat/force"], "normal") == joined(bare["seat/force"], "normal")).all()
+    assert not bare["seat/patch"]
+    normal, stamps = joined(mapped["seat/force"], "normal"), len(mapped["seat/force"])
+    for patch in mapped["seat/patch"]:
+        total = numpy.asarray(patch.pressure, dtype=float).sum() * patch.cell_x * patch.cell_y
+        assert normal.min() * 0.999 <= total <= normal.max() * 1.001
+    assert stamps == 50
+
+
+def test_a_seat_with_tissue_resolves_its_depth():
+    data = resolved("plate").data["effects"]["seat"]["cushion"]
+    assert (data["tissue"], data["tissue_depth"], data["carrier"]) == (2.0e3, 0.01, "plate")
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        (("effects.seat.cushion.carrier=plate",), r"cushion\.carrier: a rigid body touches a rigid plate at points"),
+        (("effects.seat.cushion.tissue_depth=0.02",), r"cushion\.tissue_depth: acts beside tissue"),
+        (
+            ("effects.seat.cushion={carrier: plate, tissue: 2000, hardness: 9000}",),
+            r"cushion\.hardness: acts in foam, the carrier is a plate",
+        ),
+        (("effects.seat.cushion.tissue=10",), r"cushion\.tissue"),
+    ],
+)
+def test_keys_of_a_hard_seat_that_nothing_uses_are_refused(values, sentence):
+    with pytest.raises(SceneError, match=sentence):
+        resolved("seat_ride", *values)
+
+
+def test_a_plate_refuses_a_load_beyond_its_tissue():
+    with pytest.raises(SceneError, match=r"the plate carries .* N at most by the tissue"):
+        build(resolved("plate", "seat.occupant={mass: 900}"))

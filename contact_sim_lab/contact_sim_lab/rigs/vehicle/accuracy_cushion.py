@@ -15,8 +15,8 @@ from typing import Any
 import numpy
 
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force
-from contact_sim_pkg.pressure.cushion.foam_layer import FoamLayer
-from contact_sim_pkg.pressure.cushion.force_table import make_table
+from contact_sim_pkg.pressure.cushion import REACH
+from contact_sim_pkg.pressure.cushion.force_table import Carrier, make_table
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.seat.cushion import pan_layer
 from contact_sim_pkg.rigs.vehicle.seat.mass import occupant_mass
@@ -66,7 +66,7 @@ def cushion_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[di
     return rows
 
 
-def _head(layer: FoamLayer, spacing: float, cost: float, scene: ResolvedScene, reference: str) -> dict[str, Any]:
+def _head(layer: Carrier, spacing: float, cost: float, scene: ResolvedScene, reference: str) -> dict[str, Any]:
     return {
         "part": "cushion cells" if spacing == 0.0 else "cushion table", "level": "",
         "grid": f"{layer.grid.rows}x{layer.grid.cols}", "tolerance": spacing or layer.grid.cell_x, "reference": reference,
@@ -74,7 +74,7 @@ def _head(layer: FoamLayer, spacing: float, cost: float, scene: ResolvedScene, r
     }  # fmt: skip
 
 
-def _figures(layer: FoamLayer, load: float) -> dict[str, float]:
+def _figures(layer: Carrier, load: float) -> dict[str, float]:
     """Sink [m], stiffness [N/m], peak [Pa] and area [m^2] under a load [N]."""
     found = layer.solve(float(approach_of_force(make_table(layer, COARSE).law(), load)))
     for _ in range(6):
@@ -86,14 +86,14 @@ def _figures(layer: FoamLayer, load: float) -> dict[str, float]:
     }  # fmt: skip
 
 
-def _between(layer: FoamLayer, spacing: float) -> dict[str, float]:
-    """Largest error of force and map in the middle between nodes, from a tenth to 0.7 of the
-    thickness.
+def _between(layer: Carrier, spacing: float) -> dict[str, float]:
+    """Largest error of force and map in the middle between nodes, from 0.12 to 0.82 of the
+    table's reach.
     """
     table = make_table(layer, spacing)
     law, errors = table.law(), {"force": 0.0, "pressure (L2)": 0.0}
     for part in numpy.linspace(0.1, 0.7, 13):
-        approach = (int(part * layer.foam.thickness / spacing) + 0.5) * spacing
+        approach = (int(part * layer.farthest / REACH / spacing) + 0.5) * spacing
         found = layer.solve(approach)
         missed = table.map_at(approach, found.force) - found.pressure
         errors["force"] = max(errors["force"], abs(elastic_force(law, approach) / found.force - 1.0))
@@ -102,7 +102,7 @@ def _between(layer: FoamLayer, spacing: float) -> dict[str, float]:
     return errors
 
 
-def _map_cost(layer: FoamLayer, load: float) -> float:
+def _map_cost(layer: Carrier, load: float) -> float:
     """Time [s] of one map from a table."""
     table = make_table(layer, COARSE)
     approach = float(approach_of_force(table.law(), load))

@@ -8,10 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from contact_sim_lab.rigs.vehicle.validation_seat import (
-    OFFICE_FOAM,
     THIGHS_FROM,
     SittingMap,
-    default_hardness,
     sitting,
 )
 from contact_sim_pkg.records.constants import GRAVITY
@@ -24,16 +22,10 @@ HERE = Path(__file__).parent / "published"
 SEATED = 0.73  # of the body's weight on the seat, as of `SEATED_MASS`
 OWN = {"area": 0.05, "mean pressure": 0.05, "peak pressure": 0.1}
 """Relative: cells of 1 cm, and a peak that one of them holds."""
-FLESH = (
-    "40 mm of foam of 2.5 times the default's stress stand for a hard seat; on it flesh spreads and the thighs come to carry, "
-    "which a body of one form does not"
+SOFT = (
+    "soft tissue by its measured thickness, fitted to no map; none flows sideways from under a bone, so the peak on firm foam "
+    "is low and the thighs of a plate carry little"
 )
-
-
-def _hard(load: float, percentile: int = 50) -> SittingMap:
-    """On the hardest foam that stands for a seat of its own."""
-    thickness, factor = OFFICE_FOAM
-    return sitting(load, percentile, thickness, factor * default_hardness())
 
 
 def _of(found: SittingMap, quantity: str) -> float:
@@ -50,29 +42,28 @@ def _office() -> Iterator[PublishedCurve]:
             for row in table.rows if float(row["way of moving"]) == conditions["way of moving"]
         )  # fmt: skip
         ends = (-1.0, THIGHS_FROM) if conditions["part"] == "back" else (THIGHS_FROM, 1.0)
-        return _of(_hard(load).between(*ends), quantity)
+        return _of(sitting(load, 50, "office_chair").between(*ends), quantity)
 
     for quantity in OWN:
         yield from curves_of(
             table, "Office chair", quantity, "way of moving", "part", error=f"{quantity} sd", own=OWN[quantity],
-            measure=partial(measure, quantity), note=FLESH,
+            measure=partial(measure, quantity), note=SOFT,
         )  # fmt: skip
 
 
 def _firm() -> Iterator[PublishedCurve]:
-    """A firm seat bare, and with a cushion of memory foam, for which the default cushion stands."""
+    """A firm seat bare, which is a plate, and with a cushion of memory foam, for which the default cushion stands."""
 
     def measure(conditions: Mapping[str, Any]) -> float:
         seated = SEATED * conditions["body mass"]
         percentile = min(SEATED_MASS, key=lambda each: abs(SEATED_MASS[each] - seated))
-        on = sitting if conditions["seat"] == "memory foam" else _hard
-        return on(seated * GRAVITY, percentile).mean
+        return sitting(seated * GRAVITY, percentile, "" if conditions["seat"] == "memory foam" else "plate").mean
 
     yield from curves_of(
         read_published(HERE / "firm_seat.csv"), "Firm seat, bare and with memory foam", "mean pressure", "body mass", "seat",
-        error="mean pressure sd", own=OWN["mean pressure"], measure=measure, note=FLESH,
+        error="mean pressure sd", own=OWN["mean pressure"], measure=measure, note=SOFT,
     )  # fmt: skip
 
 
 CURVES = [*_office(), *_firm()]
-"""Not drawn: the thickness of tissue under the tuberosities, for the bench has no tissue; its body keeps its form."""
+"""Not drawn: the thickness of tissue under the tuberosities, from which that of the bench follows."""

@@ -9,18 +9,20 @@ from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_energy, elastic_force
 from contact_sim_pkg.laws.parameters import FoamElastic
-from contact_sim_pkg.pressure.cushion.foam_layer import Compression, FoamGrid, FoamLayer
-from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, pan_gap
+from contact_sim_pkg.pressure.cushion.foam_layer import FoamGrid, FoamLayer
+from contact_sim_pkg.pressure.cushion.force_table import at_load
+from contact_sim_pkg.pressure.cushion.tissue import Tissue
 from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.records.metric import Published
 from contact_sim_pkg.report.metrics.bands import published_range
 from contact_sim_pkg.report.signal.metrics import seat_factor, weighted_rms
 from contact_sim_pkg.report.signal.spectrum import CrossDensity, Welch
 from contact_sim_pkg.rigs.vehicle.model import build
+from contact_sim_pkg.rigs.vehicle.seat.cushion import pan_layer
 from contact_sim_pkg.rigs.vehicle.seat.occupants import SEATED_MASS
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion, SeatHysteresis
 from contact_sim_pkg.run.contact_laws import foam_of
@@ -28,14 +30,15 @@ from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
 from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.schema.laws import USUAL_REVERSAL
 
-__all__ = ["OFFICE_FOAM", "THIGHS_FROM", "VALIDATION", "SittingMap", "default_hardness", "sitting"]
+__all__ = ["THIGHS_FROM", "VALIDATION", "SittingMap", "default_hardness", "sitting"]
 
 Field = NDArray[numpy.float64]
 CELL = 0.01  # [m]
 LOADED = 500.0  # [Pa] least pressure of a cell that counts as loaded
 LOAD = 498.2  # [N] of 50.8 kg, the mass of `wei_griffin_2`
 OFFICE_LOADS = (427.0, 119.0)  # [N] buttocks and thighs: area times mean pressure of the publication
-OFFICE_FOAM = (0.04, 2.5)  # [m] thickness, hardness over the default's
+TISSUE = Tissue()
+PLATE_LOAD = 600.0  # [N]
 THIGHS_FROM, FRONT_FROM = 0.12, 0.25  # [m] before the tuberosities
 LOOP_LOAD = 705.0  # [N]
 DISC_AREA = 0.0323  # [m^2] of the indenter of ISO 2439
@@ -85,19 +88,19 @@ class SittingMap(NamedTuple):
 
 
 @cache
-def sitting(load: float, percentile: int = 50, thickness: float = 0.08, hardness: float | None = None) -> SittingMap:
-    """Map of a percentile under ``load`` [N] on the default foam, or on one of another ``thickness``
-    [m] and ``hardness`` [Pa].
+def sitting(load: float, percentile: int = 50, scene: str = "", hardness: float | None = None) -> SittingMap:
+    """Map of a percentile under ``load`` [N] on the seat of a ``scene``; else on the default foam, or, a body with
+    tissue, on foam of another ``hardness`` [Pa].
     """
-    x, y = (CELL * numpy.arange(first, last, dtype=numpy.float64) for first, last in ((-24.0, 48.0), (-31.5, 32.0)))
-    foam = foam_of(SeatCushion(thickness=thickness, hardness=hardness))
-    layer = FoamLayer(FoamGrid(len(x), len(y), CELL, CELL), foam, pan_gap(PERCENTILES[percentile], x, y))
-    return SittingMap(x, _at_load(layer, load, foam.thickness).pressure)
-
-
-def _at_load(layer: FoamLayer, load: float, thickness: float) -> Compression:
-    approach = brentq(lambda place: layer.solve(place).force - load, 1e-4, 0.8 * thickness, xtol=1e-6)
-    return layer.solve(float(approach))
+    if scene:
+        keys = given(load_resolved(scene).effect("seat", SeatCushion))
+    elif hardness is None:
+        keys = SeatCushion()
+    else:
+        keys = SeatCushion(hardness=hardness, tissue=TISSUE.pressure, tissue_depth=TISSUE.depth)
+    carrier = pan_layer(keys.model_copy(update={"percentile": percentile, "cell": CELL}))
+    x = CELL * numpy.arange(-24.0, 48.0, dtype=numpy.float64)
+    return SittingMap(x, at_load(carrier, load).pressure)
 
 
 def default_hardness() -> float:
@@ -191,8 +194,12 @@ def _seat_factor(densities: CrossDensity) -> float:
 
 def _office() -> SittingMap:
     """Map of an office chair under buttocks and thighs."""
-    thickness, factor = OFFICE_FOAM
-    return sitting(sum(OFFICE_LOADS), 50, thickness, factor * default_hardness())
+    return sitting(sum(OFFICE_LOADS), 50, "office_chair")
+
+
+def _plate() -> SittingMap:
+    """Map of a plate under a man's weight."""
+    return sitting(PLATE_LOAD, 50, "plate")
 
 
 AREA, MEAN_PRESSURE, PEAK_PRESSURE = (
@@ -211,12 +218,14 @@ _OFFICE = (
 )
 _ZONES = "Mergl 2006: zones of a car cushion that people find comfortable"
 _FOAMS = "flexible polyurethane foams of seats, ISO 2439 and ISO 3386-1; usual values"
-_RIGID = "the form of the body is that under load; softer tissue would even out the pressure"
+_TISSUE = "a body with tissue; none flows sideways from under a bone, so the trend of the peak is too steep"
 _SMALL = "a small woman; the usual range is that of adults together"
-_OFFICE_NOTE = (
-    "40 mm of foam of 2.5 times the default's stress under 546 N; on a hard seat flesh spreads and the thighs come to "
-    "carry, which a body of one form does not"
+_OFFICE_NOTE = "scene `office_chair` under 546 N: 40 mm of foam of 15 kPa, tissue by its measured thickness"
+_PLATE = (
+    "J. Phys. Ther. Sci. 29 (2017) 57: firm seat without cushion, 49 men of 69 kg; area of the group, for which seat is "
+    "not said in what was read"
 )
+_PLATE_NOTE = "scene `plate`: tissue by its measured thickness"
 _SPLIT = "split at 0.12 m before the tuberosities; that of the publication is not known"
 _HARDNESS = "SAE 2019-01-5024: car cushions of 4 to 6.2 kPa hardness"
 _PERSONS = {5: "5th percentile, woman", 50: "50th percentile, man", 95: "95th percentile, man"}
@@ -272,17 +281,22 @@ VALIDATION = [
     _published("cushion", _ZONES, "load beyond 0.25 m", "%", "below 6", (0.0, 6.0),
                lambda: sitting(LOAD).share(FRONT_FROM, 1.0)),
     _published("cushion", _HARDNESS, "largest pressure by hardness", "kPa/kPa", "0.09", (0.03, 0.27),
-               lambda: _change_with_hardness(largest=True), note=_RIGID),
+               lambda: _change_with_hardness(largest=True), note=_TISSUE),
     _published("cushion", _HARDNESS, "mean pressure by hardness", "kPa/kPa", "0.04", (0.013, 0.12),
-               lambda: _change_with_hardness(largest=False), note=_RIGID),
+               lambda: _change_with_hardness(largest=False), note=_TISSUE),
     _published("office chair", _OFFICE, "area under buttocks and thighs", "cm²", "869 ± 115", (640.0, 1098.0),
                lambda: _office().area, note=_OFFICE_NOTE),
     _published("office chair", _OFFICE, "mean pressure under buttocks and thighs", "kPa", "6.3 ± 0.7", (4.8, 7.7),
-               lambda: _office().mean, note="as the area: the same load on less of it"),
+               lambda: _office().mean, note=_OFFICE_NOTE),
     _published("office chair", _OFFICE, "largest pressure, under the buttocks", "kPa", "41 ± 12", (17.0, 65.0),
-               lambda: _office().largest),
+               lambda: _office().largest,
+               note="no tissue flows sideways from under a bone"),
     _published("office chair", _OFFICE, "area under the thighs", "cm²", "342 ± 95", (152.0, 532.0),
                lambda: _office().between(THIGHS_FROM, 1.0).area, note=_SPLIT),
     _published("office chair", _OFFICE, "load of the buttocks", "%", "78 ± 6", (66.0, 91.0),
                lambda: _office().share(-1.0, THIGHS_FROM), note="split as above"),
+    _published("hard plate", _PLATE, "loaded area, 600 N", "cm²", "830 ± 163", (667.0, 993.0),
+               lambda: _plate().area, note=_PLATE_NOTE),
+    _published("hard plate", _PLATE, "mean pressure of the loaded area, 600 N", "kPa", "7.5 ± 1.7", (5.8, 9.2),
+               lambda: _plate().mean, note=_PLATE_NOTE),
 ]  # fmt: skip

@@ -31,6 +31,7 @@ from contact_sim_pkg.compiled.guards import require, require_count, require_posi
 from contact_sim_pkg.laws.elastic_law import check_elastic
 from contact_sim_pkg.laws.foam_elastic import column_energies, column_stresses, column_tangent_moduli
 from contact_sim_pkg.laws.parameters import FoamElastic
+from contact_sim_pkg.pressure.cushion import REACH
 from contact_sim_pkg.pressure.cushion.bonded_layer import layer_influence
 
 __all__ = ["Compression", "CushionError", "FoamGrid", "FoamLayer"]
@@ -103,6 +104,11 @@ class FoamLayer:
         columns = self.first_modulus / foam.thickness
         self._remainder: Field = self.shear_share * numpy.maximum(1.0 / influence - columns, 0.0)  # c R [Pa/m]
         self._zero = numpy.zeros((grid.rows, grid.cols))
+
+    @property
+    def farthest(self) -> float:
+        """Last approach [m] of a table."""
+        return REACH * self.foam.thickness
 
     def solve(self, approach: float, start: Compression | None = None) -> Compression:
         """The layer at ``approach`` [m], from the solution ``start`` near it where there is one.

@@ -14,21 +14,32 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
+from scipy.optimize import brentq
 
 from contact_sim_pkg.compiled.guards import require_positive
 from contact_sim_pkg.laws import foam_elastic
 from contact_sim_pkg.laws.parameters import TabulatedElastic
 from contact_sim_pkg.laws.tabulated_elastic import tabulated_law
 from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
-from contact_sim_pkg.pressure.cushion.foam_layer import Compression, CushionError, FoamLayer
+from contact_sim_pkg.pressure.cushion.foam_layer import Compression, CushionError, FoamGrid
 from contact_sim_pkg.pressure.kept_arrays import kept_arrays
 
-__all__ = ["BELOW", "SPACING", "SPARSE", "ForceTable", "kept_table", "make_table", "smoothed"]
+__all__ = [
+    "BELOW",
+    "SPACING",
+    "SPARSE",
+    "Carrier",
+    "ForceTable",
+    "at_load",
+    "kept_table",
+    "make_table",
+    "smoothed",
+]
 
 Field = NDArray[numpy.float64]
 SPACING = 5e-4  # [m]; the force between two nodes is then right to 4e-4
@@ -37,6 +48,24 @@ BELOW = 2
 """Cells along a side of one of the maps, on which forces are solved."""
 SPARSE = 4
 """Nodes of the table to one at which they are: so many cost no more than all of them on the cells of the maps."""
+BEYOND = 1.01 * REACH  # of the foam's strain
+FIRST_SOUGHT, SOUGHT_GROWTH = 0.01, 1.4  # [m], factor between approaches until the force is beyond a load
+
+
+class Carrier(Protocol):
+    """What carries a body: a foam layer, foam under tissue, a plate under tissue."""
+
+    grid: FoamGrid
+
+    @property
+    def farthest(self) -> float:
+        """Last approach [m] of a table."""
+
+    def solve(self, approach: float, start: Compression | None = None) -> Compression:
+        """Map and force at ``approach`` [m]."""
+
+    def tangent(self, found: Compression) -> float:
+        """Stiffness dF/d(approach) [N/m] at a solution."""
 
 
 class ForceTable(NamedTuple):
@@ -65,7 +94,8 @@ class ForceTable(NamedTuple):
         if force <= 0.0:
             return numpy.zeros(self.pressure.shape[1:])
         last = len(self.force) - 1
-        first = int(numpy.argmax(self.largest_strain > 0.0))  # a node before has no map to take the form of
+        # a node before the first has no map to take the form of; a plate has no strain, and forces of its maps
+        first = int(numpy.argmax((self.largest_strain if self.largest_strain[-1] > 0.0 else self.force) > 0.0))
         place = min(max(approach / self.spacing, float(first)), float(last))
         i = min(int(place), last - 1)
         part = place - i
@@ -73,20 +103,35 @@ class ForceTable(NamedTuple):
         return numpy.asarray(form * (force / (form.sum() * self.cell_area)))
 
 
+def at_load(carrier: Carrier, load: float) -> Compression:
+    """The solution under ``load`` [N], > 0, its approach to 1 um. Raises CushionError where the carrier does
+    not take it within the range of its table.
+    """
+    require_positive("load", load, "N")
+    far, most = FIRST_SOUGHT, carrier.farthest
+    while carrier.solve(far).force < load:
+        if far >= most:
+            raise CushionError(f"{load:.4g} N is more than the cushion carries at {1e3 * most:.4g} mm")
+        far = min(SOUGHT_GROWTH * far, most)
+    approach = brentq(lambda place: carrier.solve(place).force - load, 0.0, far, xtol=1e-6)
+    return carrier.solve(float(approach))
+
+
 def make_table(
-    layer: FoamLayer,
+    layer: Carrier,
     spacing: float = SPACING,
-    reach: float = REACH,
+    farthest: float | None = None,
     on_progress: Callable[[float], None] | None = None,
 ) -> ForceTable:
-    """Table of a layer up to ``reach`` of its thickness [1], each solution from the one before; it
-    ends earlier where the contact comes too near to the edge of the cells.
+    """Table up to the farthest approach of what carries, each solution from the one before; it ends
+    earlier where the contact comes too near to the edge of the cells, or foam beyond its strain.
 
-    spacing: [m]; on_progress: is handed the part done, 0 to 1. Raises CushionError where that is so
+    spacing: [m]; farthest: [m], None: that of what carries; on_progress: is handed the part done, 0 to 1. Raises CushionError where that is so
     before the third node.
     """
     require_positive("spacing", spacing, "m")
-    nodes = 1 + round(reach * layer.foam.thickness / spacing)
+    nodes = 1 + round((layer.farthest if farthest is None else farthest) / spacing)
+    most = BEYOND + spacing / layer.farthest  # the last node of foam alone lies up to half a spacing behind REACH
     force, strain = numpy.zeros(nodes), numpy.zeros(nodes)
     pressure = numpy.zeros((nodes, layer.grid.rows, layer.grid.cols), dtype=numpy.float32)
     found: Compression | None = None
@@ -98,6 +143,9 @@ def make_table(
             if i < FEWEST_NODES:
                 raise
             end = str(error)
+            nodes = i
+            break
+        if found.largest_strain > most:  # with tissue above the foam
             nodes = i
             break
         force[i], strain[i], pressure[i] = found.force, found.largest_strain, found.pressure

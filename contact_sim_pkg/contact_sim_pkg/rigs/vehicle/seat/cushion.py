@@ -8,10 +8,15 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.pressure.cushion.foam_layer import FoamLayer
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.pressure.cushion.foam_layer import FoamGrid, FoamLayer
+from contact_sim_pkg.pressure.cushion.force_table import at_load
 from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, pan_gap
+from contact_sim_pkg.pressure.cushion.tissue import PlateUnderTissue, Tissue, form_without_load
+from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.rigs.vehicle.seat.occupants import SEATED_MASS
 from contact_sim_pkg.rigs.vehicle.seat.schema import CushionMap, SeatCushion
-from contact_sim_pkg.run.contact_laws import Cushion, PressingBody, build_cushion, layer_under
+from contact_sim_pkg.run.contact_laws import Cushion, PressingBody, build_cushion, foam_of, layer_under
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 
@@ -41,8 +46,8 @@ def build_seat_map(scene: ResolvedScene, cushion: Cushion | None) -> SeatMap | N
     return SeatMap(cushion.cells, round(scene.block_length * scene.outputs.field_rate), cushion.pressure)
 
 
-def pan_layer(keys: SeatCushion) -> FoamLayer:
-    """The foam layer of a cushion under its body."""
+def pan_layer(keys: SeatCushion) -> FoamLayer | PlateUnderTissue:
+    """The foam layer of a cushion, or the plate in its place, under its body."""
     return layer_under(keys, _body(keys))
 
 
@@ -52,5 +57,18 @@ def _body(keys: SeatCushion) -> PressingBody:
     rows, cols = round((BEHIND + AHEAD) / cell), 2 * round(HALF_WIDTH / cell)
     x = (numpy.arange(rows, dtype=numpy.float64) - round(BEHIND / cell)) * cell
     y = (numpy.arange(cols, dtype=numpy.float64) - 0.5 * (cols - 1)) * cell
-    sitter, tilt = PERCENTILES[given(keys.percentile)], keys.thigh_tilt
-    return PressingBody(x, y, (sitter, tilt), lambda x, y: pan_gap(sitter, x, y, tilt))
+    percentile, tilt = given(keys.percentile), keys.thigh_tilt
+    sitter = PERCENTILES[percentile]
+    if keys.tissue is None:
+        return PressingBody(x, y, (sitter, tilt), lambda x, y: pan_gap(sitter, x, y, tilt))
+    # The form of a percentile is that on the default foam under the weight that it has there.
+    tissue, weight = Tissue(keys.tissue, given(keys.tissue_depth)), SEATED_MASS[percentile] * GRAVITY
+    default = SeatCushion()
+    sizes = (sitter, tilt, weight, foam_of(default), default.shear_share)
+
+    def free_form(x: Vector, y: Vector) -> NDArray[numpy.float64]:
+        grid = FoamGrid(len(x), len(y), cell, cell)
+        reference = at_load(FoamLayer(grid, foam_of(default), pan_gap(sitter, x, y), default.shear_share), weight)
+        return form_without_load(pan_gap(sitter, x, y, tilt), tissue, reference.pressure)
+
+    return PressingBody(x, y, sizes, free_form, tissue, keys.carrier == "plate")

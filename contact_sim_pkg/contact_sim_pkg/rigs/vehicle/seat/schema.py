@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 else:
     ModelName = Literal[NAMES]
 
+TISSUE_DEPTH = 0.01
+"""[m] c0 of soft tissue, where a scene names none."""
+
 REFERENCE_MASS = 50.8  # [kg] under which a reversal takes 1 J
 
 Mass: TypeAlias = Annotated[float, Field(ge=0.05, le=1000.0)]
@@ -230,9 +233,19 @@ class SeatLoss(HuntCrossley):
 
 class SeatCushion(CushionSection):
     """Foam cushion of finite thickness under buttocks and thighs, in place of normal_elastic: its
-    force is the integral of its pressure.
+    force is the integral of its pressure. With tissue the body spreads on a harder seat: its form is
+    that on the default foam under its own weight.
     """
 
+    carrier: Literal["foam", "plate"] = choice(
+        "foam on a rigid base, or a rigid plate, which needs tissue", default="foam"
+    )
+    tissue: float | None = number(
+        100.0, 1e5, "Pa",
+        "A of the soft tissue, p = A (exp(c/c₀) − 1) at the compression c; 2000 by measured thickness; none: the body is rigid",
+        default=None,
+    )  # fmt: skip
+    tissue_depth: float | None = number(0.002, 0.05, "m", "c₀ of the tissue; 0.01 beside tissue", default=None)
     thigh_tilt: float = number(
         -0.2,
         0.2,
@@ -243,7 +256,8 @@ class SeatCushion(CushionSection):
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
         percentile = scene.section(SeatSection).occupant.percentile or USUAL_PERCENTILE
-        return {**super().open_values(scene), "percentile": percentile}
+        depth = {} if self.tissue is None else {"tissue_depth": TISSUE_DEPTH}
+        return {**super().open_values(scene), "percentile": percentile, **depth}
 
 
 class SeatHysteresis(FoamHysteresisSection):

@@ -19,6 +19,9 @@ from contact_sim_pkg.scene.schema.law_rules import unused
 from contact_sim_pkg.scene.schema.scene import Scene
 
 LIGHTEST = 0.1  # [kg] of a frame that is not massless: a lighter one swings faster than the rest by far
+FOAM_KEYS = (
+    "thickness", "modulus", "plateau", "densification", "densification_exponent", "hardness", "shear_share", "cover",
+)  # fmt: skip
 VALUES = ("frame_mass", "masses", "links", "stiffness", "damping", "head")
 
 
@@ -38,15 +41,34 @@ def occupant_breaches(scene: Scene) -> Iterator[Breach]:
 
 
 def cushion_breaches(scene: Scene) -> Iterator[Breach]:
-    """Values of the half-space beside a cushion, which has a foam and a body of its own."""
-    if scene.effect("seat", SeatCushion) is None:
+    """Values of the half-space beside a cushion, which has a foam and a body of its own; values of a
+    cushion that nothing uses.
+    """
+    cushion = scene.effect("seat", SeatCushion)
+    if cushion is None:
         return
+    yield from _carrier_breaches(cushion)
     seat, uses = scene.section(SeatSection), ("effects.seat.cushion",)
     sentence = "acts in half_space_field; the cushion has a foam and a body of its own; remove it"
     yield from unused("seat.body", seat.body, sentence, uses)
     for name in ("cushion_modulus", "cushion_poisson"):
         if getattr(seat, name) != SeatSection.model_fields[name].default:
             yield Breach(f"seat.{name}", sentence, uses)
+
+
+def _carrier_breaches(cushion: SeatCushion) -> Iterator[Breach]:
+    """A plate without tissue, foam on a plate, a depth of no tissue."""
+    where = "effects.seat.cushion"
+    if cushion.tissue is None and cushion.tissue_depth is not None:
+        yield Breach(f"{where}.tissue_depth", "acts beside tissue, of which there is none", (f"{where}.tissue",))
+    if cushion.carrier == "foam":
+        return
+    if cushion.tissue is None:
+        sentence = "a rigid body touches a rigid plate at points; give the body tissue, 2000 by measured thickness"
+        yield Breach(f"{where}.carrier", sentence, (f"{where}.tissue",))
+    for name in FOAM_KEYS:
+        if getattr(cushion, name) != SeatCushion.model_fields[name].default:
+            yield Breach(f"{where}.{name}", "acts in foam, the carrier is a plate; remove it", (f"{where}.carrier",))
 
 
 def response_breaches(scene: Scene) -> Iterator[Breach]:

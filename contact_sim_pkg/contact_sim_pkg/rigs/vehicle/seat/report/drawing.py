@@ -5,7 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from contact_sim_pkg.report.sketch import Part, at, floor_part, foam, leaning, listed, sitter, spring_and_damper
+from contact_sim_pkg.report.sketch import (
+    AXIS,
+    Part,
+    Sketch,
+    at,
+    floor_part,
+    foam,
+    leaning,
+    listed,
+    sitter,
+    spring_and_damper,
+)
 
 
 def seat_parts(scene: Mapping[str, Any]) -> list[Part]:
@@ -20,10 +31,22 @@ def seat_parts(scene: Mapping[str, Any]) -> list[Part]:
     return [
         *floor_part(scene),
         *_suspension(scene),
-        Part("foam", at(scene, "effects.seat.cushion.thickness", "{:.0f} mm", 1e3), foam),
+        _carrier(scene),
         Part("occupant", listed(f"{sum(masses):.3g} kg" if any(masses) else "", model),
              leaning if "backrest" in scene else sitter),
     ]  # fmt: skip
+
+
+def _carrier(scene: Mapping[str, Any]) -> Part:
+    """Foam, or the plate in its place."""
+    if at(scene, "effects.seat.cushion.carrier", "{}") == "plate":
+        return Part("plate", "", _plate)
+    return Part("foam", at(scene, "effects.seat.cushion.thickness", "{:.0f} mm", 1e3), foam)
+
+
+def _plate(sketch: Sketch, y: float) -> float:
+    sketch.box(AXIS - 44.0, y, AXIS + 44.0, y + 6.0, "fill")
+    return y + 6.0
 
 
 def _suspension(scene: Mapping[str, Any]) -> list[Part]:

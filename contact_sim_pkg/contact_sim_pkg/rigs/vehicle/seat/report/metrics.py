@@ -32,6 +32,8 @@ from contact_sim_pkg.rigs.vehicle.travel_report import travel_metrics
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY
 
 SEAT = "seat"
+HARD_SEAT = "hard_seat"
+"""Kind of a map under tissue, of which no bands are published: those of `cushion` are of car seats."""
 FOLLOW = (".hours_to_action", ".dose_estimated")
 
 
@@ -182,14 +184,23 @@ def _way_to_seat(make: Callable[..., Metric], signals: RideSignals, doubts: tupl
 
 def cushion_metrics(recording: Recording, maker: Maker, errors: Errors) -> list[Metric]:
     """How the cushion carries: pressures and area of its map, or how deep the sitter sinks."""
-    field, contact = recording.fields.get(SEAT), recording.contacts[SEAT]
+    field, contact, keys = recording.fields.get(SEAT), recording.contacts[SEAT], _cushion_keys(recording)
     if field is not None:
-        return map_metrics(SEAT, field, maker, "cushion", errors)
-    keys = ((recording.scene.get("effects") or {}).get(SEAT) or {}).get("cushion")
+        return map_metrics(SEAT, field, maker, HARD_SEAT if "tissue" in keys else "cushion", errors)
     deepest = 1e3 * float(contact.approach.max())
     law = "range of the foam's law"
-    band = None if not keys else at_most(1e3 * VALID_STRAIN * float(keys["thickness"]), law, USUAL_RANGE)
+    # With tissue the approach is that of both.
+    band = (
+        None
+        if not keys or "tissue" in keys
+        else at_most(1e3 * VALID_STRAIN * float(keys["thickness"]), law, USUAL_RANGE)
+    )
     return [maker.make("sink", "deepest sink", deepest, "mm", band=band, count=contact.approach.size, basis=EVENT)]
+
+
+def _cushion_keys(recording: Recording) -> Mapping[str, Any]:
+    """Keys of the cushion; empty without one."""
+    return ((recording.scene.get("effects") or {}).get(SEAT) or {}).get("cushion") or {}
 
 
 def occupant_metrics(recording: Recording, make: Callable[..., Metric]) -> list[Metric]:
@@ -198,7 +209,7 @@ def occupant_metrics(recording: Recording, make: Callable[..., Metric]) -> list[
     if signals is None:
         return []
     found, touching = [], signals.force > 0.0
-    if touching.any():
+    if touching.any() and "tissue" not in _cushion_keys(recording):
         height = 1e3 * (H_POINT - float(signals.approach[touching].mean()))
         found.append(
             make("h_point", "H-point over the unloaded cushion", height, "mm", count=int(touching.sum()), basis=STATE)
