@@ -126,8 +126,8 @@ def make_table(
     """Table up to the farthest approach of what carries, each solution from the one before; it ends
     earlier where the contact comes too near to the edge of the cells, or foam beyond its strain.
 
-    spacing: [m]; farthest: [m], None: that of what carries; on_progress: is handed the part done, 0 to 1. Raises CushionError where that is so
-    before the third node.
+    spacing: [m]; farthest: [m], None: that of what carries; on_progress: is handed the part done, 0 to 1.
+    Raises CushionError where that is so before the third node.
     """
     require_positive("spacing", spacing, "m")
     nodes = 1 + round((layer.farthest if farthest is None else farthest) / spacing)
