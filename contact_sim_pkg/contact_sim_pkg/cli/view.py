@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import time
 import webbrowser
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from contact_sim_pkg.view.server import ViewServer
 
 LOOK_SECONDS = 0.02  # between two looks at the bag
+BEHIND = 10  # of niceness: what shows a bench must not keep it from its time
 
 
 @click.command("view")
@@ -74,6 +76,7 @@ def _follow(port: int, opened: bool) -> int:
     from contact_sim_pkg.nodes.processes.environment import node_arguments, set_default_environment
 
     set_default_environment()
+    os.nice(BEHIND)  # before DDS starts its threads
     from contact_sim_pkg.nodes.live_view import main
     from contact_sim_pkg.view.scope import Scope
     from contact_sim_pkg.view.server import ViewServer
