@@ -36,6 +36,7 @@ TESTED_IN = {
     "pressure.cushion.foam_layer": "pressure/cushion/test_foam_layer.py",
     "pressure.cushion.force_table": "pressure/cushion/test_force_table.py",
     "pressure.cushion.sitter": "pressure/cushion/test_sitter.py",
+    "pressure.cushion.tissue": "pressure/cushion/test_tissue.py",
     "pressure.field.belt": "pressure/field/test_belt.py",
     "pressure.field.extent": "rigs/vehicle/tire/report/test_tire_metrics.py",
     "pressure.field.filtering": "pressure/field/test_filtering.py",
