@@ -49,11 +49,6 @@ class Minimum(NamedTuple):
         """Residuals beyond the parameters."""
         return self.left.size - self.place.size
 
-    def is_beside(self, other: Field, scatter: float) -> bool:
-        """Whether another place lies within what chance can tell, in the picture of the slopes."""
-        moved = self.slope @ (other - self.place)
-        return float(moved @ moved) <= 9.0 * scatter**2 * self.place.size
-
 
 def minimum(at: At, start: Field, gain: float = GAIN) -> Minimum:
     """The least squares near ``start``, until a step would move the parameters by less than ``gain`` of their standard

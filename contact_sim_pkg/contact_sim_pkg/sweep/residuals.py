@@ -182,6 +182,8 @@ class SeriesResidual:
         if given[0, 0] > self.time[0] - self._most or given[0, -1] < self.end:
             raise too_short(given, self._to)
         needed = slice(None, int(numpy.searchsorted(given[0], self.end)) + 3)
+        if not numpy.isfinite(given[1, needed]).all():
+            raise SweepError(f"{self._to.name} of a run has values that are no numbers; narrow the ranges of --free")
         return interpolate.Akima1DInterpolator(*given[:, needed], method="makima")
 
     def _left(self, path: interpolate.Akima1DInterpolator, late: float) -> Field:
@@ -197,7 +199,7 @@ class SeriesResidual:
 
         step = 2.0 * self._most / (TRIED_SHIFTS - 1)
         options = {"xatol": 1e-6 * self._most}
-        while True:
+        for _ in range(2):
             if math.isnan(self._late):
                 tried = numpy.linspace(-self._most, self._most, TRIED_SHIFTS)
                 self._late = float(tried[numpy.argmin([square(float(each)) for each in tried])])
@@ -207,7 +209,8 @@ class SeriesResidual:
             is_inside = min(found - bounds[0], bounds[1] - found) > 1e-3 * step
             self._late = found if is_inside else math.nan
             if is_inside or self._most - abs(found) < 1e-3 * step:
-                return found
+                break
+        return found  # of a run that stands still as good as any
 
 
 def _of_whiteness(left: Field) -> float:

@@ -20,9 +20,9 @@ FIRM = PAN._replace(thickness=0.04, modulus=1.1e5, plateau=8.4e3, densification=
 
 def stress(foam, strain):
     """Stress [Pa] of an even load, by the formula of models.md."""
-    stretch, a = 1.0 - strain, foam.modulus / foam.plateau
-    soft = foam.plateau * (1.0 / stretch - stretch ** (a - 1.0))
-    return soft + foam.densification * (stretch ** (-foam.densification_exponent - 1.0) - 1.0 / stretch)
+    ratio, a = 1.0 - strain, foam.modulus / foam.plateau
+    soft = foam.plateau * (1.0 / ratio - ratio ** (a - 1.0))
+    return soft + foam.densification * (ratio ** (-foam.densification_exponent - 1.0) - 1.0 / ratio)
 
 
 def sphere(radius):

@@ -136,20 +136,20 @@ def _load(ride: _Ride) -> Iterator[Metric]:
     if ride.event or ride.slips:
         yield from _load_of_event(ride, carried)
         return
-    doubts = _short(ride)
+    broken = _short(ride)
     lifted = 100.0 * float((normal <= 0.0).mean())
     lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
     largest, swing = float(normal.max()), float(carried.std())
     if ride.standing is not None:
         spread = spread_of_rms(carried - carried.mean(), rate) / ride.standing
         yield ride.make("dlc", "dynamic load coefficient", swing / ride.standing, "", quantity="dynamic_load",
-                        broken=doubts, count=count, spread=spread,
+                        broken=broken, count=count, spread=spread,
                         error=ride.errors.of_mean(TIRE, "force", swing, largest) / ride.standing)  # fmt: skip
-    yield ride.make("lift_off", "time off the road", lifted, "%", quantity="lift_off", broken=doubts, count=count,
+    yield ride.make("lift_off", "time off the road", lifted, "%", quantity="lift_off", broken=broken, count=count,
                     spread=spread_of_mean(np.where(normal <= 0.0, 100.0, 0.0), rate), error=100.0 * lifts / count,
                     remark=f"{lifts} times")  # fmt: skip
     band = None if ride.standing is None else near(ride.standing, 0.05, "weight, mean over the run")
-    yield ride.make("load", "load, mean", carried.mean(), "N", band=band, broken=doubts, count=count,
+    yield ride.make("load", "load, mean", carried.mean(), "N", band=band, broken=broken, count=count,
                     spread=spread_of_mean(carried, rate),
                     error=ride.errors.of_mean(TIRE, "force", float(carried.mean()), largest),
                     remark=f"{carried.min():.4g} to {carried.max():.4g} N")  # fmt: skip
@@ -157,7 +157,7 @@ def _load(ride: _Ride) -> Iterator[Metric]:
 
 def _load_of_event(ride: _Ride, carried: FloatArray) -> Iterator[Metric]:
     """What an obstacle does to the load, however long the run goes on behind it."""
-    times, count, normal, doubts = (
+    times, count, normal, broken = (
         ride.contact.time,
         carried.size,
         ride.contact.normal,
@@ -169,12 +169,12 @@ def _load_of_event(ride: _Ride, carried: FloatArray) -> Iterator[Metric]:
         ("load_smallest", "load, smallest", int(carried.argmin())),
     ):
         share = "" if ride.standing is None else f"{carried[place] / ride.standing:.3g} of the standing load, "
-        yield ride.make(key, name, carried[place], "N", count=count, basis=EVENT, error=error, broken=doubts,
+        yield ride.make(key, name, carried[place], "N", count=count, basis=EVENT, error=error, broken=broken,
                         remark=f"{share}at {times[place]:.3f} s")  # fmt: skip
     sample = 1e3 * ride.contact.sample_period
     lifts = int(np.count_nonzero((normal[1:] <= 0.0) & (normal[:-1] > 0.0)))
     yield ride.make("off_the_road", "time off the road", sample * float(np.count_nonzero(normal <= 0.0)), "ms", count=count,
-                    basis=EVENT, error=sample * max(1, lifts), broken=doubts)  # fmt: skip
+                    basis=EVENT, error=sample * max(1, lifts), broken=broken)  # fmt: skip
 
 
 def _before_obstacle(recording: Recording) -> tuple[str, ...]:
