@@ -19,8 +19,15 @@ def ride(**effects):
     return Recording("bag", {}, [], {}, [], {}, scene, None, None, None, 30.0)._replace(scene=scene, motion=motion)
 
 
-@pytest.mark.parametrize(("effects", "shaded"), [({}, True), ({"suspension": {"stiffness": 1e4}}, False)])
-def test_a_seat_on_a_suspension_has_its_peak_elsewhere(effects, shaded):
+@pytest.mark.parametrize(
+    ("effects", "shaded"),
+    [
+        ({}, True),
+        ({"suspension": {"stiffness": 1e4}}, False),
+        ({"cushion": {"tissue": 2e3, "carrier": "plate"}}, False),
+    ],
+)
+def test_a_seat_on_a_suspension_and_a_hard_one_have_their_peak_elsewhere(effects, shaded):
     with style():
         (section,) = [each for each in ride_sections(ride(**effects)) if each.key == "ride"]
     (picture,) = [each for each in section.pictures if each.name == "ride-transmissibility"]

@@ -17,8 +17,9 @@ def ride_sections(recording: Recording) -> list[Section]:
     signals = ride_signals(recording.motion)
     if signals is None:
         return []
-    # A seat on a suspension has its peak elsewhere
-    plain = ((recording.scene.get("effects") or {}).get("seat") or {}).get("suspension") is None
+    # A seat on a suspension, and a hard one, has its peak elsewhere
+    acting = (recording.scene.get("effects") or {}).get("seat") or {}
+    plain = acting.get("suspension") is None and (acting.get("cushion") or {}).get("tissue") is None
     pictures = [seat_spectrum(signals), seat_transmissibility(signals, published=plain)]
     sections = [Section("ride", "Seat vibration", [each for each in pictures if each is not None], part=FREQUENCY)]
     if travel := travel_picture(seat_travel(recording)):
