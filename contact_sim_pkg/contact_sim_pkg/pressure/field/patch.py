@@ -74,31 +74,29 @@ def contact_area(pressure: Field, cell_x: float, cell_y: float) -> float:
     length = 0.0
     for i in range(rows):
         for j in range(cols):
-            if pressure[i, j] > 0.0:
+            own = pressure[i, j]
+            if own > 0.0:
                 length += 2.0  # the cell along rows and along columns
-                if j == 0 or pressure[i, j - 1] == 0.0:
-                    length += beyond(pressure, i, j, 0, 1)
-                if j == cols - 1 or pressure[i, j + 1] == 0.0:
-                    length += beyond(pressure, i, j, 0, -1)
-                if i == 0 or pressure[i - 1, j] == 0.0:
-                    length += beyond(pressure, i, j, 1, 0)
-                if i == rows - 1 or pressure[i + 1, j] == 0.0:
-                    length += beyond(pressure, i, j, -1, 0)
+                if 0 < j < cols - 1:
+                    if pressure[i, j - 1] == 0.0:
+                        length += beyond(own, pressure[i, j + 1])
+                    if pressure[i, j + 1] == 0.0:
+                        length += beyond(own, pressure[i, j - 1])
+                if 0 < i < rows - 1:
+                    if pressure[i - 1, j] == 0.0:
+                        length += beyond(own, pressure[i + 1, j])
+                    if pressure[i + 1, j] == 0.0:
+                        length += beyond(own, pressure[i - 1, j])
     return 0.5 * length * cell_x * cell_y
 
 
 @kernel
-def beyond(pressure: Field, i: int, j: int, step_i: int, step_j: int) -> float:
-    """Reach of the contact beyond its outermost cell (i, j), -1/2 to 1/2 of a cell [1]; the step
-    leads inwards.
+def beyond(own: float, inner: float) -> float:
+    """Reach of the contact beyond the far side of its outermost cell, -1/2 to 1/2 of a cell [1].
 
-    pressure: [rows, cols] [Pa]. The square of the pressure is continued as a line (exact for a
-    Hertz edge).
+    own, inner: pressures of that cell and of the one before [Pa]. The square of the pressure is
+    continued as a line (exact for a Hertz edge). 0 where it does not fall outwards.
     """
-    rows, cols = pressure.shape
-    if not (0 <= i - step_i < rows and 0 <= j - step_j < cols and 0 <= i + step_i < rows and 0 <= j + step_j < cols):
+    if inner <= own:
         return 0.0
-    own, inner = pressure[i, j] ** 2, pressure[i + step_i, j + step_j] ** 2
-    if inner <= own:  # also where there is no inner cell
-        return 0.0
-    return float(min(own / (inner - own), 1.0)) - 0.5
+    return float(min(own * own / (inner * inner - own * own), 1.0)) - 0.5

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.held import Held, hold
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
+from contact_sim_pkg.compiled.vectors import copy_row
 from contact_sim_pkg.pressure.field.outside import total_of_row
 from contact_sim_pkg.pressure.settings import InflatedBelt
 from contact_sim_pkg.records.state import State
@@ -359,7 +360,7 @@ def _follow(
     step = borne.closer
     for i in range(rows):
         borne.missed[i] -= borne.load[i]
-    step[:] = borne.missed
+    copy_row(borne.missed, step)
     _spread(ring.more, borne.missed, step)
     along, square = 0.0, 0.0
     for i in range(rows):
@@ -376,7 +377,7 @@ def _follow(
     # How the belt lies then, but for what goes with the line load
     borne.yielded[:] = 0.0
     _spread(ring.yields, borne.line, borne.yielded)
-    borne.taken[:] = borne.opening
+    copy_row(borne.opening, borne.taken)
     for i in range(rows):
         borne.opening[i] = -borne.yielded[i]
     _spread(ring.along, borne.load, borne.opening)
