@@ -8,7 +8,7 @@ from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
 from contact_sim_pkg.rigs.vehicle.motion import columns, entries
-from contact_sim_pkg.rigs.vehicle.motion.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Seat, Seated, Vehicle
 from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 from contact_sim_pkg.studies.effects.effect_cost import HandWritten, bounce, rigs
 
@@ -19,7 +19,7 @@ def _shaken_seat(friction, fore_aft=0.0, count=1500):
     """States and forces of an occupant who is shaken until he leaves the cushion."""
     seat = Seat(0, numpy.array([6.7, 33.4]), numpy.array([[0, 1]]), numpy.array([[35776.0], [761.0]]))
     contact = Contact(NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), friction)
-    rig = Vehicle(9.81, (), (), seat, contact)
+    rig = Vehicle(9.81, (), (Seated(seat, contact),))
     states = 4 + (3 if friction else 0) + 2
     times = numpy.arange(count + 1) * 1e-3
     zeros, a_z, a_x = numpy.zeros(count + 1), 15.0 * numpy.sin(24.0 * times), fore_aft * numpy.sin(19.0 * times)

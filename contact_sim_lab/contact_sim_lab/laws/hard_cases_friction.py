@@ -18,7 +18,7 @@ from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
 from contact_sim_pkg.rigs.vehicle.motion import columns, entries
-from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle, rigid_occupant
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Seated, Vehicle, rigid_occupant
 from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 
 MASS, SPRING, BELT_SPEED, LOAD = 1.0, 100.0, 0.1, 9.81
@@ -159,7 +159,7 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     mass, gravity = 50.0, 9.81
     friction = Friction(2.0e4, 200.0, 0.4, 0.35)
     contact = Contact(NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), friction)
-    rig = Vehicle(gravity, (), (), rigid_occupant(mass), contact)
+    rig = Vehicle(gravity, (), (Seated(rigid_occupant(mass), contact),))
     count = 4000
     times = numpy.arange(count + 1) * 1e-3
     a_x, a_z = 6.0 * numpy.sin(2 * math.pi * 3.1 * times), 14.0 * numpy.sin(2 * math.pi * 4.0 * times)

@@ -30,7 +30,7 @@ STOP = Contact(NormalElastic(2e7, 2.0), NormalDissipative(0.8), None)
 
 def moved(elements, start, seconds, states=3, mode=0):
     """Times [s], states [samples, states], the mode of a friction and the change of the energies [J] of one mass."""
-    rig, length, count = Vehicle(GRAVITY, (Mass(0, MASS),), elements, None, None), 1e-3, round(1e3 * seconds)
+    rig, length, count = Vehicle(GRAVITY, (Mass(0, MASS),), elements), 1e-3, round(1e3 * seconds)
     state, mode = numpy.zeros(states + 2), numpy.array([0, mode], dtype=numpy.int64)
     state[: len(start)] = start
     scale = numpy.array([1e-11, 1e-10, *[1e-11] * (states - 2), numpy.inf, numpy.inf])

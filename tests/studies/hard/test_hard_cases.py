@@ -21,7 +21,7 @@ from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
 from contact_sim_pkg.rigs.vehicle.motion import columns, entries
-from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle, rigid_occupant
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Seated, Vehicle, rigid_occupant
 from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 
 CASES = hard_cases.all_cases()
@@ -145,7 +145,7 @@ def test_friction_never_chatters_nor_passes_its_limit_while_the_seat_shakes_and_
     contact = Contact(
         NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), Friction(stiffness, damping, static, static * ratio)
     )
-    rig = Vehicle(9.81, (), (), rigid_occupant(50.0), contact)
+    rig = Vehicle(9.81, (), (Seated(rigid_occupant(50.0), contact),))
     count = 1000
     times = numpy.arange(count + 1) * 1e-3
     a_x, a_z = shake_x * numpy.sin(19.0 * times), shake_z * numpy.sin(25.0 * times)

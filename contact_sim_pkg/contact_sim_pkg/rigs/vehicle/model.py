@@ -29,7 +29,7 @@ from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
 from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
 from contact_sim_pkg.rigs.vehicle.motion.ends import Floor, Pan, base_of
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
-from contact_sim_pkg.rigs.vehicle.motion.parameters import MasslessNode, Seat, Softening, Vehicle
+from contact_sim_pkg.rigs.vehicle.motion.parameters import Leaning, MasslessNode, Seat, Seated, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.motion.scales import POSITION_SCALE, VELOCITY_SCALE, contact_scale
 from contact_sim_pkg.rigs.vehicle.rest import settle
 from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
@@ -149,10 +149,9 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
     seat_contact = None if seat is None else _seat_contact(scene, seat, lean, cushion, seat_field, shape)
     masses, elements = ((), ()) if quarter is None else (quarter.masses, quarter.elements)
     masses, elements = (*masses, *(each.mass for each in acting.joined)), (*elements, *acting.elements)
-    rig = Vehicle(GRAVITY, masses, elements, seat, seat_contact)
-    if occupant is not None and seat is not None and seat_contact is not None and lean is not None:
-        last = _behind_foam(scene, seat, lean) + (0 if seat.softening is None else 1)
-        rig = rig._replace(back=build_back(lean, occupant, seat_contact, GRAVITY, last))
+    if occupant is not None and seat is not None and seat_contact is not None:
+        elements = (*elements, _seated(scene, occupant, seat, seat_contact, lean))
+    rig = Vehicle(GRAVITY, masses, elements)
     if tire is not None:
         load = standing_load(
             scene.section(tire_schema.TireSection), None if given_seat is None else given_seat.occupant
@@ -190,6 +189,16 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
         shaken=scene.vibration is not None,
         edge=sharp_edge(scene, None if tire_field is None else tire_field.usual.settings),
     )
+
+
+def _seated(
+    scene: ResolvedScene, occupant: OccupantModel, seat: Seat, contact: Contact, lean: Lean | None
+) -> Seated | Leaning:
+    """The occupant on the cushion, and against the seat back where there is one."""
+    if lean is None:
+        return Seated(seat, contact)
+    last = _behind_foam(scene, seat, lean) + (0 if seat.softening is None else 1)
+    return Leaning(seat, contact, build_back(lean, occupant, contact, GRAVITY, last))
 
 
 def _coupling(

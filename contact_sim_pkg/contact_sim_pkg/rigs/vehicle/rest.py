@@ -29,10 +29,11 @@ def settle(rig: Vehicle, modes: int, seated: float, state: Vector, road: tuple[f
     if rig.seat is not None:
         weights[places == base_of(rig.seat.floor)] += seated
     mode, out = numpy.zeros(1 + modes, dtype=numpy.int64), numpy.zeros_like(state)
+    unloaded = rig.unloaded()  # the occupant is a weight
 
     def left(heights: Vector) -> Vector:
         state[places] = heights
-        forces_of_elements(rig, mode, state, *road, out)
+        forces_of_elements(unloaded, mode, state, *road, out)
         return out[places + 1] - weights
 
     heights = state[places]

@@ -78,7 +78,7 @@ def _rub(friction, ground, mode, state, out):
 
 
 @borrowing_kernel
-def _rub_events(friction, ground, mode, state, first, out):
+def _rub_events(friction, ground, mode, state, derivative, first, out):
     _travel, rate = between(friction.lower, friction.upper, state)
     now = mode[friction.mode]
     if now == STICK:

@@ -7,13 +7,16 @@ table of a law, since what is passed to a kernel costs by its width); its kernel
 * ``act`` adds its forces [N] in the places of the accelerations, writes the rates of its own states, and returns
   ``lost, brought, stored, kept``: the power [W] that it dissipates, that which it brings in from outside, the energy
   [J] that it holds, and what of this is among the losses all the same. So an energy stands where its force stands.
-* ``finish`` runs when the accelerations are known, and returns power [W] brought in.
+* ``finish`` runs when the accelerations of the table's masses are known, and returns power [W] brought in. An element
+  with masses of its own turns the forces on them into rates here.
+* ``energies`` returns the kinetic and potential energy [J] of such masses.
 * ``events`` writes its event functions, of which there are ``event_count``.
 * ``transition`` answers where one of them has changed its sign, as `integrate/interface.mode_transition`. A class that has
   one has a mode, and its ``events`` sees the modes: an array that others need not pay for.
+* ``needs_rate`` says whether its events are functions of the rates of the state in this mode.
 * ``observe`` writes its columns of the samples (``motion/columns.py``).
 
-``ground``: ``motion/ground.Ground``; state, out, derivative: [states] of the rig.
+``ground``: ``motion/ground.Ground``; state, out, derivative: [states] of the rig. The rates are 0 before the first acts.
 """
 
 from __future__ import annotations
@@ -25,7 +28,7 @@ from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel_overload
 from contact_sim_pkg.rigs.vehicle.motion.ground import Ground
 
-__all__ = ["act", "events", "events_of", "finish", "observe", "register_element", "transition"]
+__all__ = ["act", "energies", "events", "events_of", "finish", "need_rate", "observe", "register_element", "transition"]
 
 Work = tuple[float, float, float, float]
 Elements = tuple[Any, ...]
@@ -34,6 +37,11 @@ Elements = tuple[Any, ...]
 @borrowing_kernel
 def _finishes_at_once(element, ground, state, out):
     return 0.0
+
+
+@borrowing_kernel
+def _without_masses(element, gravity, state):
+    return 0.0, 0.0
 
 
 @borrowing_kernel
@@ -47,7 +55,12 @@ def _without_modes(element, ground, mode, state, event, direction):
 
 
 @borrowing_kernel
-def _unobserved(element, ground, state, out):
+def _without_rate(element, mode):
+    return False
+
+
+@borrowing_kernel
+def _unobserved(element, ground, mode, state, out):
     pass
 
 
@@ -58,6 +71,8 @@ class _Kernels(NamedTuple):
     event_count: int
     transition: Callable[..., float]
     observe: Callable[..., None]
+    energies: Callable[..., tuple[float, float]]
+    needs_rate: Callable[..., bool]
 
     @property
     def has_modes(self) -> bool:
@@ -77,13 +92,18 @@ def register_element(
     event_count: int = 0,
     transition: Callable[..., float] = _without_modes,
     observe: Callable[..., None] = _unobserved,
+    energies: Callable[..., tuple[float, float]] = _without_masses,
+    needs_rate: Callable[..., bool] = _without_rate,
 ) -> None:
     """Register the kernels of a class of elements: ``act(element, ground, mode, state, out)``, ``finish(element,
-    ground, state, out)``, ``events(element, ground, state, first, out)`` from place ``first`` on, or with modes
-    ``events(element, ground, mode, state, first, out)`` and ``transition(element, ground, mode, state, event, direction)``
-    of its event number ``event``, and ``observe(element, ground, state, out)``.
+    ground, state, out)``, ``events(element, ground, state, first, out)`` from place ``first`` on,
+    ``observe(element, ground, mode, state, out)`` and ``energies(element, gravity, state)``.
+
+    With modes: ``events(element, ground, mode, state, derivative, first, out)``, ``transition(element, ground, mode,
+    state, event, direction)`` of its event number ``event``, and ``needs_rate(element, mode)``: only where this is true
+    does ``derivative`` belong to ``state``.
     """
-    _KERNELS[element_class] = _Kernels(act, finish, events, event_count, transition, observe)
+    _KERNELS[element_class] = _Kernels(act, finish, events, event_count, transition, observe, energies, needs_rate)
 
 
 def events_of(elements: Elements) -> int:
@@ -103,13 +123,28 @@ def finish(elements: Elements, ground: Ground, state: Vector, out: Vector) -> fl
     return sum(_KERNELS[type(each)].finish(each, ground, state, out) for each in elements)
 
 
-def events(elements: Elements, ground: Ground, mode: Modes, state: Vector, first: int, out: Vector) -> None:
+def energies(elements: Elements, gravity: float, state: Vector) -> tuple[float, float]:
+    """Kinetic and potential energy [J] of masses that elements bring themselves; ``gravity`` [m/s^2]."""
+    each = [_KERNELS[type(element)].energies(element, gravity, state) for element in elements]
+    return sum(one[0] for one in each), sum(one[1] for one in each)
+
+
+def events(
+    elements: Elements, ground: Ground, mode: Modes, state: Vector, derivative: Vector, first: int, out: Vector
+) -> None:
     """Write the event functions of all elements from place ``first`` on into ``out``."""
     for each in elements:
         kernels = _KERNELS[type(each)]
-        seen = (ground, mode, state) if kernels.has_modes else (ground, state)
-        kernels.events(each, *seen, first, out)
+        if kernels.has_modes:
+            kernels.events(each, ground, mode, state, derivative, first, out)
+        else:
+            kernels.events(each, ground, state, first, out)
         first += kernels.event_count
+
+
+def need_rate(elements: Elements, mode: Modes) -> bool:
+    """Whether the event functions of any element depend on the rates of the state."""
+    return any(_KERNELS[type(each)].needs_rate(each, mode) for each in elements)
 
 
 def transition(elements: Elements, ground: Ground, mode: Modes, state: Vector, event: int, direction: float) -> float:
@@ -124,10 +159,10 @@ def transition(elements: Elements, ground: Ground, mode: Modes, state: Vector, e
     return direction
 
 
-def observe(elements: Elements, ground: Ground, state: Vector, out: Vector) -> None:
+def observe(elements: Elements, ground: Ground, mode: Modes, state: Vector, out: Vector) -> None:
     """Write the columns of all elements into ``out``, a row of samples."""
     for each in elements:
-        _KERNELS[type(each)].observe(each, ground, state, out)
+        _KERNELS[type(each)].observe(each, ground, mode, state, out)
 
 
 def _kernels_of_first(elements: Any) -> _Kernels:
@@ -168,21 +203,47 @@ def _finish(elements, ground, state, out):
     return implementation
 
 
+@kernel_overload(energies, thin=True)
+def _energies(elements, gravity, state):
+    if not any(_KERNELS[each.instance_class].energies is not _without_masses for each in elements):
+        return lambda elements, gravity, state: (0.0, 0.0)
+    of_first = _kernels_of_first(elements).energies
+
+    def implementation(elements, gravity, state):
+        kinetic, potential = of_first(elements[0], gravity, state)
+        others = energies(elements[1:], gravity, state)
+        return kinetic + others[0], potential + others[1]
+
+    return implementation
+
+
 @kernel_overload(events, thin=True)
-def _events(elements, ground, mode, state, first, out):
+def _events(elements, ground, mode, state, derivative, first, out):
     if not len(elements):
-        return lambda elements, ground, mode, state, first, out: None
+        return lambda elements, ground, mode, state, derivative, first, out: None
     of_first, count = _kernels_of_first(elements).events, _kernels_of_first(elements).event_count
 
-    def implementation(elements, ground, mode, state, first, out):
+    def implementation(elements, ground, mode, state, derivative, first, out):
         of_first(elements[0], ground, state, first, out)
-        events(elements[1:], ground, mode, state, first + count, out)
+        events(elements[1:], ground, mode, state, derivative, first + count, out)
 
-    def with_modes(elements, ground, mode, state, first, out):
-        of_first(elements[0], ground, mode, state, first, out)
-        events(elements[1:], ground, mode, state, first + count, out)
+    def with_modes(elements, ground, mode, state, derivative, first, out):
+        of_first(elements[0], ground, mode, state, derivative, first, out)
+        events(elements[1:], ground, mode, state, derivative, first + count, out)
 
     return with_modes if _kernels_of_first(elements).has_modes else implementation
+
+
+@kernel_overload(need_rate, thin=True)
+def _need_rate(elements, mode):
+    if not any(_KERNELS[each.instance_class].needs_rate is not _without_rate for each in elements):
+        return lambda elements, mode: False
+    of_first = _kernels_of_first(elements).needs_rate
+
+    def implementation(elements, mode):
+        return of_first(elements[0], mode) or need_rate(elements[1:], mode)
+
+    return implementation
 
 
 @kernel_overload(transition, thin=True)
@@ -200,13 +261,13 @@ def _transition(elements, ground, mode, state, event, direction):
 
 
 @kernel_overload(observe, thin=True)
-def _observe(elements, ground, state, out):
+def _observe(elements, ground, mode, state, out):
     if not len(elements):
-        return lambda elements, ground, state, out: None
+        return lambda elements, ground, mode, state, out: None
     of_first = _kernels_of_first(elements).observe
 
-    def implementation(elements, ground, state, out):
-        of_first(elements[0], ground, state, out)
-        observe(elements[1:], ground, state, out)
+    def implementation(elements, ground, mode, state, out):
+        of_first(elements[0], ground, mode, state, out)
+        observe(elements[1:], ground, mode, state, out)
 
     return implementation

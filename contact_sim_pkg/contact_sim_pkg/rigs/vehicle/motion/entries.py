@@ -16,26 +16,14 @@ from contact_sim_pkg.compiled.vectors import copy_row
 from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, set_event_directions
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
-from contact_sim_pkg.laws.contact_force import contact_energy, contact_force
-from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection
-from contact_sim_pkg.rigs.vehicle.motion import vehicle
-from contact_sim_pkg.rigs.vehicle.motion.columns import (
-    BACK_APPROACH,
-    BACK_NORMAL,
-    SEAT_APPROACH,
-    SEAT_HEIGHT,
-    SEAT_NORMAL,
-    SEAT_RATE,
-    SEAT_TANGENTIAL,
-    TIRE_SLOPE,
-)
+from contact_sim_pkg.rigs.vehicle.motion import vehicle  # noqa: F401 - registers the rig
+from contact_sim_pkg.rigs.vehicle.motion.columns import TIRE_SLOPE
 from contact_sim_pkg.rigs.vehicle.motion.elements import act, observe
+from contact_sim_pkg.rigs.vehicle.motion.elements import energies as energies_beside
 from contact_sim_pkg.rigs.vehicle.motion.ground import Ground, ground_at
 from contact_sim_pkg.rigs.vehicle.motion.heights import effective_between
-from contact_sim_pkg.rigs.vehicle.motion.leaning import back_approach, back_energy, back_force, pan_friction, slid
-from contact_sim_pkg.rigs.vehicle.motion.masses import clear, energies_of_masses
+from contact_sim_pkg.rigs.vehicle.motion.masses import energies_of_masses
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Vehicle
-from contact_sim_pkg.rigs.vehicle.motion.seat import seat_energies, seat_mass, slide_index
 
 Rates: TypeAlias = "tuple[Vector | None, Vector | None]"
 """Of the heights of road and cushion [m/s]."""
@@ -90,23 +78,8 @@ def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z, 
 
 @borrowing_kernel
 def _observe(rig, drive, mode, state, out):
-    """Forces, approaches and heights of both contacts at the start of the segment."""
-    ground = ground_at(drive, drive.start)
-    observe(rig.elements, ground, state, out)
-    seat_x, seat_v = vehicle.seat_approach(
-        rig.seat, rig.seat_contact, rig.back, ground.cushion, ground.cushion_rate, state
-    )
-    seat_normal = contact_force(rig.seat_contact, seat_x, seat_v, state)
-    out[SEAT_NORMAL] = seat_normal
-    out[SEAT_TANGENTIAL] = -pan_friction(
-        vehicle._friction_of(rig.seat_contact), rig.back, rig.seat, mode, seat_normal, state
-    )
-    out[SEAT_APPROACH] = seat_x
-    out[SEAT_HEIGHT] = ground.cushion
-    out[SEAT_RATE] = seat_v
-    back_x, back_v = back_approach(rig.back, rig.seat, state)
-    out[BACK_NORMAL] = back_force(rig.back, back_x, back_v, state)
-    out[BACK_APPROACH] = back_x
+    """The columns of all elements at the start of the segment."""
+    observe(rig.elements, ground_at(drive, drive.start, rig.gravity), mode, state, out)
 
 
 @entry
@@ -193,25 +166,6 @@ def _advance(
     return DONE
 
 
-@borrowing_kernel
-def _spring_energy(friction, back, seat, mode, normal, state):
-    if friction is None:
-        return 0.0
-    deflection = state[slide_index(seat) + 2]
-    if mode[0] == SLIP_FORWARD or mode[0] == SLIP_BACKWARD:
-        deflection = following_deflection(friction, mode[0], normal, slid(back, seat, state))
-    return 0.5 * friction.stiffness * deflection**2
-
-
-@borrowing_kernel
-def _slide_energies(friction, back, seat, mode, normal, state):
-    """Kinetic energy of x and what the spring of friction holds in [J]."""
-    if friction is None and back is None:
-        return 0.0, 0.0
-    velocity = state[slide_index(seat) + 1]
-    return 0.5 * seat_mass(seat) * velocity**2, _spring_energy(friction, back, seat, mode, normal, state)
-
-
 @entry
 def forces_of_elements(
     rig: Vehicle, mode: Modes, state: Vector, height: float, height_rate: float, out: Vector
@@ -220,8 +174,8 @@ def forces_of_elements(
 
     ``height`` [m] of the road and its rate [m/s]; the floor is at rest.
     """
-    ground = Ground(height, height_rate, 0.0, 0.0, 0.0, 0.0, 0.0)
-    clear(rig.masses, out)
+    ground = Ground(height, height_rate, 0.0, 0.0, 0.0, 0.0, 0.0, rig.gravity)
+    out[:] = 0.0
     act(rig.elements, ground, mode, state, out)
 
 
@@ -265,24 +219,11 @@ def energies(
 @kernel
 def _energies(rig, mode, state, height, cushion):
     """See ``energies``."""
-    ground = Ground(height, 0.0, cushion, 0.0, 0.0, 0.0, 0.0)
+    ground = Ground(height, 0.0, cushion, 0.0, 0.0, 0.0, 0.0, rig.gravity)
     kinetic, potential = energies_of_masses(rig.masses, rig.gravity, state)
+    beside = energies_beside(rig.elements, rig.gravity, state)
     _lost, _brought, stored, kept = act(rig.elements, ground, mode, state, numpy.zeros_like(state))
-    # The occupant on its cushion, whose friction has a spring and whose foam has a memory.
-    seat_kinetic, seat_potential, seat_stored = seat_energies(rig.seat, rig.gravity, state)
-    seat_x, _seat_v = vehicle.seat_approach(rig.seat, rig.seat_contact, rig.back, cushion, 0.0, state)
-    normal = contact_force(rig.seat_contact, seat_x, _seat_v, state)
-    slide_kinetic, spring = _slide_energies(
-        vehicle._friction_of(rig.seat_contact), rig.back, rig.seat, mode, normal, state
-    )
-    in_cushion, hysteresis = contact_energy(rig.seat_contact, seat_x, state)
-    back_x, _back_v = back_approach(rig.back, rig.seat, state)
-    in_back, back_hysteresis = back_energy(rig.back, back_x, state)
-    kept += spring + hysteresis + back_hysteresis
-    stored += seat_stored + spring + hysteresis + back_hysteresis
-    stored += in_cushion + in_back
     # The last two states are the works supplied and dissipated; what is still stored is no loss
     # yet.
     last = state.shape[0]
-    kinetic += seat_kinetic + slide_kinetic
-    return kinetic, potential + seat_potential, stored, state[last - 2], state[last - 1] - kept
+    return kinetic + beside[0], potential + beside[1], stored, state[last - 2], state[last - 1] - kept

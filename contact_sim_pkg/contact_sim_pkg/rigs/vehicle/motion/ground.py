@@ -1,4 +1,4 @@
-"""The ground of a vehicle at an instant: heights of road and cushion, accelerations of the floor, and the push of
+"""The ground of a vehicle at an instant: heights of road and cushion, accelerations of the floor, gravity, and the push of
 the road's asperities, between the ends of a segment.
 """
 
@@ -21,6 +21,7 @@ class Ground(NamedTuple):
     acceleration_x: float  # [m/s^2] of the floor
     acceleration_z: float  # [m/s^2] of the floor, or what the drive line gives to the free body of a car
     push: float  # [N] that road asperities add to the tire's force in contact
+    gravity: float  # [m/s^2], > 0
 
 
 @borrowing_kernel
@@ -51,8 +52,8 @@ def _height_between(start, end, rate, rate_end, length, part):
 
 
 @borrowing_kernel
-def ground_at(drive, time):
-    """The ground at ``time`` [s] within the segment of a ``drive`` (``integrate/drive.py``)."""
+def ground_at(drive, time, gravity):
+    """The ground at ``time`` [s] within the segment of a ``drive`` (``integrate/drive.py``), under ``gravity`` [m/s^2]."""
     part = (time - drive.start) / drive.length
     height, height_rate = _height_between(
         drive.height_0, drive.height_1, drive.height_rate_0, drive.height_rate_1, drive.length, part
@@ -68,4 +69,5 @@ def ground_at(drive, time):
         _between(drive.acceleration_x_0, drive.acceleration_x_1, part),
         _between(drive.acceleration_z_0, drive.acceleration_z_1, part),
         _push_between(drive.push_0, drive.push_1, part),
+        gravity,
     )

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.laws.contact_force import contact_energy, contact_force, contact_lost_power
-from contact_sim_pkg.laws.friction import STICK, friction_force
+from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, STICK, following_deflection, friction_force
 from contact_sim_pkg.rigs.vehicle.motion.seat import seat_mass, slide_index
 
 
@@ -111,13 +111,9 @@ def _push_trunk(back, first, pushed, out):
 
 @borrowing_kernel
 def push_up(back, seat, normal, friction, pushed, out):
-    """Write the vertical forces [N] of pan and seat back into the places of the accelerations."""
-    if seat is None:
-        return
+    """Add the vertical forces [N] of pan and seat back in the places of the accelerations."""
     v = seat.offset + seat.masses.shape[0]
-    for i in range(1, seat.masses.shape[0]):
-        out[v + i] = 0.0
-    out[v] = _upward(back, normal, friction)
+    out[v] += _upward(back, normal, friction)
     _push_trunk(back, v, pushed, out)
 
 
@@ -139,20 +135,49 @@ def pan_friction(friction, back, seat, mode, normal, state):
 
 
 @borrowing_kernel
-def forward_rates(friction, back, seat, mode, forces, acceleration_x, state, out):
-    """Rates of x under the ``forces`` of pan, friction and seat back; returns the power that
-    friction takes up and the power that the floor's x motion brings in.
+def push_along(friction, back, seat, mode, forces, state, out):
+    """Add the force [N] along x of pan, friction and seat back, which are the ``forces`` [N], in the place of the
+    acceleration, and write the rate of the friction spring; returns the power [W] that friction takes, and that which
+    the push of feet or hands brings in.
     """
     if friction is None and back is None:
         return 0.0, 0.0
     x = slide_index(seat)
     velocity = slid(back, seat, state)
-    along, brought = _pushed(back, forces[0], forces[1], forces[2])
-    mass = seat_mass(seat)
-    out[x] = state[x + 1]
-    out[x + 1] = -acceleration_x + along / mass
+    along, preload = _pushed(back, forces[0], forces[1], forces[2])
+    out[x + 1] += along
     out[x + 2] = _stuck(friction, mode, velocity)
-    return forces[1] * velocity, (brought - mass * acceleration_x) * state[x + 1]
+    return forces[1] * velocity, preload * state[x + 1]
+
+
+@borrowing_kernel
+def accelerate_along(friction, back, seat, acceleration_x, state, out):
+    """Turn the force [N] along x into rates; returns the power [W] that the floor's x motion brings in."""
+    if friction is None and back is None:
+        return 0.0
+    x, mass = slide_index(seat), seat_mass(seat)
+    out[x] = state[x + 1]
+    out[x + 1] = -acceleration_x + out[x + 1] / mass
+    return -mass * acceleration_x * state[x + 1]
+
+
+@borrowing_kernel
+def kinetic_along(friction, back, seat, state):
+    """Kinetic energy of x in [J]."""
+    if friction is None and back is None:
+        return 0.0
+    return 0.5 * seat_mass(seat) * state[slide_index(seat) + 1] ** 2
+
+
+@borrowing_kernel
+def spring_energy(friction, back, seat, mode, normal, state):
+    """What the spring of friction holds in [J] under a ``normal`` force [N]."""
+    if friction is None:
+        return 0.0
+    deflection = state[slide_index(seat) + 2]
+    if mode[0] == SLIP_FORWARD or mode[0] == SLIP_BACKWARD:
+        deflection = following_deflection(friction, mode[0], normal, slid(back, seat, state))
+    return 0.5 * friction.stiffness * deflection**2
 
 
 @borrowing_kernel

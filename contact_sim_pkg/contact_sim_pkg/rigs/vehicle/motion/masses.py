@@ -7,7 +7,7 @@ from typing import NamedTuple
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import kernel_overload
 
-__all__ = ["Mass", "accelerate", "clear", "energies_of_masses"]
+__all__ = ["Mass", "accelerate", "energies_of_masses"]
 
 
 class Mass(NamedTuple):
@@ -18,12 +18,6 @@ class Mass(NamedTuple):
 
 
 Masses = tuple[Mass, ...]
-
-
-def clear(masses: Masses, out: Vector) -> None:
-    """Make room for forces in the places of the accelerations in ``out`` [states]."""
-    for each in masses:
-        out[each.place + 1] = 0.0
 
 
 def accelerate(masses: Masses, field: float, state: Vector, out: Vector) -> None:
@@ -40,18 +34,6 @@ def energies_of_masses(masses: Masses, gravity: float, state: Vector) -> tuple[f
 
 
 # Each takes the first mass and leaves the others to itself: no loop over tuples.
-@kernel_overload(clear, thin=True)
-def _clear(masses, out):
-    if not len(masses):
-        return lambda masses, out: None
-
-    def implementation(masses, out):
-        out[masses[0].place + 1] = 0.0
-        clear(masses[1:], out)
-
-    return implementation
-
-
 @kernel_overload(accelerate, thin=True)
 def _accelerate(masses, field, state, out):
     if not len(masses):

@@ -1,4 +1,4 @@
-"""Parameter tuples of the vehicle: its masses and elements, and the seat.
+"""Parameter tuples of the vehicle: its masses and elements, and the occupant on the seat.
 
 An effect that a scene does not call for is ``None`` in place of its tuple (decision 0001). SI
 units; all numbers are ``float`` unless stated otherwise.
@@ -74,16 +74,52 @@ class Back(NamedTuple):
     contact: Contact
 
 
+class Seated(NamedTuple):
+    """Element: an occupant on a cushion (``rigs/vehicle/motion/seated.py``)."""
+
+    seat: Seat
+    contact: Contact  # of the first mass with the cushion
+    back: None = None
+
+
+class Leaning(NamedTuple):
+    """Element: an occupant on a cushion who leans on a seat back, on a floor that is the frame of reference."""
+
+    seat: Seat
+    contact: Contact
+    back: Back
+
+
 class Vehicle(NamedTuple):
-    """Rig of seat and tire: masses and what acts between them, and the occupant on its cushion, who may
-    be absent (``None``).
+    """Rig of seat and tire: masses, and what acts between them.
 
     Without masses the motion is relative to the floor, which is then an accelerated frame.
     """
 
     gravity: float  # [m/s^2], > 0
     masses: tuple[Mass, ...]
-    elements: tuple[Element, ...]  # in the order in which forces are added
-    seat: Seat | None
-    seat_contact: Contact | None
-    back: Back | None = None  # only on a floor that is the frame of reference
+    elements: tuple[Element, ...]  # in the order in which forces are added; an occupant last
+
+    @property
+    def seated(self) -> Seated | Leaning | None:
+        """The occupant; None without one."""
+        return next((each for each in self.elements if isinstance(each, Seated | Leaning)), None)
+
+    @property
+    def seat(self) -> Seat | None:
+        """The occupant's masses and links."""
+        return None if self.seated is None else self.seated.seat
+
+    @property
+    def seat_contact(self) -> Contact | None:
+        """Laws between occupant and cushion."""
+        return None if self.seated is None else self.seated.contact
+
+    @property
+    def back(self) -> Back | None:
+        """The seat back."""
+        return None if self.seated is None else self.seated.back
+
+    def unloaded(self) -> Vehicle:
+        """The rig without its occupant."""
+        return self._replace(elements=tuple(each for each in self.elements if each is not self.seated))

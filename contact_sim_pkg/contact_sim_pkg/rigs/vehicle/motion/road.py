@@ -50,7 +50,7 @@ def _events(contact, ground, state, first, out):
 
 
 @borrowing_kernel
-def _observe(contact, ground, state, out):
+def _observe(contact, ground, mode, state, out):
     approach, rate = _approach(contact, ground, state)
     out[TIRE_NORMAL] = contact_force(contact.law, approach, rate, state)
     out[TIRE_APPROACH] = approach
@@ -71,7 +71,7 @@ def _push(push, ground, mode, state, out):
 
 
 @borrowing_kernel
-def _observe_push(push, ground, state, out):
+def _observe_push(push, ground, mode, state, out):
     out[TIRE_PUSH] = _pushed(push, ground, state)
 
 

@@ -30,8 +30,6 @@ ROUNDING = 1.0e-14  # of the force: nearer to 0 the balance cannot come
 @borrowing_kernel
 def seat_mass(seat):
     """Mass of the whole occupant in [kg]."""
-    if seat is None:
-        return 0.0
     total = 0.0
     for i in range(seat.masses.shape[0]):
         total += seat.masses[i]
@@ -79,6 +77,20 @@ def _pull(seat, number, softness, state):
 
 
 @borrowing_kernel
+def pull_links(seat, state, out):
+    """Add the forces [N] of all links in the places of the accelerations; returns the power [W] that they lose."""
+    v = seat.offset + seat.masses.shape[0]
+    lost = 0.0
+    softness = _softness(seat.softening, state)
+    for number in range(seat.ends.shape[0]):
+        pull, taken = _pull(seat, number, softness, state)
+        out[v + seat.ends[number, 0]] += pull
+        out[v + seat.ends[number, 1]] -= pull
+        lost += taken
+    return lost
+
+
+@borrowing_kernel
 def _accelerated(node, field, force, mass):
     """Acceleration of node 0 in [m/s^2]; of a massless one ``node_rate`` writes it."""
     if node is None:
@@ -87,38 +99,26 @@ def _accelerated(node, field, force, mass):
 
 
 @borrowing_kernel
-def seat_rates(seat, gravity, acceleration_z, state, out):
-    """Rates of the masses under the forces in [N] of cushion and seat back, which stand in the
-    places of their accelerations; returns the power that the links take and that the floor's motion
+def accelerate_masses(seat, ground, state, out):
+    """Turn the forces [N] in the places of the accelerations into rates; returns the power [W] that the floor's motion
     brings in.
     """
-    if seat is None:
-        return 0.0, 0.0
     # On no floor of its own the seat moves in the frame of the shaken one.
-    field = -gravity
+    field = -ground.gravity
     if is_shaken(seat.floor):
-        field -= acceleration_z
+        field -= ground.acceleration_z
     count = seat.masses.shape[0]
     z = seat.offset
     v = seat.offset + count
-    lost = 0.0
-    softness = _softness(seat.softening, state)
-    for number in range(seat.ends.shape[0]):
-        pull, taken = _pull(seat, number, softness, state)
-        out[v + seat.ends[number, 0]] += pull
-        out[v + seat.ends[number, 1]] -= pull
-        lost += taken
-    # `brought` is the momentum that the floor accelerates.
-    brought = seat.masses[0] * state[v]
+    # The momentum that the floor accelerates
+    momentum = seat.masses[0] * state[v]
     out[z] = state[v]
     out[v] = _accelerated(seat.node, field, out[v], seat.masses[0])
     for i in range(1, count):
         out[z + i] = state[v + i]
         out[v + i] = field + out[v + i] / seat.masses[i]
-        brought += seat.masses[i] * state[v + i]
-    if is_shaken(seat.floor):
-        return lost, -acceleration_z * brought
-    return lost, 0.0
+        momentum += seat.masses[i] * state[v + i]
+    return -ground.acceleration_z * momentum if is_shaken(seat.floor) else 0.0
 
 
 @borrowing_kernel
@@ -194,19 +194,12 @@ def node_rate(node, seat, contact, approach, approach_rate, cushion_acceleration
 
 
 @borrowing_kernel
-def softening_rate(seat, acceleration_z, state, out):
+def softening_rate(softening, seat, acceleration_z, state, out):
     """Write the rate of the mean square of the seat's acceleration; returns the power in [W] that
     the change of the springs brings in.
 
     ``acceleration_z`` [m/s^2] of the floor where that is the frame of reference.
     """
-    if seat is None:
-        return 0.0
-    return _softening_rate(seat.softening, seat, acceleration_z, state, out)
-
-
-@borrowing_kernel
-def _softening_rate(softening, seat, acceleration_z, state, out):
     if softening is None:
         return 0.0
     z = seat.offset
@@ -224,23 +217,25 @@ def _softening_rate(softening, seat, acceleration_z, state, out):
 
 
 @borrowing_kernel
-def seat_energies(seat, gravity, state):
-    """Kinetic, potential and stored energy of the occupant in [J]."""
-    if seat is None:
-        return 0.0, 0.0, 0.0
+def energies_of_seat(seat, gravity, state):
+    """Kinetic and potential energy of the occupant in [J]."""
     count = seat.masses.shape[0]
-    z = seat.offset
-    v = seat.offset + count
     kinetic = 0.0
     potential = 0.0
     for i in range(count):
-        kinetic += 0.5 * seat.masses[i] * state[v + i] ** 2
-        potential += gravity * seat.masses[i] * state[z + i]
+        kinetic += 0.5 * seat.masses[i] * state[seat.offset + count + i] ** 2
+        potential += gravity * seat.masses[i] * state[seat.offset + i]
+    return kinetic, potential
+
+
+@borrowing_kernel
+def energy_of_links(seat, state):
+    """What the springs of all links hold in [J]."""
     # A softened spring holds less only beyond its rest: k e (d - e) + 1/2 s k (d - e)^2 + 1/2 k e^2.
     stored = 0.0
     factor, _damping, _slope = _softness(seat.softening, state)
     for number in range(seat.ends.shape[0]):
         rest = _rest_of(seat.softening, number)
-        beyond = state[z + seat.ends[number, 1]] - state[z + seat.ends[number, 0]] - rest
+        beyond = state[seat.offset + seat.ends[number, 1]] - state[seat.offset + seat.ends[number, 0]] - rest
         stored += seat.springs[0, number] * (0.5 * factor * beyond**2 + rest * beyond + 0.5 * rest**2)
-    return kinetic, potential, stored
+    return stored
