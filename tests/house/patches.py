@@ -20,6 +20,7 @@ class Patch(NamedTuple):
 PATCHES = {
     "rig": Patch("24", "0 (a package of its own)"),
     "effect": Patch("10 to 20", "1 to 3"),
+    "effect that acts": Patch("10", "2 and a row", whole=True),
     "topic": Patch("14", "3"),
     "column": Patch("15", "3"),
     "obstacle": Patch("6", "1", whole=True),
@@ -27,9 +28,9 @@ PATCHES = {
 }
 
 
-def text_of(name: str) -> str:
+def file_of(name: str) -> Path:
     """The patch as `git diff` writes it."""
-    return (FOLDER / f"{name}.patch").read_text(encoding="utf-8")
+    return FOLDER / f"{name.replace(' ', '_')}.patch"
 
 
 def shared_files(name: str) -> list[str]:
@@ -38,5 +39,9 @@ def shared_files(name: str) -> list[str]:
 
     What commands write from the same definitions (`records/messages.pyi`, `config/sros2_policy.xml`) is in no patch.
     """
-    edited = re.findall(rf"^{r'[+]{3} b' if PATCHES[name].whole else '--- a'}/(\S+)$", text_of(name), re.MULTILINE)
+    edited = re.findall(
+        rf"^{r'[+]{3} b' if PATCHES[name].whole else '--- a'}/(\S+)$",
+        file_of(name).read_text(encoding="utf-8"),
+        re.MULTILINE,
+    )
     return [path for path in edited if not path.startswith(("tests/", "docs/"))]
