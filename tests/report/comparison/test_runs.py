@@ -9,11 +9,13 @@ from tests.rigs.backrest.report import backrest_bag as known
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.cli.report import command
 from contact_sim_pkg.compare.side_by_side import side_by_side
+from contact_sim_pkg.report.answer import answer_of
 from contact_sim_pkg.report.comparison.curves import compared
 from contact_sim_pkg.report.comparison.figures import COLOURS, make_runs
 from contact_sim_pkg.report.comparison.runs import distinct_names, render_comparison, write_comparison
 from contact_sim_pkg.report.comparison.tables import metric_table
 from contact_sim_pkg.report.drawing import style
+from contact_sim_pkg.report.metrics.listing import metrics_of
 from contact_sim_pkg.report.reading import MOST_RUNS, read_recording
 from contact_sim_pkg.rigs.backrest.report.figures_comparison import domain_comparison
 
@@ -39,6 +41,14 @@ def test_four_runs_lie_on_one_page_called_by_their_bags(page):
         name = f"{letter}: run_{each}"
         assert page.texts.count(name) >= 1 + 1 + 4, "in both tables and every legend"
         assert page.texts.count(f"{each} Hz") >= 1, "in the table of keys"
+
+
+def test_the_first_screen_has_the_verdict_of_every_run_beside_its_length(page, bags):
+    said = " ".join(page.texts)
+    for letter, each, bag in zip("ABCD", FREQUENCIES, bags, strict=True):
+        recording = read_recording(bag)
+        word = answer_of(recording, metrics_of(recording)).word.lower()
+        assert f"{letter}: run_{each} of {recording.duration:.4g} s, {word}" in said
 
 
 def test_the_table_has_the_metrics_of_every_run(bags):

@@ -12,6 +12,7 @@ from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.compare.side_by_side import Compared, side_by_side
 from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.report.answer import answer_of
 from contact_sim_pkg.report.arrangement import Entry, arranged, folds_of
 from contact_sim_pkg.report.arrangement import leading as leading_pictures
 from contact_sim_pkg.report.comparison.aligned import MapPair, compare_maps, is_mat
@@ -107,7 +108,7 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
         "title": " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings)),
         "count": len(recordings), "answer": answer_of_runs(names, moved, named, unfinished),
         "conditions": conditions_of([
-            Part("", ", ".join(f"{name} of {each.duration:.4g} s" for name, each in zip(names, recordings, strict=True))),
+            Part("", "; ".join(map(_of_run, sides, recordings))),
             *_common_parts(recordings),
         ]),
         "warnings": [f"{each.name}: {text}" for each in recordings for text in warnings(each)],
@@ -120,6 +121,12 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
         "commands": _commands([each.name for each in recordings]),
         "data": Markup(data_of_runs(letters, recordings, films)),  # noqa: S704 - made by json
     }, scripts=True)  # fmt: skip
+
+
+def _of_run(side: Compared, recording: Recording) -> str:
+    """`A: seat_soft of 20 s, good`: a mat, and a bag without its scene, have no verdict."""
+    verdict = f", {answer_of(recording, side.metrics).word.lower()}" if recording.scene and side.metrics else ""
+    return f"{side.name} of {recording.duration:.4g} s{verdict}"
 
 
 def _common_parts(recordings: Sequence[Recording]) -> list[Part]:
