@@ -114,8 +114,10 @@ def table_of(bag: Bag, topic: str) -> TopicTable:
 
 
 def table_of_records(topic: str, times: Sequence[float], records: Sequence[Any]) -> TopicTable:
-    """The same of records of one type that have not been written, which `has_columns`; ``times`` [s] of each; without maps."""
-    fields = sorted_fields(list(definition_of(type(records[0]).__name__).fields))
+    """The same of records of one type that have not been written, which `has_columns`; ``times`` [s] of each; without maps and
+    their sizes.
+    """
+    fields = sorted_fields(list(definition_of(type(records[0]).__name__).record_fields))
     return TopicTable(topic, _columns(np.asarray(times, np.float64), records, fields), [])
 
 

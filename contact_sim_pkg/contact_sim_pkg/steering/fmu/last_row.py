@@ -58,7 +58,8 @@ class _Row:
 
     def __init__(self, topic: str, places: dict[str, int]) -> None:
         left = dict(places)
-        fields = sorted_fields(list(definition_of(topic_of(topic).type.rpartition("/")[2]).fields))
+        definition = definition_of(topic_of(topic).type.rpartition("/")[2])
+        fields = sorted_fields(list(definition.record_fields))
         self.time = left.pop(TIME)
         self._scalars = [
             (field.name, left.pop(name)) for field in fields.scalars if (name := own_name(field.name)) in left
@@ -74,7 +75,7 @@ class _Row:
             raise RunError(
                 f"{topic} has no column {', '.join(left)}, which the unit was exported with; export it again"
             )
-        known = {field.name for field in definition_of(topic_of(topic).type.rpartition("/")[2]).fields}
+        known = {field.name for field in definition.record_fields}
         self._period = next((name for name in PERIODS if name in known), "")
 
     def take(self, output: Output, values: Values) -> bool:

@@ -47,14 +47,14 @@ def variable_name(topic: str, column: str) -> str:
 def outputs_of(bench: ContactBench) -> list[Variable]:
     """Outputs of a bench before its first block, which is stepped for names and arrays that only a message has.
 
-    The time of the row is the first of each topic. Maps, texts, messages within messages, and arrays that the scene leaves
-    empty are no outputs.
+    The time of the row is the first of each topic. Maps and their sizes, texts, messages within messages, and arrays that the
+    scene leaves empty are no outputs.
     """
     first = {each.topic: each.record for each in bench.step().outputs}
     bench.reset()
     found: list[Variable] = []
     for topic in result_names(bench.scene):
-        fields = definition_of(topic_of(topic).type.rpartition("/")[2]).fields
+        fields = definition_of(topic_of(topic).type.rpartition("/")[2]).record_fields
         if topic != LEFT_OUT and is_flat(fields):
             found += _of_topic(topic, list(fields), first.get(topic))
     return found
