@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
-import contact_sim_pkg
+from contact_sim_pkg import __version__
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.steering.fmu.variables import Variable
 
@@ -33,8 +33,8 @@ def described(scene: ResolvedScene, guid: str, outputs: Sequence[Variable], inpu
     """
     root = Element(
         "fmiModelDescription", fmiVersion="2.0", modelName=scene.name, guid=guid, variableNamingConvention="structured",
-        description=str(scene.data.get("description") or scene.name), version=contact_sim_pkg.__version__,
-        generationTool=f"Contact Bench {contact_sim_pkg.__version__}",
+        description=str(scene.data.get("description") or scene.name), version=__version__,
+        generationTool=f"Contact Bench {__version__}",
     )  # fmt: skip
     SubElement(
         root, "CoSimulation", modelIdentifier=model_identifier(scene.name), needsExecutionTool="true",

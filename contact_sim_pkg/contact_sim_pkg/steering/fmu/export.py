@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from importlib.resources import as_file, files
 from pathlib import Path
 
-import contact_sim_pkg
+from contact_sim_pkg import __version__
 from contact_sim_pkg.files import RefusedError, check_output, new_file
 from contact_sim_pkg.python_process import python_command
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -51,7 +51,7 @@ def export_fmu(scene: ResolvedScene, path: Path, *, overwrite: bool = False) -> 
     outputs, inputs = outputs_of(bench), inputs_of(bench)
     text, held = scene.to_yaml(), _input_files(scene)
     model = {
-        "bench": contact_sim_pkg.__version__,
+        "bench": __version__,
         "outputs": [[each.topic, each.column] for each in outputs],
         "inputs": [each.column for each in inputs],
         "files": {where: f"files/{name}" for where, (name, _) in held.items()},
@@ -114,7 +114,7 @@ def _input_files(scene: ResolvedScene) -> dict[str, tuple[str, Path]]:
 
 def _command() -> list[str]:
     """The command that `serve` is added to: this bench in this environment, whatever that of the host is."""
-    search = [str(Path(contact_sim_pkg.__file__).parents[1]), *os.environ.get("PYTHONPATH", "").split(os.pathsep)]
+    search = [str(Path(__file__).parents[3]), *os.environ.get("PYTHONPATH", "").split(os.pathsep)]
     libraries = os.environ.get("LD_LIBRARY_PATH")
     keep = ["-u", "LD_LIBRARY_PATH"] if libraries is None else [f"LD_LIBRARY_PATH={libraries}"]
     path = f"PYTHONPATH={os.pathsep.join(dict.fromkeys(filter(None, search)))}"
