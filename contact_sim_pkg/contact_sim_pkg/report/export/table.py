@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -123,7 +124,12 @@ def table_of_records(topic: str, times: Sequence[float], records: Sequence[Any])
 
 def has_columns(record: Any) -> bool:
     """Whether no field of a record is a message itself."""
-    return is_flat(definition_of(type(record).__name__).fields)
+    return _is_flat(type(record).__name__)
+
+
+@cache
+def _is_flat(name: str) -> bool:
+    return is_flat(definition_of(name).fields)
 
 
 def is_flat(fields: Sequence[Field]) -> bool:

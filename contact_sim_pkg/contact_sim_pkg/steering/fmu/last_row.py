@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy
 from numpy.typing import NDArray
@@ -67,10 +68,14 @@ class _Row:
         self._arrays = [
             (field.name, left.pop(name)) for field in fields.arrays if (name := own_name(field.name)) in left
         ]
-        self._named: list[tuple[str, str, dict[str, int]]] = []
-        for field in fields.named:
-            names = {name.removeprefix(f"{field.name}."): name for name in left if name.startswith(f"{field.name}.")}
-            self._named.append((field.name, field.shape[0], {each: left.pop(name) for each, name in names.items()}))
+        self._named = [
+            _Named(
+                field.name,
+                field.shape[0],
+                {name: left.pop(name) for name in [*left] if name.startswith(f"{field.name}.")},
+            )
+            for field in fields.named
+        ]
         if left:
             raise RunError(
                 f"{topic} has no column {', '.join(left)}, which the unit was exported with; export it again"
@@ -82,13 +87,9 @@ class _Row:
         """Write the last row of a record; False where it has none."""
         record = output.record
         arrays = [(getattr(record, name), place) for name, place in self._arrays]
-        named = [
-            (names, numpy.reshape(getattr(record, field), (len(names), -1)), places)
-            for field, sides, places in self._named
-            for names in [list(getattr(record, sides))]
-        ]
+        named = [(each, each.rows(record)) for each in self._named if each.places.size]
         # as many rows as the longest array; one where the topic has none
-        sizes = [*(len(array) for array, _ in arrays), *(part.shape[1] for _, part, _ in named)]
+        sizes = [*(len(array) for array, _ in arrays), *(part.shape[1] for _, part in named)]
         rows = max(sizes, default=1)
         if rows == 0:
             return False
@@ -98,8 +99,33 @@ class _Row:
             values[place] = getattr(record, name)
         for array, place in arrays:
             values[place] = array[-1] if len(array) == rows else numpy.nan
-        for names, part, places in named:
-            last = dict(zip(names, part[:, -1], strict=True)) if part.shape[1] == rows else {}
-            for name, place in places.items():
-                values[place] = last.get(name, numpy.nan)
+        for each, part in named:
+            values[each.places] = part[each.order, -1] if part.shape[1] == rows else numpy.nan
         return True
+
+
+class _Named:
+    """Columns of one field with a row for each name, such as the positions of bodies."""
+
+    def __init__(self, field: str, sides: str, places: dict[str, int]) -> None:
+        self.places = numpy.array([*places.values()], dtype=numpy.int64)
+        self.order: NDArray[numpy.int64] = self.places
+        """Rows of the columns in the record that came last."""
+        self._field, self._sides = field, sides
+        self._columns = [name.removeprefix(f"{field}.") for name in places]
+        self._names: list[str] = []
+
+    def rows(self, record: Any) -> Values:
+        """[names, samples]. Raises RunError where a name is gone."""
+        names = list(getattr(record, self._sides))
+        if names != self._names:
+            if missing := set(self._columns) - set(names):
+                raise RunError(
+                    f"{self._field} has no {', '.join(sorted(missing))} here, which the unit was exported with"
+                )
+            self._names, self.order = (
+                names,
+                numpy.array([names.index(name) for name in self._columns], dtype=numpy.int64),
+            )
+        found: Values = numpy.asarray(getattr(record, self._field)).reshape(len(names), -1)
+        return found
