@@ -388,6 +388,12 @@ def test_what_is_in_the_way_is_a_sentence_and_status_2(tmp_path, capsys, monkeyp
     theirs.write_text("a week's work")
     assert "exists already" in refused("--fmu", "seat_ride")
     assert theirs.read_text() == "a week's work"
+    for name, reason in (
+        ("a\nb.fmu", "give another name"),
+        ("a" * 300, "give a shorter one"),
+        ("b/c.fmu", "make it first"),
+    ):
+        assert reason in refused("--fmu", "seat_ride", "--out", name)
     assert "no such scene" in refused("--fmu", "seat_rides")
     assert "--fmi needs --fmu" in refused("a_bag", "--csv", "--fmi", "2")
     assert "--set needs --fmu" in refused("a_bag", "--csv", "--set", "duration=1")
