@@ -45,6 +45,7 @@ setup(
             "msg/*.msg",
             "excitation/data/*",
             "rigs/*/scenes/*.yaml",
+            "steering/fmu/*.[ch]",
             "sweep/plans/*.yaml",
             "rigs/**/README.md",
             "rigs/**/published/*.csv",

@@ -75,7 +75,7 @@ def test_a_miss_ends_with_1_and_says_by_how_much(capsys, bag, tmp_path):
         (("metrics", "{bag}", "--require", "none.yaml"), "none.yaml: No such file"),
         (("metrics", "{bag}", "--require", "crest 9"), "is no requirement"),
         (("metrics", "{bag}", "--unit", "g"), "--unit: for a bag of anybody"),
-        (("export", "{bag}"), "Missing --csv, --parquet, --ros-std, --format or --wall-time"),
+        (("export", "{bag}"), "Missing --csv, --parquet, --ros-std, --format, --wall-time or --fmu"),
     ],
 )  # fmt: skip
 def test_bad_input_is_one_sentence_and_status_2(capsys, bag, tmp_path, monkeypatch, arguments, words):

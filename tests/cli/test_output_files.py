@@ -33,7 +33,20 @@ OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
     ("tire test", "out"): ["modes", "tire_cleat", "--out", "FILE"],
     ("tire test", "junit_file"): ["modes", "tire_cleat", "--out", "tested", "--junit", "FILE"],
 }
-INPUTS = {"beside", "impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag", "file", "tolerances"}
+INPUTS = {
+    "beside",
+    "impacts",
+    "bag",
+    "bags",
+    "hull",
+    "scene",
+    "road",
+    "vibration",
+    "from_bag",
+    "file",
+    "folder",
+    "tolerances",
+}
 
 
 @pytest.fixture(scope="module")

@@ -51,7 +51,9 @@ def test_the_lock_holds_all_102_wheels_of_ros():
 
 
 def test_the_lock_holds_all_that_its_packages_ask_for():
-    """Installers look for nothing beyond it; of pytest's plug-ins colcon needs none to build."""
+    """Installers look for nothing beyond it; of pytest's plug-ins colcon needs none to build, and the module lark comes
+    with lark-parser.
+    """
     pytest.importorskip("colcon_core", reason="only the environment of `make setup` has all that the lock names")
     asked = set()
     locked = {re.split(r"[\[=]", line)[0].lower().replace("_", "-") for line in pins()}
@@ -60,7 +62,7 @@ def test_the_lock_holds_all_that_its_packages_ask_for():
             asked |= {text for text in requires(name) or [] if "extra ==" not in text and applies(text)}
     names = {re.split(r"[ \[<>=!~;(]", text)[0].lower().replace("_", "-") for text in asked}
     assert len(names) > 50
-    assert names - locked == {"pytest-cov", "pytest-repeat", "pytest-rerunfailures"}
+    assert names - locked == {"lark", "pytest-cov", "pytest-repeat", "pytest-rerunfailures"}
 
 
 def test_every_dependency_of_setup_py_is_locked():

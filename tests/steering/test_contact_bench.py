@@ -115,6 +115,17 @@ def test_the_commands_of_a_loop_given_at_once_are_the_same_run(seat):
     assert bits(again) == bits(outputs)
 
 
+def test_a_step_has_every_topic_but_wrenches():
+    """Those with maps too: their scalars."""
+    bench = ContactBench("tire_braking", "duration=0.06")
+    step = bench.step(0.06)
+    assert {each.topic for each in step.outputs} - set(step) == {"tire/wrench"}
+    assert all(len(step[topic]) for topic in step)
+    assert step["tire/patch"].units["load"] == "N"
+    (*_, last) = (each.record for each in step.outputs if each.topic == "tire/patch")
+    assert step["tire/patch"]["load"][-1] == last.load
+
+
 def test_what_is_wrong_is_one_sentence(seat):
     seat.reset()
     with pytest.raises(ValueError, match=r"whole blocks of 0\.01 s"):

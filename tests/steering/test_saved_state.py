@@ -56,6 +56,22 @@ def test_a_state_goes_on_with_the_bits_of_one_run(scene, blocks):
     assert bits(handed) == before
 
 
+@pytest.mark.parametrize(
+    "scene", ["tire_braking", "seat_ride", "block_fall", "seat_slap", "impact_rubber_drop", "roller_flutter"]
+)
+def test_a_bench_that_has_made_no_step_saves_and_loads(scene):
+    """One of each kind of simulation."""
+    bench, fresh = ContactBench(scene), ContactBench(scene)
+    start = bench.save()
+    first = bits(bench.step())
+    saved = bench.save()
+    second = bits(bench.step())
+    fresh.load(saved)
+    assert bits(fresh.step()) == second
+    fresh.load(start)
+    assert bits(fresh.step()) == first
+
+
 def test_another_process_goes_on(tmp_path):
     bench = ContactBench("seat_ride", "duration=1")
     bench.step(0.2)

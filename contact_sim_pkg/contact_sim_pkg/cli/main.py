@@ -42,6 +42,7 @@ COMMANDS = {  # command -> its module, and its name there where that is not `com
     "material": "material",
     "tire": "tire",
     "recover": "recover",
+    "serve": "serve",
 }
 LABORATORY = {  # the same, in contact_sim_lab.cli
     "hard": "hard",
@@ -50,7 +51,7 @@ LABORATORY = {  # the same, in contact_sim_lab.cli
     "growth": "goals:growth_command",
     "paper": "paper",
 }
-DISPLAY_THEMSELVES = ("run", "replay", "view")  # from their first second to their last
+DISPLAY_THEMSELVES = ("run", "replay", "view", "serve")  # from their first second to their last
 ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share the cores; the same bits without nodes
 
 

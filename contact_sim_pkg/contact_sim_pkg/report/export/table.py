@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,12 +16,17 @@ from contact_sim_pkg.memory import refuse_above_limit
 from contact_sim_pkg.records.definitions import HEADER, Field, definition_of, parsed
 
 __all__ = [
+    "PERIODS",
+    "UNITS_OF_NAMES",
+    "FieldsByUse",
     "Map",
     "NoTableError",
     "TopicColumn",
     "TopicTable",
     "has_columns",
+    "is_flat",
     "maps_of",
+    "sorted_fields",
     "table_of",
     "table_of_records",
     "time_of",
@@ -78,7 +84,7 @@ class TopicTable(NamedTuple):
     maps: list[Map]
 
 
-class _Fields(NamedTuple):
+class FieldsByUse(NamedTuple):
     """Fields of a type by what becomes of them."""
 
     scalars: list[Field]
@@ -109,14 +115,26 @@ def table_of(bag: Bag, topic: str) -> TopicTable:
 
 
 def table_of_records(topic: str, times: Sequence[float], records: Sequence[Any]) -> TopicTable:
-    """The same of records of one type that have not been written, which `has_columns`; ``times`` [s] of each; without maps."""
-    fields = _sorted(list(definition_of(type(records[0]).__name__).fields))
+    """The same of records of one type that have not been written, which `has_columns`; ``times`` [s] of each; without maps and
+    their sizes.
+    """
+    fields = sorted_fields(list(definition_of(type(records[0]).__name__).record_fields))
     return TopicTable(topic, _columns(np.asarray(times, np.float64), records, fields), [])
 
 
 def has_columns(record: Any) -> bool:
     """Whether no field of a record is a message itself."""
-    return not any("/" in field.type and field.type != HEADER for field in definition_of(type(record).__name__).fields)
+    return _is_flat(type(record).__name__)
+
+
+@cache
+def _is_flat(name: str) -> bool:
+    return is_flat(definition_of(name).fields)
+
+
+def is_flat(fields: Sequence[Field]) -> bool:
+    """Whether no field but the header is a message itself: the names of these have a capital, or their package in front."""
+    return all(field.type == HEADER or (field.type.islower() and "/" not in field.type) for field in fields)
 
 
 def maps_of(bag: Bag, topic: str) -> list[Map]:
@@ -125,17 +143,18 @@ def maps_of(bag: Bag, topic: str) -> list[Map]:
     return [] if fields is None else [Map(each.name, each.unit, (each.shape[0], each.shape[1])) for each in fields.maps]
 
 
-def _fields_of(bag: Bag, topic: str) -> _Fields | None:
+def _fields_of(bag: Bag, topic: str) -> FieldsByUse | None:
     """None for a type with others in it, or with another syntax than ours."""
     row = bag.topic(topic)
     try:
         fields = list(parsed(row.type, row.definition.partition("\n====")[0]).fields)
     except ValueError:
         return None
-    return None if any("/" in field.type and field.type != HEADER for field in fields) else _sorted(fields)
+    return sorted_fields(fields) if is_flat(fields) else None
 
 
-def _sorted(fields: list[Field]) -> _Fields:
+def sorted_fields(fields: list[Field]) -> FieldsByUse:
+    """Fields of a type, none a message but the header, by what becomes of them."""
     texts = {field.name for field in fields if field.is_array and field.type == "string"}
     plain = [field for field in fields if field.type != HEADER]
     two = [field for field in plain if len(field.shape) == 2]
@@ -143,10 +162,10 @@ def _sorted(fields: list[Field]) -> _Fields:
     headers = {*(field.shape[0] for field in named), UNITS_OF_NAMES}  # of columns; other texts are a column
     arrays = [field for field in plain if field.is_array and field not in two and field.name not in texts & headers]
     scalars = [field for field in plain if not field.is_array and field.name not in (*PERIODS, "samples")]
-    return _Fields(scalars, arrays, named, [field for field in two if field not in named])
+    return FieldsByUse(scalars, arrays, named, [field for field in two if field not in named])
 
 
-def _columns(times: NDArray[np.float64], messages: Sequence[Any], fields: _Fields) -> list[TopicColumn]:
+def _columns(times: NDArray[np.float64], messages: Sequence[Any], fields: FieldsByUse) -> list[TopicColumn]:
     if not messages:
         return []
     period = next((name for name in PERIODS if hasattr(messages[0], name)), "")
@@ -214,7 +233,7 @@ def _filled(parts: Sequence[Any], counts: NDArray[np.int64]) -> Any:
     return column
 
 
-def _kept(bag: Bag, topic: str, fields: _Fields) -> tuple[NDArray[np.float64], list[Any], dict[str, int]]:
+def _kept(bag: Bag, topic: str, fields: FieldsByUse) -> tuple[NDArray[np.float64], list[Any], dict[str, int]]:
     """Times [s] and messages of a topic, these without their maps, which would not fit into memory together; cells of
     each map.
     """

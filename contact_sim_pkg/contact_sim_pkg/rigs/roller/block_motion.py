@@ -40,6 +40,7 @@ class TiltYaw:
     def __init__(self, model: RollerModel, load: float) -> None:
         """At rest, off the static angles under `load` [N] by the start angles of the scene."""
         self.model, self.rules = model, (gauss_rule(2), gauss_rule(3))
+        self.rule = self.rules[1]  # until a block chooses
         curvatures = model.programme.curvatures_at(0.0)
         found = stability(model.roller, curvatures, model.bending_at(0.0), model.modulus, load)
         tilt, yaw = found.linear.tilt + model.start[0], found.linear.yaw + model.start[1]
