@@ -79,6 +79,14 @@ def test_progress_is_reported_to_the_end():
     assert parts == sorted(parts)
 
 
+def test_where_solutions_lead_changes_no_solution(layer, table):
+    """Each node against the layer solved from nothing."""
+    for i in (1, 2, 3, 40, 90, len(table.force) - 1):
+        found = layer.solve(i * SPACING)
+        assert table.force[i] == pytest.approx(found.force, rel=1e-8)
+        assert table.pressure[i] == pytest.approx(found.pressure, rel=1e-6, abs=1e-6 * float(found.pressure.max()))
+
+
 def small_table(value=1.0):
     pressure = numpy.full((3, 2, 2), value, dtype=numpy.float32)
     return ForceTable(1e-3, 1e-4, numpy.array([0.0, 1.0, value + 2.0]), numpy.array([0.0, 0.1, 0.2]), pressure)

@@ -123,8 +123,8 @@ def make_table(
     farthest: float | None = None,
     on_progress: Callable[[float], None] | None = None,
 ) -> ForceTable:
-    """Table up to the farthest approach of what carries, each solution from the one before; it ends
-    earlier where the contact comes too near to the edge of the cells, or foam beyond its strain.
+    """Table up to the farthest approach of what carries, each solution from where the two before it lead; it
+    ends earlier where the contact comes too near to the edge of the cells, or foam beyond its strain.
 
     spacing: [m]; farthest: [m], None: that of what carries; on_progress: is handed the part done, 0 to 1.
     Raises CushionError where that is so before the third node.
@@ -134,11 +134,12 @@ def make_table(
     most = BEYOND + spacing / layer.farthest  # the last node of foam alone lies up to half a spacing behind REACH
     force, strain = numpy.zeros(nodes), numpy.zeros(nodes)
     pressure = numpy.zeros((nodes, layer.grid.rows, layer.grid.cols), dtype=numpy.float32)
+    before: Compression | None = None
     found: Compression | None = None
     end = ""
     for i in range(1, nodes):
         try:
-            found = layer.solve(i * spacing, found)
+            before, found = found, layer.solve(i * spacing, _ahead(before, found))
         except CushionError as error:
             if i < FEWEST_NODES:
                 raise
@@ -152,6 +153,13 @@ def make_table(
         if on_progress is not None:
             on_progress(i / (nodes - 1))
     return ForceTable(spacing, layer.grid.cell_area, force[:nodes], strain[:nodes], pressure[:nodes], end)
+
+
+def _ahead(before: Compression | None, found: Compression | None) -> Compression | None:
+    """Where two solutions lead by as far again: the surface straight on, which saves a third of the steps."""
+    if before is None or found is None or not before.touching.any():
+        return found
+    return found._replace(deflection=2.0 * found.deflection - before.deflection)
 
 
 def smoothed(maps: ForceTable, forces: ForceTable) -> ForceTable:
