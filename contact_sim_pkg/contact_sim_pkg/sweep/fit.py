@@ -23,9 +23,15 @@ from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_ha
 from contact_sim_pkg.sweep.fit_result import LEAST_PROBABILITY, Compared, Fit, Fitted
 from contact_sim_pkg.sweep.intervals import LEVEL, Interval, intervals, unidentified
 from contact_sim_pkg.sweep.least_squares import ROUGH, At, Minimum, minimum
-from contact_sim_pkg.sweep.measured import Points, Series
+from contact_sim_pkg.sweep.measured import Measured, MeasuredResponse, Points, Series
 from contact_sim_pkg.sweep.pool import Workers
-from contact_sim_pkg.sweep.residuals import DensityResidual, PointsResidual, Residual, SeriesResidual
+from contact_sim_pkg.sweep.residuals import (
+    DensityResidual,
+    PointsResidual,
+    Residual,
+    ResponseResidual,
+    SeriesResidual,
+)
 from contact_sim_pkg.sweep.sweep import CASES, Notify, check_folder, processors, texts_of
 from contact_sim_pkg.sweep.variation import SweepError, Values, Variation, samples_of
 
@@ -39,8 +45,8 @@ PARTS = 0.125, 0.35, 1.0
 """Of a recording's square, that are fitted one after the other."""
 MOST_ROUNDS = 4
 """Of fitting and whitening."""
-WHITE = 0.02
-"""By which the filter of two rounds may differ."""
+WHITE, SAME_SPREAD = 0.02, 0.1
+"""By which the filters, and of themselves the spreads of lines of two rounds may differ."""
 FINEST = 1e-8
 """Accuracy that runs may request."""
 FINER = 0.1
@@ -71,7 +77,9 @@ class Runs(Protocol):
     """[s] to which a run is needed; None: all of it"""
 
     def __call__(self, places: Sequence[Field]) -> list[Field]:
-        """Of points the metrics [cases, metrics], of a series its times and values [2, samples], of each place."""
+        """Of each place, of points the metrics [cases, metrics], of a series its times and values [2, samples], of a
+        transmissibility frequencies, magnitudes and their spreads [3, lines].
+        """
 
     def values_at(self, place: Field) -> Values:
         """What a place sets."""
@@ -79,7 +87,7 @@ class Runs(Protocol):
 
 def fit(
     scene: str,
-    to: Points | Series,
+    to: Measured,
     free: Sequence[Variation],
     folder: Path,
     *,
@@ -121,6 +129,8 @@ def fit(
             middle = scene_of(
                 scene, texts_of({**cases[0], **{other.key: other.at(0.5) for other in free}, each.key: end})
             )
+    if isinstance(to, MeasuredResponse) and middle.data.get("seat") is None:
+        raise SweepError(f"{scene} has no seat, so no transmissibility from its floor: fit a series or metrics of it")
     (folder / CASES).mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
         if workers is None:
@@ -130,6 +140,8 @@ def fit(
         runs.is_held = any("accuracy" in each for each in cases)
         if isinstance(to, Points):
             found = _fitted_points(runs, to)
+        elif isinstance(to, MeasuredResponse):
+            found = _fitted_response(runs, to)
         else:
             found = _fitted_spectrum(runs, to) if by_spectrum else _fitted_series(runs, to, most_shift)
     if found.probability < LEAST_PROBABILITY and isinstance(to, Series) and not by_spectrum and runs.is_held:
@@ -142,7 +154,7 @@ class _SceneRuns:
     """What the scene gives at parameters, by cases."""
 
     def __init__(
-        self, scene: str, to: Points | Series, cases: Sequence[Values], free: Sequence[Variation], folder: Path,
+        self, scene: str, to: Measured, cases: Sequence[Values], free: Sequence[Variation], folder: Path,
         workers: Workers, notify: Notify,
     ) -> None:  # fmt: skip
         self._scene, self._to, self._cases, self.free = scene, to, cases, free
@@ -157,11 +169,12 @@ class _SceneRuns:
     def __call__(self, places: Sequence[Field]) -> list[Field]:
         cases, settings = self._cases, self._settings()
         series = self._to.name if isinstance(self._to, Series) else ""
+        is_response = isinstance(self._to, MeasuredResponse)
         named = [texts_of({**self.values_at(place), **settings}) for place in places]
         new = [texts for texts in dict.fromkeys(named) if texts not in self._known]
         tasks = [
             Task(len(cases) * i + j, self._scene, (*texts_of(case), *texts), str(self._folder.absolute()), False,
-                 sources_hash(), series)
+                 sources_hash(), series, is_response)
             for i, texts in enumerate(new) for j, case in enumerate(cases)
         ]  # fmt: skip
         rows: dict[int, Row] = {}
@@ -192,7 +205,8 @@ class _SceneRuns:
             return numpy.array(
                 [[_metric(row, each, self._to.units.get(each)) for each in self._to.metrics] for row in rows]
             )
-        return numpy.array([rows[0]["time"], rows[0]["values"]])
+        names = ("x", "y", "spread") if isinstance(self._to, MeasuredResponse) else ("time", "values")
+        return numpy.array([rows[0][name] for name in names])
 
 
 def _metric(row: Row, key: str, unit: str | None) -> float:
@@ -266,6 +280,25 @@ def _fitted_spectrum(runs: Runs, to: Series) -> Fit:
     compared = [Compared(f"density of {to.name}", residual.measured.frequency[lines], *both, "frequency, Hz")]
     left = concluded.found.left
     return concluded.as_fit(runs, math.sqrt(float(left @ left) / left.size), "of the scatter of its lines", compared)
+
+
+def _fitted_response(runs: Runs, to: MeasuredResponse) -> Fit:
+    """A transmissibility, its lines weighed anew by the spread of the run that is best, round by round."""
+    residual, best = ResponseResidual(to), numpy.full(len(runs.free), 0.5)
+    at = _at(runs, residual)
+    residual.weigh(runs([best])[0])
+    best = _start(runs, at)
+    for _ in range(MOST_ROUNDS):
+        changed = residual.weigh(runs([best])[0])
+        _require_enough(residual.lines.size, runs)
+        best = (found := _settled(runs, residual, minimum(at, best))).place
+        if changed < SAME_SPREAD:
+            break
+    concluded = _Concluded(runs, residual, found)
+    fitted, left = residual.fitted(concluded.given), concluded.found.left
+    compared = [Compared("seat.transmissibility", residual.frequency, residual.measured, fitted, "frequency, Hz")]
+    unit = "of the magnitude" if to.spread is None else "of the spread of its lines"
+    return concluded.as_fit(runs, math.sqrt(float(left @ left) / left.size), unit, compared)
 
 
 def _fitted_series(runs: Runs, to: Series, most_shift: float) -> Fit:
