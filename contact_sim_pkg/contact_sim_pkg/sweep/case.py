@@ -27,6 +27,7 @@ from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.offline import NANOSECONDS, run_offline
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.run.tables_between import KeyRange, tables_between
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
@@ -82,6 +83,8 @@ class Task(NamedTuple):
     """`topic.column` that the row is to have in place of metrics, as `time` and `values`; empty: none"""
     is_response: bool = False
     """whether the row is to have `seat.transmissibility` in place of metrics, as `x`, `y` and `spread`"""
+    tables: KeyRange | None = None
+    """key of a cushion between whose tables the run takes its own; None: it has its own"""
     bands: tuple[CurveBand, ...] = ()
     """round curves, how far beyond which the run is among its metrics"""
 
@@ -119,17 +122,15 @@ def run_case(task: Task) -> Row:
     name = case_name(scene, task.sources)
     ending = f"-{task.series.replace('/', '_')}" if task.series else ""
     ending += "-transmissibility" if task.is_response else ""
+    ending += "-between" + hashlib.sha256(repr(task.tables).encode()).hexdigest()[:8] if task.tables else ""
     ending += f"-{hashlib.sha256(json.dumps(task.bands).encode()).hexdigest()[:8]}" if task.bands else ""
     kept, bag = Path(task.folder) / "cases" / f"{name}{ending}.json", Path(task.folder) / "bags" / name
     found = kept_row(kept)
     if found is not None and (bag.is_dir() or not task.keeps_bag):
         return {**found, "number": task.number, "again": True}
-    row = {
-        "number": task.number,
-        "case": name,
-        "machine": machine(),
-        **_run(scene, bag if task.keeps_bag else None, task),
-    }
+    with tables_between(task.tables):
+        given = _run(scene, bag if task.keeps_bag else None, task)
+    row = {"number": task.number, "case": name, "machine": machine(), **given}
     if row["outcome"] == FINISHED:
         with new_file(kept, overwrite=True) as file:
             file.write(json.dumps(row).encode())

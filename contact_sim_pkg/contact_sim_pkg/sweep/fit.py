@@ -9,15 +9,17 @@ until a finer one moves what is left by less than chance tells.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy
 from numpy.typing import NDArray
 from scipy import stats
 
+from contact_sim_pkg.run.tables_between import STRESSES, KeyRange
 from contact_sim_pkg.scene.schema.accuracy import requested
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.fit_result import LEAST_PROBABILITY, Compared, Fit, Fitted
@@ -39,6 +41,7 @@ __all__ = ["Compared", "Fit", "Fitted", "Runs", "fit"]
 
 Field = NDArray[numpy.float64]
 
+CUSHION_KEY = re.compile(r"effects\.(seat)\.cushion\.(\w+)")
 STARTS = 4
 """Cases a parameter, drawn over the ranges, of which the best is the start."""
 PARTS = 0.125, 0.35, 1.0
@@ -164,17 +167,20 @@ class _SceneRuns:
         self.end: float | None = None
         block = scene_of(scene, texts_of(cases[0])).data
         self._whole, self._block = float(block["duration"]), float(block["block_length"])
-        self._known: dict[tuple[str, ...], Field] = {}
+        self._known: dict[tuple[KeyRange | None, tuple[str, ...]], Field] = {}
+        self._accuracies: set[float] = set()
+        self._over = _tables_over(free, cases, block)
 
     def __call__(self, places: Sequence[Field]) -> list[Field]:
         cases, settings = self._cases, self._settings()
         series = self._to.name if isinstance(self._to, Series) else ""
         is_response = isinstance(self._to, MeasuredResponse)
         named = [texts_of({**self.values_at(place), **settings}) for place in places]
-        new = [texts for texts in dict.fromkeys(named) if texts not in self._known]
+        tables = self._tables(len(set(named)))
+        new = [texts for texts in dict.fromkeys(named) if (tables, texts) not in self._known]
         tasks = [
             Task(len(cases) * i + j, self._scene, (*texts_of(case), *texts), str(self._folder.absolute()), False,
-                 sources_hash(), series, is_response)
+                 sources_hash(), series, is_response, tables)
             for i, texts in enumerate(new) for j, case in enumerate(cases)
         ]  # fmt: skip
         rows: dict[int, Row] = {}
@@ -185,12 +191,21 @@ class _SceneRuns:
             self._notify(f"{self.count + len(rows)} runs", 0.0)
         self.count += len(tasks)
         for i, texts in enumerate(new):
-            self._known[texts] = self._given([rows[len(cases) * i + j] for j in range(len(cases))])
-        return [self._known[texts] for texts in named]
+            self._known[tables, texts] = self._given([rows[len(cases) * i + j] for j in range(len(cases))])
+        return [self._known[tables, texts] for texts in named]
 
     def values_at(self, place: Field) -> Values:
         """What a place sets."""
         return {each.key: each.at(float(part)) for each, part in zip(self.free, place, strict=True)}
+
+    def _tables(self, places: int) -> KeyRange | None:
+        """Between which tables the next runs take their cushion's. One that is only looked at, at an accuracy of smaller cells,
+        has its own: the others would be for nothing.
+        """
+        if self._over is not None and self.accuracy not in self._accuracies and places == 1:
+            return self._over._replace(is_own=True)
+        self._accuracies.add(self.accuracy)
+        return self._over
 
     def _settings(self) -> Values:
         """Accuracy and duration where they are not those of the scene."""
@@ -207,6 +222,25 @@ class _SceneRuns:
             )
         names = ("x", "y", "spread") if isinstance(self._to, MeasuredResponse) else ("time", "values")
         return numpy.array([rows[0][name] for name in names])
+
+
+def _tables_over(free: Sequence[Variation], cases: Sequence[Values], data: Mapping[str, Any]) -> KeyRange | None:
+    """The range between whose tables runs take their cushion's: of the only free key of a seat's cushion, whose maps are not
+    recorded; None where there is no such key.
+    """
+    set_by_cases = {key for case in cases for key in case if len({each.get(key) for each in cases}) > 1}
+    found = [(each, match) for each in free if (match := CUSHION_KEY.fullmatch(each.key))]
+    if len(found) != 1 or any(each.startswith("effects") for each in set_by_cases):
+        return None
+    ((variation, match),) = found
+    contact, key = match.groups()
+    if (
+        key not in STRESSES
+        or (data["effects"].get(contact) or {}).get("contact_field") is not None
+        or not variation.low > 0.0
+    ):
+        return None
+    return KeyRange(contact, key, variation.low, variation.high)
 
 
 def _metric(row: Row, key: str, unit: str | None) -> float:

@@ -12,13 +12,13 @@ a contact multiplies force and pressure alike. A map never acts back on the forc
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
 import numpy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import BarycentricInterpolator, CubicSpline
 from scipy.optimize import brentq
 
 from contact_sim_pkg.compiled.guards import require_positive
@@ -36,9 +36,11 @@ __all__ = [
     "Carrier",
     "ForceTable",
     "at_load",
+    "between",
     "kept_table",
     "make_table",
     "smoothed",
+    "without_maps",
 ]
 
 Field = NDArray[numpy.float64]
@@ -175,6 +177,32 @@ def smoothed(maps: ForceTable, forces: ForceTable) -> ForceTable:
     return ForceTable(
         maps.spacing, maps.cell_area, force, maps.largest_strain[:nodes], maps.pressure[:nodes], maps.end or forces.end
     )
+
+
+def without_maps(forces: ForceTable, spacing: float) -> ForceTable:
+    """A table of the spline of `smoothed` through ``forces`` each ``spacing`` [m], for runs that show no map."""
+    reach = forces.spacing * (len(forces.force) - 1)
+    nodes = int(reach / spacing + 1e-9) + 1
+    places: Field = numpy.asarray(spacing * numpy.arange(nodes), numpy.float64)
+    strain = numpy.interp(places, forces.spacing * numpy.arange(len(forces.force)), forces.largest_strain)
+    strain = numpy.asarray(strain, numpy.float64)
+    none = numpy.zeros((nodes, 0, 0), dtype=numpy.float32)
+    return smoothed(ForceTable(spacing, forces.cell_area, places, strain, none), forces)
+
+
+def between(places: Field, tables: Sequence[ForceTable], place: float) -> ForceTable:
+    """The table at a ``place`` of a parameter, by the polynomial through those at ``places`` (Berrut and Trefethen, SIAM Review
+    46 (2004) 501), as long as the shortest of them; it has no maps.
+    """
+    nodes, first = min(len(each.force) for each in tables), tables[0]
+    force, strain = (
+        numpy.asarray(BarycentricInterpolator(places, numpy.array([values[:nodes] for values in listed]))(place))
+        for listed in ([each.force for each in tables], [each.largest_strain for each in tables])
+    )
+    force = numpy.maximum.accumulate(numpy.maximum(force, 0.0))
+    end = next((each.end for each in tables if len(each.force) == nodes and each.end), "")
+    none = numpy.zeros((nodes, 0, 0), dtype=numpy.float32)
+    return ForceTable(first.spacing, first.cell_area, force, strain, none, end)
 
 
 def kept_table(description: str, make: Callable[[], ForceTable], directory: Path | None = None) -> ForceTable:
