@@ -14,6 +14,7 @@ from contact_sim_pkg.sweep import fit as fits
 from contact_sim_pkg.sweep.case import Task, run_case
 from contact_sim_pkg.sweep.fit import fit
 from contact_sim_pkg.sweep.measured import Points, Series, read_points, read_series
+from contact_sim_pkg.sweep.pool import Workers
 from contact_sim_pkg.sweep.spectrum import log_density
 from contact_sim_pkg.sweep.variation import SweepError, read_variation
 
@@ -288,3 +289,35 @@ def test_a_run_between_tables_is_that_of_its_own_table(tmp_path):
     assert numpy.array_equal(own, exact)
     assert 0.0 < abs(between - exact).max() < 2e-4 * abs(exact).max()
     assert len([*(tmp_path / "cases").iterdir()]) == 3
+
+
+class WithEffect(Linear):
+    """A second tone as an effect with a strength, which may be left out."""
+
+    @staticmethod
+    def model(time, size, frequency, strength=0.0):
+        return Linear.model(time, size, frequency) + strength * numpy.sin(40.0 * time)
+
+    def without(self, effect):
+        return Linear(KEYS) if effect == "effects.seat.tone" else None
+
+
+@pytest.mark.parametrize(("strength", "remark"), [(0.0, "not needed"), (0.2, "")])
+def test_an_effect_that_chance_makes_up_for_is_not_needed(strength, remark):
+    """Noise of 0.05 on 2000 samples: a tone of 0.2 is 0.2 / (0.05 sqrt(2 / 2000)) = 126 standard deviations, none is none."""
+    seen = recorded(4, colour=0.0)
+    to = seen._replace(values=seen.values + strength * numpy.sin(40.0 * TIME))
+    found = fits._fitted_series(WithEffect((*KEYS, "effects.seat.tone.size=0:0.5")), to, 0.0).parameters[-1]
+    assert (remark in found.remark) if remark else found.remark == ""
+
+
+def test_an_effect_is_left_out_where_the_scene_lets_it(tmp_path):
+    """A foam's hysteresis, not the law that carries."""
+    keys = free("effects.seat.foam_hysteresis.share=0.05:0.3", "effects.seat.cushion.plateau=2400:4800:log")
+    to = Series("seat/force.normal", TIME, TIME)
+    with Workers(1) as workers:
+        runs = fits._SceneRuns("seat_ride", to, [{}], keys, tmp_path, workers, lambda _text, _done: None)
+        without = runs.without("effects.seat.foam_hysteresis")
+        assert [each.key for each in without.free] == ["effects.seat.cushion.plateau"]
+        assert without._cases == [{"effects.seat.foam_hysteresis": "null"}]
+        assert runs.without("effects.seat.cushion") is None

@@ -8,9 +8,10 @@ until a finer one moves what is left by less than chance tells.
 
 from __future__ import annotations
 
+import copy
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, Protocol
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from contact_sim_pkg.run.tables_between import STRESSES, KeyRange
+from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.schema.accuracy import requested
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.fit_result import LEAST_PROBABILITY, Compared, Fit, Fitted
@@ -41,6 +43,7 @@ __all__ = ["Compared", "Fit", "Fitted", "Runs", "fit"]
 
 Field = NDArray[numpy.float64]
 
+EFFECT_KEY = re.compile(r"(effects\.\w+\.\w+)\.\w+")
 CUSHION_KEY = re.compile(r"effects\.(seat)\.cushion\.(\w+)")
 STARTS = 4
 """Cases a parameter, drawn over the ranges, of which the best is the start."""
@@ -54,6 +57,8 @@ FINEST = 1e-8
 """Accuracy that runs may request."""
 FINER = 0.1
 """Times the accuracy, of the run beside which one is looked at."""
+FAR = 10.0
+"""Times what chance lets a square grow by, that slopes may err by."""
 STILL, FAINT = 0.3, 0.1
 """Standard deviations of its own by which a parameter, and of chance by which what is left may move under a finer accuracy."""
 
@@ -86,6 +91,9 @@ class Runs(Protocol):
 
     def values_at(self, place: Field) -> Values:
         """What a place sets."""
+
+    def without(self, effect: str) -> Runs | None:
+        """Those of the scene without an effect, over the other keys; None where it cannot be left out."""
 
 
 def fit(
@@ -198,6 +206,20 @@ class _SceneRuns:
         """What a place sets."""
         return {each.key: each.at(float(part)) for each, part in zip(self.free, place, strict=True)}
 
+    def without(self, effect: str) -> Runs | None:
+        """Those of the scene without an effect, over the other keys; None where it cannot be left out."""
+        found = copy.copy(self)
+        found.free = [each for each in self.free if not each.key.startswith(f"{effect}.")]
+        found._cases = [{**case, effect: "null"} for case in self._cases]
+        found._known, found.count = {}, 0
+        middle = {each.key: each.at(0.5) for each in found.free}
+        try:
+            block = scene_of(self._scene, texts_of({**found._cases[0], **middle})).data
+        except SceneError:
+            return None
+        found._over = _tables_over(found.free, found._cases, block)
+        return found
+
     def _tables(self, places: int) -> KeyRange | None:
         """Between which tables the next runs take their cushion's. One that is only looked at, at an accuracy of smaller cells,
         has its own: the others would be for nothing.
@@ -273,9 +295,10 @@ class _Concluded:
             if float(numpy.sum(at([best])[0] ** 2)) > found.square - 0.1 * self.scatter**2:
                 break
             found = minimum(at, best)
+        needless = set() if blind.any() or not self.scatter > 0.0 else _needless(runs, residual, found, self.scatter)
         self.found, self.given = found, runs([found.place])[0]
         self.probability = residual.probability(found.left, count, self.given)
-        self.parameters = _parameters(runs, found.place, ends, blind)
+        self.parameters = _parameters(runs, found.place, ends, blind, needless)
 
     def as_fit(self, runs: Runs, misfit: float, unit: str, compared: list[Compared], shift: float = 0.0) -> Fit:
         """The result."""
@@ -283,6 +306,28 @@ class _Concluded:
             self.parameters, misfit, unit, self.probability, shift, runs.count, runs.values_at(self.found.place), compared,
             accuracy=runs.accuracy,
         )  # fmt: skip
+
+
+def _needless(runs: Runs, residual: Residual, found: Minimum, scatter: float) -> set[str]:
+    """Effects with a free key without which the least square over the other keys is no larger than chance lets it (F test)."""
+    needless = set()
+    for effect in dict.fromkeys(match[1] for each in runs.free if (match := EFFECT_KEY.fullmatch(each.key))):
+        others = [i for i, each in enumerate(runs.free) if not each.key.startswith(f"{effect}.")]
+        without = runs.without(effect)
+        if without is None:
+            continue
+        at, count = _at(without, residual), len(runs.free) - len(others)
+        freedom = max(found.freedom, 1) if math.isnan(residual.scatter) else math.inf
+        most = count * float(stats.f.ppf(LEVEL, count, freedom)) * scatter**2
+        (left,) = at([found.place[others]])
+        # One run where the effect is needed: the other keys do not make up for it, as far as slopes say
+        step, *_ = numpy.linalg.lstsq(found.slope[:, others], -left, rcond=None)
+        if float(numpy.sum((left + found.slope[:, others] @ step) ** 2)) - found.square <= FAR * most:
+            least = minimum(at, found.place[others]).square if others else float(left @ left)
+            if least - found.square <= most:
+                needless.add(effect)
+        runs.count += without.count
+    return needless
 
 
 def _at(runs: Runs, residual: Residual) -> At:
@@ -390,7 +435,9 @@ def _titled(name: str, unit: str) -> str:
     return f"{name}, {unit}" if unit else name
 
 
-def _parameters(runs: Runs, place: Field, ends: Sequence[Interval], blind: NDArray[numpy.bool_]) -> list[Fitted]:
+def _parameters(
+    runs: Runs, place: Field, ends: Sequence[Interval], blind: NDArray[numpy.bool_], needless: Set[str]
+) -> list[Fitted]:
     """Values with their intervals, and what is not identifiable."""
     unseen = [each.key for each, is_blind in zip(runs.free, blind, strict=True) if is_blind]
     found = []
@@ -403,6 +450,8 @@ def _parameters(runs: Runs, place: Field, ends: Sequence[Interval], blind: NDArr
             remark = "at the end of its range"
         elif low < 0.0 or high > 1.0:
             remark = "interval beyond its range"
+        if any(each.key.startswith(f"{effect}.") for effect in needless):
+            remark = f"{remark}; not needed".removeprefix("; ")
         found.append(Fitted(each.key, _value(each, float(part)), _value(each, low), _value(each, high), remark))
     return found
 
