@@ -311,6 +311,19 @@ def test_an_effect_that_chance_makes_up_for_is_not_needed(strength, remark):
     assert (remark in found.remark) if remark else found.remark == ""
 
 
+def test_an_effect_whose_absence_gives_nothing_to_compare_is_kept():
+    class Silent(Linear):
+        def __call__(self, places):
+            raise SweepError("the run has no table")
+
+    class Kept(WithEffect):
+        def without(self, effect):
+            return Silent(KEYS)
+
+    found = fits._fitted_series(Kept((*KEYS, "effects.seat.tone.size=0:0.5")), recorded(4, colour=0.0), 0.0)
+    assert "not needed" not in found.parameters[-1].remark
+
+
 def test_an_effect_is_left_out_where_the_scene_lets_it(tmp_path):
     """A foam's hysteresis, not the law that carries."""
     keys = free("effects.seat.foam_hysteresis.share=0.05:0.3", "effects.seat.cushion.plateau=2400:4800:log")

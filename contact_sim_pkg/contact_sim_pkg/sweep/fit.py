@@ -12,7 +12,7 @@ import copy
 import math
 import re
 from collections.abc import Mapping, Sequence, Set
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -313,21 +313,27 @@ def _needless(runs: Runs, residual: Residual, found: Minimum, scatter: float) ->
     needless = set()
     for effect in dict.fromkeys(match[1] for each in runs.free if (match := EFFECT_KEY.fullmatch(each.key))):
         others = [i for i, each in enumerate(runs.free) if not each.key.startswith(f"{effect}.")]
-        without = runs.without(effect)
+        without, count = runs.without(effect), len(runs.free) - len(others)
         if without is None:
             continue
-        at, count = _at(without, residual), len(runs.free) - len(others)
         freedom = max(found.freedom, 1) if math.isnan(residual.scatter) else math.inf
         most = count * float(stats.f.ppf(LEVEL, count, freedom)) * scatter**2
-        (left,) = at([found.place[others]])
-        # One run where the effect is needed: the other keys do not make up for it, as far as slopes say
-        step, *_ = numpy.linalg.lstsq(found.slope[:, others], -left, rcond=None)
-        if float(numpy.sum((left + found.slope[:, others] @ step) ** 2)) - found.square <= FAR * most:
-            least = minimum(at, found.place[others]).square if others else float(left @ left)
-            if least - found.square <= most:
+        with suppress(SweepError):  # a run that fails without it, or does not give what was measured
+            if _least_without(_at(without, residual), found, others, FAR * most) - found.square <= most:
                 needless.add(effect)
         runs.count += without.count
     return needless
+
+
+def _least_without(at: At, found: Minimum, others: list[int], far: float) -> float:
+    """The least square over the ``others`` of the keys; as the slopes predict it where that is more by ``far``: one run then."""
+    place, slope = found.place[others], found.slope[:, others]
+    (left,) = at([place])
+    step, *_ = numpy.linalg.lstsq(slope, -left, rcond=None)
+    predicted = float(numpy.sum((left + slope @ step) ** 2))
+    if predicted - found.square > far or not others:
+        return predicted
+    return minimum(at, place).square
 
 
 def _at(runs: Runs, residual: Residual) -> At:
