@@ -128,20 +128,23 @@ def sweep(
 
 
 def fit(
-    scene: str | Path, to: str | Path, *free: str, directory: str | Path, metrics: Sequence[str] = (), series: str = "",
+    scene: str | Path, to: str | Path, *free: str, directory: str | Path, metrics: Sequence[str] = (),
+    series: str | Sequence[str] = "",
     fixed: Sequence[str] = (), shift: float = 0.02, by: str = "series", jobs: int | None = None, progress: bool = True,
 ) -> Fit:  # fmt: skip
     """Fit keys of a scene to what was measured, as `bench fit` does.
 
     Args:
         scene: a name or path.
-        to: a table of points with ``metrics``, a bag or a table over time with ``series``.
+        to: a table of points with ``metrics``, a bag or a table over time with ``series``, T(f) over frequency.
         free: keys with their ranges, ``"tire.suspension_damping=500:4000:log"``.
         directory: new, empty, or of this fit; ``fitted.yaml`` is written there.
         metrics: columns of the points, metrics by their keys.
-        series: ``topic.column`` of a run that is compared over time.
+        series: ``topic.column`` of a run that is compared over time; by ``transmissibility`` the accelerations of floor
+            and seat in the recording, none of a table over frequency or a bag of the bench.
         fixed: set in every run, ``"duration=2"``.
-        by: what of a series is compared: ``series`` its samples, ``spectrum`` its densities.
+        by: what of a series is compared: ``series`` its samples, ``spectrum`` its densities; ``transmissibility`` that of
+            a seat.
         shift: [s] most that a recording may be late or early; 0 holds it.
         jobs: processes; None: as many as processors.
         progress: whether it is shown on standard error.
@@ -151,15 +154,12 @@ def fit(
         SceneError: a key or the end of a range is refused.
     """
     from contact_sim_pkg.sweep.fit import fit as fit_keys
-    from contact_sim_pkg.sweep.measured import read_points, read_series
-    from contact_sim_pkg.sweep.variation import SweepError, read_variation
+    from contact_sim_pkg.sweep.measured import read_measured
+    from contact_sim_pkg.sweep.variation import read_variation
 
-    if bool(metrics) == bool(series):
-        raise SweepError("give metrics for a table of points, or series for a recording")
-    if by not in ("series", "spectrum"):
-        raise SweepError(f"by {by!r}: is none of series, spectrum")
     found = [read_variation(each, "") for each in free]
-    measured = read_series(Path(str(to)), series) if series else read_points(Path(str(to)), [*metrics])
+    named = (series,) if isinstance(series, str) and series else tuple(series)
+    measured = read_measured(Path(str(to)), metrics, named, by)
     given = {key.strip(): value.strip() for key, _, value in (each.partition("=") for each in fixed)}
     with working("fit: starting") if progress else nullcontext():
         return fit_keys(

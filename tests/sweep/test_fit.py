@@ -9,9 +9,12 @@ from scipy import signal, stats
 
 from contact_sim_pkg import load_scene, run
 from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.run.tables_between import KeyRange
 from contact_sim_pkg.sweep import fit as fits
+from contact_sim_pkg.sweep.case import Task, run_case
 from contact_sim_pkg.sweep.fit import fit
 from contact_sim_pkg.sweep.measured import Points, Series, read_points, read_series
+from contact_sim_pkg.sweep.pool import Workers
 from contact_sim_pkg.sweep.spectrum import log_density
 from contact_sim_pkg.sweep.variation import SweepError, read_variation
 
@@ -253,3 +256,81 @@ def test_many_impacts_are_fitted_from_a_distant_start():
     to = Series("x.y", TIME, Long.model(TIME, 3.0, 20.0) + noise)
     _, frequency = fits._fitted_series(Long(("size=1:10:log", "frequency=15:30:log")), to, 0.0).parameters
     assert frequency.low < 20.0 < frequency.high
+
+
+def of_foam(*names, **keys):
+    data = {"effects": {"seat": {"cushion": {}, **keys}, "backrest": {}}}
+    return fits._tables_over(free(*names), [{"duration": "6", "effects.seat.cushion.cell": "0.01"}], data)
+
+
+def test_one_free_stress_of_a_cushion_without_maps_is_taken_between_tables():
+    plateau, share = "effects.seat.cushion.plateau=2400:4800:log", "effects.seat.foam_hysteresis.share=0.1:0.3"
+    assert of_foam(plateau, share) == ("seat", "plateau", 2400.0, 4800.0, False)
+    for others in (
+        [share],
+        [plateau, "effects.seat.cushion.modulus=3e4:6e4"],
+        ["effects.seat.cushion.thickness=0.06:0.1"],
+    ):
+        assert of_foam(*others) is None
+    assert of_foam(plateau, contact_field={}) is None
+    assert of_foam("effects.seat.cushion.densification=0:100") is None
+
+
+def test_a_run_between_tables_is_that_of_its_own_table(tmp_path):
+    """Of 1 s of a ride, to what the interpolation is known to miss; each has a row of its own."""
+    (tmp_path / "cases").mkdir()
+    values = "duration=1", "accuracy=1e-2", "effects.seat.cushion.plateau=3300"
+    over = KeyRange("seat", "plateau", 2900.0, 3600.0)
+    rows = [
+        run_case(Task(0, "seat_ride", values, str(tmp_path), False, "", "seat/force.normal", tables=each))
+        for each in (None, over, over._replace(is_own=True))
+    ]
+    exact, between, own = (numpy.array(each["values"]) for each in rows)
+    assert numpy.array_equal(own, exact)
+    assert 0.0 < abs(between - exact).max() < 2e-4 * abs(exact).max()
+    assert len([*(tmp_path / "cases").iterdir()]) == 3
+
+
+class WithEffect(Linear):
+    """A second tone as an effect with a strength, which may be left out."""
+
+    @staticmethod
+    def model(time, size, frequency, strength=0.0):
+        return Linear.model(time, size, frequency) + strength * numpy.sin(40.0 * time)
+
+    def without(self, effect):
+        return Linear(KEYS) if effect == "effects.seat.tone" else None
+
+
+@pytest.mark.parametrize(("strength", "remark"), [(0.0, "not needed"), (0.2, "")])
+def test_an_effect_that_chance_makes_up_for_is_not_needed(strength, remark):
+    """Noise of 0.05 on 2000 samples: a tone of 0.2 is 0.2 / (0.05 sqrt(2 / 2000)) = 126 standard deviations, none is none."""
+    seen = recorded(4, colour=0.0)
+    to = seen._replace(values=seen.values + strength * numpy.sin(40.0 * TIME))
+    found = fits._fitted_series(WithEffect((*KEYS, "effects.seat.tone.size=0:0.5")), to, 0.0).parameters[-1]
+    assert (remark in found.remark) if remark else found.remark == ""
+
+
+def test_an_effect_whose_absence_gives_nothing_to_compare_is_kept():
+    class Silent(Linear):
+        def __call__(self, places):
+            raise SweepError("the run has no table")
+
+    class Kept(WithEffect):
+        def without(self, effect):
+            return Silent(KEYS)
+
+    found = fits._fitted_series(Kept((*KEYS, "effects.seat.tone.size=0:0.5")), recorded(4, colour=0.0), 0.0)
+    assert "not needed" not in found.parameters[-1].remark
+
+
+def test_an_effect_is_left_out_where_the_scene_lets_it(tmp_path):
+    """A foam's hysteresis, not the law that carries."""
+    keys = free("effects.seat.foam_hysteresis.share=0.05:0.3", "effects.seat.cushion.plateau=2400:4800:log")
+    to = Series("seat/force.normal", TIME, TIME)
+    with Workers(1) as workers:
+        runs = fits._SceneRuns("seat_ride", to, [{}], keys, tmp_path, workers, lambda _text, _done: None)
+        without = runs.without("effects.seat.foam_hysteresis")
+        assert [each.key for each in without.free] == ["effects.seat.cushion.plateau"]
+        assert without._cases == [{"effects.seat.foam_hysteresis": "null"}]
+        assert runs.without("effects.seat.cushion") is None

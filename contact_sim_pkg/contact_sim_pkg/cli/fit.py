@@ -22,7 +22,7 @@ COLUMNS = "key", "value", "from", "to", "remark"
 @click.argument("scene")
 @click.option(
     "--to", "file", type=click.Path(path_type=Path), required=True, metavar="FILE",
-    help="What was measured: a table of points, or with --series a bag or a table over time.",
+    help="What was measured: a table of points, a bag or a table over time, or T(f) over frequency.",
 )  # fmt: skip
 @click.option(
     "--free",
@@ -36,10 +36,14 @@ COLUMNS = "key", "value", "from", "to", "remark"
     "--set", "fixed", multiple=True, metavar="KEY=VALUE", help="Set in every run, as of bench run; an accuracy is held."
 )
 @click.option("--metric", "metrics", multiple=True, metavar="NAME", help="Column of the points, a metric by its key.")
-@click.option("--series", metavar="TOPIC.COLUMN", default=None, help="What of a run is compared over time.")
 @click.option(
-    "--by", type=click.Choice(["series", "spectrum"]), default="series", show_default=True,
-    help="What of a series is compared: its samples, or its densities where runs go apart in time.",
+    "--series", multiple=True, metavar="TOPIC.COLUMN",
+    help="What of a run is compared over time; with --by transmissibility the accelerations of floor and seat in FILE.",
+)  # fmt: skip
+@click.option(
+    "--by", type=click.Choice(["series", "spectrum", "transmissibility"]), default="series", show_default=True,
+    help="What of a recording is compared: the samples of a series, its densities where runs go apart in time, or T(f) of a "
+    "seat.",
 )  # fmt: skip
 @click.option(
     "--shift", type=click.FloatRange(0.0, 10.0), default=0.02, show_default=True, metavar="S",
@@ -58,7 +62,7 @@ def command(
     ranges: tuple[str, ...],
     fixed: tuple[str, ...],
     metrics: tuple[str, ...],
-    series: str | None,
+    series: tuple[str, ...],
     by: str,
     shift: float,
     jobs: int | None,
@@ -68,26 +72,24 @@ def command(
     """Fit keys of SCENE to what was measured, and say between what they are.
 
     With --metric FILE is a table: columns of keys set the cases, columns of metrics are what was measured. With --series it
-    is a recording of one run. Runs request a finer accuracy than the scene where the intervals need it. Writes
-    fitted.yaml and fit.html. Exit code 1 where the scene cannot follow what was
+    is a recording of one run, with --by transmissibility it holds T(f) of a seat. Runs request a finer accuracy than the
+    scene where the intervals need it. Writes fitted.yaml and fit.html. Exit code 1 where the scene cannot follow what was
     measured, 3 where a key is not identifiable.
     """
     from contact_sim_pkg.sweep.fit import fit
     from contact_sim_pkg.sweep.fit_page import write_fit_page
-    from contact_sim_pkg.sweep.measured import read_points, read_series
+    from contact_sim_pkg.sweep.measured import read_measured
     from contact_sim_pkg.sweep.page import PAGES
     from contact_sim_pkg.sweep.sweep import check_folder
     from contact_sim_pkg.sweep.variation import read_variation
 
     check_folder(out)
-    if bool(metrics) == (series is not None):
-        raise click.UsageError("give --metric NAME for a table of points, or --series TOPIC.COLUMN for a recording")
     free = [read_variation(each, "--free") for each in ranges]
     wrong = next((each for each in fixed if "=" not in each), None)
     if wrong is not None:
         raise click.UsageError(f"--set {wrong}: is not of the form KEY=VALUE")
     given = {key.strip(): value.strip() for key, _, value in (each.partition("=") for each in fixed)}
-    to = read_points(file, [*metrics]) if series is None else read_series(file, series)
+    to = read_measured(file, metrics, series, by)
     try:
         found = fit(
             scene, to, free, out, fixed=given, jobs=jobs, most_shift=shift, by_spectrum=by == "spectrum", notify=doing

@@ -126,6 +126,8 @@ class Curve(NamedTuple):
     """[points] ascending"""
     y: FloatArray
     """[points], nan where it is not known"""
+    spread: FloatArray | None = None
+    """[points] standard deviation of y by chance, over y; None where nothing says it"""
 
 
 class Compared(NamedTuple):

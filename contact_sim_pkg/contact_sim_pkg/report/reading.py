@@ -5,7 +5,7 @@ likes.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import date
 from typing import Any, NamedTuple
@@ -80,7 +80,7 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
     topics = {kind: [name for name in stacks if bag.topics[name].type == kind] for kind in SERIES_TYPES}
     contact_of = _contact_names(bag)
     contacts = {contact_of[name]: _contact(_columns(stacks.pop(name), name, unknown)) for name in topics[FORCE]}
-    motion = next((_motion(_columns(stacks[name], name, unknown)) for name in topics[MOTION]), None)
+    motion = next((motion_series(_columns(stacks[name], name, unknown)) for name in topics[MOTION]), None)
     ledger = next((LedgerSeries(**_columns(stacks[name], name, unknown)) for name in topics[ENERGY]), None)
     costs = next((stacks[name].columns() for name in topics[COST]), None)
     estimates, of_blocks = _estimates(costs or {})
@@ -334,7 +334,7 @@ def _duration(series: list[ContactSeries | MotionSeries], scene: dict[str, Any],
     return bag.end * 1e-9
 
 
-def _sample_times(columns: dict[str, Any], counts: list[int]) -> FloatArray:
+def _sample_times(columns: Mapping[str, Any], counts: list[int]) -> FloatArray:
     """[s] of every sample, from the stamp of each message."""
     period = float(columns["sample_period"][0])
     starts = zip(columns["time"], counts, strict=True)
@@ -351,7 +351,8 @@ def _contact(columns: dict[str, Any]) -> ContactSeries:
     return ContactSeries(time, float(columns["sample_period"][0]), normal, tangential, approach, height, impulses)
 
 
-def _motion(columns: dict[str, Any]) -> MotionSeries:
+def motion_series(columns: Mapping[str, Any]) -> MotionSeries:
+    """Motion of the rows of `BodyMotion`, a row a block: `MOTION_COLUMNS`, each as long."""
     counts = [int(count) for count in columns["samples"]]
     bodies = [str(name) for name in columns["bodies"][0]]
     position, acceleration, velocity = (

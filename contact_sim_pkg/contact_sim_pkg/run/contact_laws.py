@@ -31,10 +31,12 @@ from contact_sim_pkg.pressure.cushion.force_table import (
     kept_table,
     make_table,
     smoothed,
+    without_maps,
 )
 from contact_sim_pkg.pressure.cushion.tissue import PlateUnderTissue, Tissue, TissueOnFoam
 from contact_sim_pkg.records.fields import given
 from contact_sim_pkg.run.compilation import note_computation
+from contact_sim_pkg.run.tables_between import table_between
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.laws import (
@@ -186,6 +188,18 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
     hardness scales the modulus beyond STIFFEST.
     """
     _refuse_modulus(contact, foam_of(keys).modulus)
+
+    def make(keys: CushionSection, *, is_alone: bool) -> ForceTable:
+        return _table_of(contact, keys, body, has_maps=is_alone or body.tissue is not None)
+
+    table = table_between(contact, keys, repr(body.sizes), make)
+    _refuse_load(contact, keys, table, load)
+    cell = given(keys.cell)
+    return Cushion(table, table.law(), (cell, cell, float(body.x[0]), float(body.y[0])))
+
+
+def _table_of(contact: str, keys: CushionSection, body: PressingBody, *, has_maps: bool) -> ForceTable:
+    """Kept from an earlier run or computed. Raises SceneError where the cells or the foam have no room for three nodes."""
     spacing = min(MOST_SPACING, keys.thickness / LEAST_NODES)
     if body.tissue is not None:
         spacing = min(spacing, body.tissue.depth / TISSUE_NODES)
@@ -194,6 +208,8 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
     description = repr((foam_of(keys), grid, keys.shear_share, keys.cover, spacing, REACH, body.sizes))
     if body.tissue is not None:
         description += repr((body.tissue, body.on_plate))
+    if not has_maps:
+        description += " without maps"
 
     def compute() -> ForceTable:
         def note(part: float) -> None:
@@ -202,6 +218,9 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
         try:
             if body.tissue is not None:  # whose pressure rises from nothing: a cell that enters bends no force
                 return make_table(layer_under(keys, body), spacing, on_progress=note)
+            if not has_maps:
+                below = layer_under(keys, body, BELOW)
+                return without_maps(make_table(below, SPARSE * spacing, on_progress=note), spacing)
             maps = make_table(layer_under(keys, body), spacing, on_progress=lambda part: note(0.5 * part))
             below = layer_under(keys, body, BELOW)
             return smoothed(maps, make_table(below, SPARSE * spacing, on_progress=lambda part: note(0.5 + 0.5 * part)))
@@ -210,9 +229,7 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
         finally:
             note_computation("")
 
-    table = kept_table(description, compute)
-    _refuse_load(contact, keys, table, load)
-    return Cushion(table, table.law(), (cell, cell, *place))
+    return kept_table(description, compute)
 
 
 def _refuse_modulus(contact: str, modulus: float) -> None:

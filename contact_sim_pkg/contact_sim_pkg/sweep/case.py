@@ -20,10 +20,14 @@ from contact_sim_pkg.report.export.table import has_columns, table_of_records
 from contact_sim_pkg.report.metrics.curve_bands import CurveBand
 from contact_sim_pkg.report.metrics.of_bag import metrics_of_bags
 from contact_sim_pkg.report.metrics.views import rows_of
+from contact_sim_pkg.report.reading import MOTION_COLUMNS, motion_series
+from contact_sim_pkg.rigs.vehicle.seat.report.response import transmissibility_curve
+from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.offline import NANOSECONDS, run_offline
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.run.tables_between import KeyRange, tables_between
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
@@ -77,6 +81,10 @@ class Task(NamedTuple):
     """hash of the bench's sources, see `sources_hash`"""
     series: str = ""
     """`topic.column` that the row is to have in place of metrics, as `time` and `values`; empty: none"""
+    is_response: bool = False
+    """whether the row is to have `seat.transmissibility` in place of metrics, as `x`, `y` and `spread`"""
+    tables: KeyRange | None = None
+    """key of a cushion between whose tables the run takes its own; None: it has its own"""
     bands: tuple[CurveBand, ...] = ()
     """round curves, how far beyond which the run is among its metrics"""
 
@@ -113,17 +121,16 @@ def run_case(task: Task) -> Row:
         return failed(task, str(error), REFUSED)
     name = case_name(scene, task.sources)
     ending = f"-{task.series.replace('/', '_')}" if task.series else ""
+    ending += "-transmissibility" if task.is_response else ""
+    ending += "-between" + hashlib.sha256(repr(task.tables).encode()).hexdigest()[:8] if task.tables else ""
     ending += f"-{hashlib.sha256(json.dumps(task.bands).encode()).hexdigest()[:8]}" if task.bands else ""
     kept, bag = Path(task.folder) / "cases" / f"{name}{ending}.json", Path(task.folder) / "bags" / name
     found = kept_row(kept)
     if found is not None and (bag.is_dir() or not task.keeps_bag):
         return {**found, "number": task.number, "again": True}
-    row = {
-        "number": task.number,
-        "case": name,
-        "machine": machine(),
-        **_run(scene, bag if task.keeps_bag else None, task),
-    }
+    with tables_between(task.tables):
+        given = _run(scene, bag if task.keeps_bag else None, task)
+    row = {"number": task.number, "case": name, "machine": machine(), **given}
     if row["outcome"] == FINISHED:
         with new_file(kept, overwrite=True) as file:
             file.write(json.dumps(row).encode())
@@ -154,6 +161,8 @@ def _run(scene: ResolvedScene, bag: Path | None, task: Task) -> Row:
             bag.parent.mkdir(exist_ok=True)
         if task.series:
             found = _series_of(scene, task.series)
+        elif task.is_response:
+            found = _transmissibility_of(scene)
         else:
             path = folder / "bag" if bag is None else bag
             outcome = run_offline(scene, path)
@@ -174,6 +183,31 @@ def _series_of(scene: ResolvedScene, series: str) -> Row:
     Raises RunError where there is none, or the run fails.
     """
     topic, _, column = series.rpartition(".")
+    times, records = _records_of(scene, topic)
+    time, *columns = table_of_records(topic, times, records).columns
+    for each in columns:
+        if each.name == column:
+            return {"time": [*map(float, time.values)], "values": [*map(float, each.values)], "unit": each.unit}
+    raise RunError(f"{topic} has no column {column!r}; it has {', '.join(each.name for each in columns)}")
+
+
+def _transmissibility_of(scene: ResolvedScene) -> Row:
+    """T(f) of a run as `bench metrics` and the report take it, without a bag. Raises RunError where there is none."""
+    times, records = _records_of(scene, "bench/motion")
+    columns = {
+        name: [getattr(each, name) for each in records] for name in MOTION_COLUMNS if name not in ("time", "samples")
+    }
+    samples = [each.acceleration.size // len(each.bodies) for each in records]
+    signals = ride_signals(motion_series({**columns, "time": times, "samples": samples}))
+    curve = None if signals is None else transmissibility_curve(signals)
+    if curve is None or curve.spread is None:
+        what = "the run has no floor with a seat on it" if signals is None else "its floor does not move"
+        raise RunError(f"no seat.transmissibility: {what}")
+    return {"x": [*map(float, curve.x)], "y": [*map(float, curve.y)], "spread": [*map(float, curve.spread)]}
+
+
+def _records_of(scene: ResolvedScene, topic: str) -> tuple[list[float], list[Any]]:
+    """Times [s] and records of a topic. Raises RunError where a run has no such table."""
     sources, simulation = make_sources(scene), make_simulation(scene)
     simulation.prepare()
     times, records, seen = [], [], set()
@@ -187,11 +221,7 @@ def _series_of(scene: ResolvedScene, series: str) -> Row:
                     records.append(output.record)
     if not records or not has_columns(records[0]):
         raise RunError(f"the run has no table {topic}; it has {', '.join(sorted(seen))}")
-    time, *columns = table_of_records(topic, times, records).columns
-    for each in columns:
-        if each.name == column:
-            return {"time": [*map(float, time.values)], "values": [*map(float, each.values)], "unit": each.unit}
-    raise RunError(f"{topic} has no column {column!r}; it has {', '.join(each.name for each in columns)}")
+    return times, records
 
 
 def machine() -> str:

@@ -8,24 +8,34 @@ until a finer one moves what is left by less than chance tells.
 
 from __future__ import annotations
 
+import copy
 import math
-from collections.abc import Sequence
-from contextlib import ExitStack
+import re
+from collections.abc import Mapping, Sequence, Set
+from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy
 from numpy.typing import NDArray
 from scipy import stats
 
+from contact_sim_pkg.run.tables_between import STRESSES, KeyRange
+from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.schema.accuracy import requested
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.fit_result import LEAST_PROBABILITY, Compared, Fit, Fitted
 from contact_sim_pkg.sweep.intervals import LEVEL, Interval, intervals, unidentified
 from contact_sim_pkg.sweep.least_squares import ROUGH, At, Minimum, minimum
-from contact_sim_pkg.sweep.measured import Points, Series
+from contact_sim_pkg.sweep.measured import Measured, MeasuredResponse, Points, Series
 from contact_sim_pkg.sweep.pool import Workers
-from contact_sim_pkg.sweep.residuals import DensityResidual, PointsResidual, Residual, SeriesResidual
+from contact_sim_pkg.sweep.residuals import (
+    DensityResidual,
+    PointsResidual,
+    Residual,
+    ResponseResidual,
+    SeriesResidual,
+)
 from contact_sim_pkg.sweep.sweep import CASES, Notify, check_folder, processors, texts_of
 from contact_sim_pkg.sweep.variation import SweepError, Values, Variation, samples_of
 
@@ -33,18 +43,22 @@ __all__ = ["Compared", "Fit", "Fitted", "Runs", "fit"]
 
 Field = NDArray[numpy.float64]
 
+EFFECT_KEY = re.compile(r"(effects\.\w+\.\w+)\.\w+")
+CUSHION_KEY = re.compile(r"effects\.(seat)\.cushion\.(\w+)")
 STARTS = 4
 """Cases a parameter, drawn over the ranges, of which the best is the start."""
 PARTS = 0.125, 0.35, 1.0
 """Of a recording's square, that are fitted one after the other."""
 MOST_ROUNDS = 4
 """Of fitting and whitening."""
-WHITE = 0.02
-"""By which the filter of two rounds may differ."""
+WHITE, SAME_SPREAD = 0.02, 0.1
+"""By which the filters, and of themselves the spreads of lines of two rounds may differ."""
 FINEST = 1e-8
 """Accuracy that runs may request."""
 FINER = 0.1
 """Times the accuracy, of the run beside which one is looked at."""
+FAR = 10.0
+"""Times what chance lets a square grow by, that slopes may err by."""
 STILL, FAINT = 0.3, 0.1
 """Standard deviations of its own by which a parameter, and of chance by which what is left may move under a finer accuracy."""
 
@@ -71,15 +85,20 @@ class Runs(Protocol):
     """[s] to which a run is needed; None: all of it"""
 
     def __call__(self, places: Sequence[Field]) -> list[Field]:
-        """Of points the metrics [cases, metrics], of a series its times and values [2, samples], of each place."""
+        """Of each place, of points the metrics [cases, metrics], of a series its times and values [2, samples], of a
+        transmissibility frequencies, magnitudes and their spreads [3, lines].
+        """
 
     def values_at(self, place: Field) -> Values:
         """What a place sets."""
 
+    def without(self, effect: str) -> Runs | None:
+        """Those of the scene without an effect, over the other keys; None where it cannot be left out."""
+
 
 def fit(
     scene: str,
-    to: Points | Series,
+    to: Measured,
     free: Sequence[Variation],
     folder: Path,
     *,
@@ -121,6 +140,8 @@ def fit(
             middle = scene_of(
                 scene, texts_of({**cases[0], **{other.key: other.at(0.5) for other in free}, each.key: end})
             )
+    if isinstance(to, MeasuredResponse) and middle.data.get("seat") is None:
+        raise SweepError(f"{scene} has no seat, so no transmissibility from its floor: fit a series or metrics of it")
     (folder / CASES).mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
         if workers is None:
@@ -130,6 +151,8 @@ def fit(
         runs.is_held = any("accuracy" in each for each in cases)
         if isinstance(to, Points):
             found = _fitted_points(runs, to)
+        elif isinstance(to, MeasuredResponse):
+            found = _fitted_response(runs, to)
         else:
             found = _fitted_spectrum(runs, to) if by_spectrum else _fitted_series(runs, to, most_shift)
     if found.probability < LEAST_PROBABILITY and isinstance(to, Series) and not by_spectrum and runs.is_held:
@@ -142,7 +165,7 @@ class _SceneRuns:
     """What the scene gives at parameters, by cases."""
 
     def __init__(
-        self, scene: str, to: Points | Series, cases: Sequence[Values], free: Sequence[Variation], folder: Path,
+        self, scene: str, to: Measured, cases: Sequence[Values], free: Sequence[Variation], folder: Path,
         workers: Workers, notify: Notify,
     ) -> None:  # fmt: skip
         self._scene, self._to, self._cases, self.free = scene, to, cases, free
@@ -152,16 +175,20 @@ class _SceneRuns:
         self.end: float | None = None
         block = scene_of(scene, texts_of(cases[0])).data
         self._whole, self._block = float(block["duration"]), float(block["block_length"])
-        self._known: dict[tuple[str, ...], Field] = {}
+        self._known: dict[tuple[KeyRange | None, tuple[str, ...]], Field] = {}
+        self._accuracies: set[float] = set()
+        self._over = _tables_over(free, cases, block)
 
     def __call__(self, places: Sequence[Field]) -> list[Field]:
         cases, settings = self._cases, self._settings()
         series = self._to.name if isinstance(self._to, Series) else ""
+        is_response = isinstance(self._to, MeasuredResponse)
         named = [texts_of({**self.values_at(place), **settings}) for place in places]
-        new = [texts for texts in dict.fromkeys(named) if texts not in self._known]
+        tables = self._tables(len(set(named)))
+        new = [texts for texts in dict.fromkeys(named) if (tables, texts) not in self._known]
         tasks = [
             Task(len(cases) * i + j, self._scene, (*texts_of(case), *texts), str(self._folder.absolute()), False,
-                 sources_hash(), series)
+                 sources_hash(), series, is_response, tables)
             for i, texts in enumerate(new) for j, case in enumerate(cases)
         ]  # fmt: skip
         rows: dict[int, Row] = {}
@@ -172,12 +199,35 @@ class _SceneRuns:
             self._notify(f"{self.count + len(rows)} runs", 0.0)
         self.count += len(tasks)
         for i, texts in enumerate(new):
-            self._known[texts] = self._given([rows[len(cases) * i + j] for j in range(len(cases))])
-        return [self._known[texts] for texts in named]
+            self._known[tables, texts] = self._given([rows[len(cases) * i + j] for j in range(len(cases))])
+        return [self._known[tables, texts] for texts in named]
 
     def values_at(self, place: Field) -> Values:
         """What a place sets."""
         return {each.key: each.at(float(part)) for each, part in zip(self.free, place, strict=True)}
+
+    def without(self, effect: str) -> Runs | None:
+        """Those of the scene without an effect, over the other keys; None where it cannot be left out."""
+        found = copy.copy(self)
+        found.free = [each for each in self.free if not each.key.startswith(f"{effect}.")]
+        found._cases = [{**case, effect: "null"} for case in self._cases]
+        found._known, found.count = {}, 0
+        middle = {each.key: each.at(0.5) for each in found.free}
+        try:
+            block = scene_of(self._scene, texts_of({**found._cases[0], **middle})).data
+        except SceneError:
+            return None
+        found._over = _tables_over(found.free, found._cases, block)
+        return found
+
+    def _tables(self, places: int) -> KeyRange | None:
+        """Between which tables the next runs take their cushion's. One that is only looked at, at an accuracy of smaller cells,
+        has its own: the others would be for nothing.
+        """
+        if self._over is not None and self.accuracy not in self._accuracies and places == 1:
+            return self._over._replace(is_own=True)
+        self._accuracies.add(self.accuracy)
+        return self._over
 
     def _settings(self) -> Values:
         """Accuracy and duration where they are not those of the scene."""
@@ -192,7 +242,27 @@ class _SceneRuns:
             return numpy.array(
                 [[_metric(row, each, self._to.units.get(each)) for each in self._to.metrics] for row in rows]
             )
-        return numpy.array([rows[0]["time"], rows[0]["values"]])
+        names = ("x", "y", "spread") if isinstance(self._to, MeasuredResponse) else ("time", "values")
+        return numpy.array([rows[0][name] for name in names])
+
+
+def _tables_over(free: Sequence[Variation], cases: Sequence[Values], data: Mapping[str, Any]) -> KeyRange | None:
+    """The range between whose tables runs take their cushion's: of the only free key of a seat's cushion, whose maps are not
+    recorded; None where there is no such key.
+    """
+    set_by_cases = {key for case in cases for key in case if len({each.get(key) for each in cases}) > 1}
+    found = [(each, match) for each in free if (match := CUSHION_KEY.fullmatch(each.key))]
+    if len(found) != 1 or any(each.startswith("effects") for each in set_by_cases):
+        return None
+    ((variation, match),) = found
+    contact, key = match.groups()
+    if (
+        key not in STRESSES
+        or (data["effects"].get(contact) or {}).get("contact_field") is not None
+        or not variation.low > 0.0
+    ):
+        return None
+    return KeyRange(contact, key, variation.low, variation.high)
 
 
 def _metric(row: Row, key: str, unit: str | None) -> float:
@@ -225,9 +295,10 @@ class _Concluded:
             if float(numpy.sum(at([best])[0] ** 2)) > found.square - 0.1 * self.scatter**2:
                 break
             found = minimum(at, best)
+        needless = set() if blind.any() or not self.scatter > 0.0 else _needless(runs, residual, found, self.scatter)
         self.found, self.given = found, runs([found.place])[0]
         self.probability = residual.probability(found.left, count, self.given)
-        self.parameters = _parameters(runs, found.place, ends, blind)
+        self.parameters = _parameters(runs, found.place, ends, blind, needless)
 
     def as_fit(self, runs: Runs, misfit: float, unit: str, compared: list[Compared], shift: float = 0.0) -> Fit:
         """The result."""
@@ -235,6 +306,34 @@ class _Concluded:
             self.parameters, misfit, unit, self.probability, shift, runs.count, runs.values_at(self.found.place), compared,
             accuracy=runs.accuracy,
         )  # fmt: skip
+
+
+def _needless(runs: Runs, residual: Residual, found: Minimum, scatter: float) -> set[str]:
+    """Effects with a free key without which the least square over the other keys is no larger than chance lets it (F test)."""
+    needless = set()
+    for effect in dict.fromkeys(match[1] for each in runs.free if (match := EFFECT_KEY.fullmatch(each.key))):
+        others = [i for i, each in enumerate(runs.free) if not each.key.startswith(f"{effect}.")]
+        without, count = runs.without(effect), len(runs.free) - len(others)
+        if without is None:
+            continue
+        freedom = max(found.freedom, 1) if math.isnan(residual.scatter) else math.inf
+        most = count * float(stats.f.ppf(LEVEL, count, freedom)) * scatter**2
+        with suppress(SweepError):  # a run that fails without it, or does not give what was measured
+            if _least_without(_at(without, residual), found, others, FAR * most) - found.square <= most:
+                needless.add(effect)
+        runs.count += without.count
+    return needless
+
+
+def _least_without(at: At, found: Minimum, others: list[int], far: float) -> float:
+    """The least square over the ``others`` of the keys; as the slopes predict it where that is more by ``far``: one run then."""
+    place, slope = found.place[others], found.slope[:, others]
+    (left,) = at([place])
+    step, *_ = numpy.linalg.lstsq(slope, -left, rcond=None)
+    predicted = float(numpy.sum((left + slope @ step) ** 2))
+    if predicted - found.square > far or not others:
+        return predicted
+    return minimum(at, place).square
 
 
 def _at(runs: Runs, residual: Residual) -> At:
@@ -266,6 +365,25 @@ def _fitted_spectrum(runs: Runs, to: Series) -> Fit:
     compared = [Compared(f"density of {to.name}", residual.measured.frequency[lines], *both, "frequency, Hz")]
     left = concluded.found.left
     return concluded.as_fit(runs, math.sqrt(float(left @ left) / left.size), "of the scatter of its lines", compared)
+
+
+def _fitted_response(runs: Runs, to: MeasuredResponse) -> Fit:
+    """A transmissibility, its lines weighed anew by the spread of the run that is best, round by round."""
+    residual, best = ResponseResidual(to), numpy.full(len(runs.free), 0.5)
+    at = _at(runs, residual)
+    residual.weigh(runs([best])[0])
+    best = _start(runs, at)
+    for _ in range(MOST_ROUNDS):
+        changed = residual.weigh(runs([best])[0])
+        _require_enough(residual.lines.size, runs)
+        best = (found := _settled(runs, residual, minimum(at, best))).place
+        if changed < SAME_SPREAD:
+            break
+    concluded = _Concluded(runs, residual, found)
+    fitted, left = residual.fitted(concluded.given), concluded.found.left
+    compared = [Compared("seat.transmissibility", residual.frequency, residual.measured, fitted, "frequency, Hz")]
+    unit = "of the magnitude" if to.spread is None else "of the spread of its lines"
+    return concluded.as_fit(runs, math.sqrt(float(left @ left) / left.size), unit, compared)
 
 
 def _fitted_series(runs: Runs, to: Series, most_shift: float) -> Fit:
@@ -323,7 +441,9 @@ def _titled(name: str, unit: str) -> str:
     return f"{name}, {unit}" if unit else name
 
 
-def _parameters(runs: Runs, place: Field, ends: Sequence[Interval], blind: NDArray[numpy.bool_]) -> list[Fitted]:
+def _parameters(
+    runs: Runs, place: Field, ends: Sequence[Interval], blind: NDArray[numpy.bool_], needless: Set[str]
+) -> list[Fitted]:
     """Values with their intervals, and what is not identifiable."""
     unseen = [each.key for each, is_blind in zip(runs.free, blind, strict=True) if is_blind]
     found = []
@@ -336,6 +456,8 @@ def _parameters(runs: Runs, place: Field, ends: Sequence[Interval], blind: NDArr
             remark = "at the end of its range"
         elif low < 0.0 or high > 1.0:
             remark = "interval beyond its range"
+        if any(each.key.startswith(f"{effect}.") for effect in needless):
+            remark = f"{remark}; not needed".removeprefix("; ")
         found.append(Fitted(each.key, _value(each, float(part)), _value(each, low), _value(each, high), remark))
     return found
 

@@ -2,7 +2,7 @@
 far as these are known.
 
 Sources: Seber and Wild, Nonlinear Regression (1989), section 6.4; Ljung and Box, Biometrika 65 (1978) 297; Ljung, System
-Identification (1999); Akima, J. ACM 17 (1970) 589.
+Identification (1999); Akima, J. ACM 17 (1970) 589; Bendat and Piersol, Random Data (2010), section 9.2.
 """
 
 from __future__ import annotations
@@ -14,23 +14,25 @@ import numpy
 from numpy.typing import NDArray
 from scipy import interpolate, optimize, signal, stats
 
-from contact_sim_pkg.sweep.measured import Points, Series
-from contact_sim_pkg.sweep.spectrum import log_density, loud
+from contact_sim_pkg.sweep.measured import MeasuredResponse, Points, Series
+from contact_sim_pkg.sweep.spectrum import APART, FEWEST_LINES, OVERLAP, log_density, loud
 from contact_sim_pkg.sweep.variation import SweepError
 
-__all__ = ["DensityResidual", "PointsResidual", "Residual", "SeriesResidual"]
+__all__ = ["DensityResidual", "PointsResidual", "Residual", "ResponseResidual", "SeriesResidual"]
 
 Field = NDArray[numpy.float64]
 
 ORDER = 4
 """Of the autoregression that whitens a series."""
-LAGS = 20
+LAGS, LAGS_OF_LINES = 20, 4
 AROUND = 4
 """Samples on either side, that what is left may hang on."""
 EXACT = 2e-3
 """Of a recording's own standard deviation: what is left below it is numerical, chance has no part in it."""
 LEFT_OUT = 0.02
 """Of a series' time at either end, beyond the shift: the run began from another state."""
+LEAST_SPREAD = 1e-3
+"""Of a magnitude: a coherence is not printed, nor leakage small enough, for less."""
 TRIED_SHIFTS = 17
 """Over the allowed ones, before the best is refined."""
 
@@ -100,6 +102,85 @@ class DensityResidual:
     def probability(self, left: Field, keys: int, given: Field) -> float:
         """By chi-squared."""
         return float(stats.chi2.sf(left @ left, left.size - keys))
+
+
+class ResponseResidual:
+    """The logarithm of a transmissibility, over the spread by chance of both estimates as if their floors were two.
+
+    Nothing is whitened: windows of Hann make independent what lies two lines apart (`spectrum.APART`), so that of the
+    measured points those are compared, where the run can be trusted too. The spreads are weights: floors that are one have
+    most of it in common, so that what is left says how large chance is.
+    """
+
+    scatter = math.nan
+
+    def __init__(self, to: MeasuredResponse) -> None:
+        self._to = to
+        self.lines = numpy.arange(to.frequency.size)
+        self.spread: Field = numpy.ones(to.frequency.size)
+
+    @property
+    def frequency(self) -> Field:
+        """[Hz] of the points that are compared."""
+        return self._to.frequency[self.lines]
+
+    @property
+    def measured(self) -> Field:
+        """Magnitudes there."""
+        return self._to.magnitude[self.lines]
+
+    def fitted(self, given: Field) -> Field:
+        """Magnitudes of a run there, its line ``given`` as frequency, magnitude and spread [3, lines]."""
+        known = given[:, numpy.isfinite(given[1])]
+        if not known.size:
+            raise SweepError("the seat of a run follows its floor nowhere; narrow the ranges of --free")
+        return numpy.asarray(numpy.exp(numpy.interp(self.frequency, known[0], numpy.log(known[1]))))
+
+    def of(self, given: Field) -> Field:
+        """Of frequency, magnitude and spread [3, lines]."""
+        return numpy.asarray(numpy.log(self.fitted(given) / self.measured) / self.spread)
+
+    def weigh(self, given: Field) -> float:
+        """Take the points and their spreads of a run; by how much the spreads changed, of the largest, 1 where points did.
+
+        Raises SweepError where the run can be trusted at too few of them.
+        """
+        to, known = self._to, given[:, numpy.isfinite(given[1])]
+        width = float(given[0, 1] - given[0, 0])
+        near = _between(known[0], to.frequency, 1.5 * width)
+        if to.spread is not None and to.frequency.size > 1:
+            width = max(width, float(numpy.median(numpy.diff(to.frequency))))
+        lines: list[int] = []
+        for place in numpy.flatnonzero(near):
+            if not lines or to.frequency[place] - to.frequency[lines[-1]] > (APART - 1e-6) * width:
+                lines.append(int(place))
+        if len(lines) < FEWEST_LINES:
+            run = f"from {known[0, 0]:.3g} to {known[0, -1]:.3g} Hz" if known.size else "nowhere"
+            raise SweepError(
+                f"a run can be trusted {run}, T(f) was measured from {to.frequency[0]:.3g} to {to.frequency[-1]:.3g} Hz: "
+                f"{len(lines)} independent lines in common, {FEWEST_LINES} are needed; set a longer duration, or measure more"
+            )
+        before, self.lines = (self.lines, self.spread), numpy.array(lines)
+        self.spread = numpy.ones(len(lines))
+        if to.spread is not None:
+            of_run = numpy.interp(self.frequency, known[0], known[2])
+            both = OVERLAP * (to.spread[self.lines] ** 2 + of_run**2)
+            self.spread = numpy.sqrt(numpy.maximum(both, LEAST_SPREAD**2))
+        if not numpy.array_equal(before[0], self.lines):
+            return 1.0
+        return float((abs(self.spread - before[1]) / self.spread).max())
+
+    def probability(self, left: Field, keys: int, given: Field) -> float:
+        """Twice the least of two: of so large a sum of squares where the spreads are known (chi-squared), and of the
+        autocorrelations of what is left from line to line (Ljung and Box), for what another model leaves is smooth.
+        """
+        if float(numpy.std(numpy.log(self.fitted(given) / self.measured))) < EXACT:
+            return math.nan
+        white = _of_whiteness(left, min(LAGS_OF_LINES, left.size // 4), 0)
+        freedom = left.size - keys
+        if self._to.spread is None or freedom < 1:
+            return white
+        return min(1.0, 2.0 * min(white, float(stats.chi2.sf(left @ left, freedom))))
 
 
 class SeriesResidual:
@@ -213,16 +294,27 @@ class SeriesResidual:
         return found  # of a run that stands still as good as any
 
 
-def _of_whiteness(left: Field) -> float:
-    """Probability of the autocorrelations of what is left up to `LAGS` if it is white, by Ljung and Box."""
+def _between(known: Field, places: Field, widest: float) -> NDArray[numpy.bool_]:
+    """Mask of ``places`` that lie between two of those ``known``, increasing, that are less than ``widest`` apart."""
+    if known.size < 2:
+        return numpy.zeros(places.size, dtype=bool)
+    behind = numpy.clip(numpy.searchsorted(known, places * (1.0 + 1e-9)), 1, known.size - 1)
+    inside = (places >= known[0] * (1.0 - 1e-9)) & (places <= known[-1] * (1.0 + 1e-9))
+    return numpy.asarray(inside & (known[behind] - known[behind - 1] < widest))
+
+
+def _of_whiteness(left: Field, most: int = LAGS, order: int = ORDER) -> float:
+    """Probability of the autocorrelations of what is left up to the lag ``most`` if an autoregression of an ``order`` has made
+    it white, by Ljung and Box.
+    """
     centred = left - left.mean()
     square = float(centred @ centred)
     if square == 0.0:
         return 1.0
-    lags = numpy.arange(1, LAGS + 1)
+    lags = numpy.arange(1, most + 1)
     found = numpy.array([float(centred[lag:] @ centred[:-lag]) / square for lag in lags])
     statistic = left.size * (left.size + 2.0) * float((found**2 / (left.size - lags)).sum())
-    return float(stats.chi2.sf(statistic, LAGS - ORDER))
+    return float(stats.chi2.sf(statistic, most - order))
 
 
 def too_short(given: Field, to: Series) -> SweepError:

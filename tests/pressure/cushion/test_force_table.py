@@ -2,6 +2,7 @@
 
 import hashlib
 import io
+import math
 import os
 
 import numpy
@@ -15,10 +16,13 @@ from contact_sim_pkg.pressure.cushion.force_table import (
     SPACING,
     SPARSE,
     ForceTable,
+    between,
     kept_table,
     make_table,
     smoothed,
+    without_maps,
 )
+from contact_sim_pkg.run.tables_between import KeyRange
 
 F_TABLE = (5.9, 20.7, 46.3, 95.0, 179.1, 280.5, 386.5, 496.3, 613.3, 746.8, 910.1, 1136.6, 1515.0)  # at 5, 10 ... 65 mm
 
@@ -77,6 +81,14 @@ def test_progress_is_reported_to_the_end():
     assert len(parts) == 17
     assert parts[-1] == 1.0
     assert parts == sorted(parts)
+
+
+def test_where_solutions_lead_changes_no_solution(layer, table):
+    """Each node against the layer solved from nothing."""
+    for i in (1, 2, 3, 40, 90, len(table.force) - 1):
+        found = layer.solve(i * SPACING)
+        assert table.force[i] == pytest.approx(found.force, rel=1e-8)
+        assert table.pressure[i] == pytest.approx(found.pressure, rel=1e-6, abs=1e-6 * float(found.pressure.max()))
 
 
 def small_table(value=1.0):
@@ -199,3 +211,37 @@ def test_maps_add_up_to_the_smoothed_force():
         force = elastic_force(law, approach)
         assert force > 0.0
         assert table.map_at(approach, force).sum() * table.cell_area == pytest.approx(force, rel=1e-12)
+
+
+def test_between_tables_of_a_key_the_force_is_that_of_its_own_table():
+    """Of the plateau, at Chebyshev's points and away from them: 1e-5 of the force, no more than a table scatters."""
+    points = KeyRange("seat", "plateau", 2400.0, 4800.0).points
+    tables = [solved_below(0.6, plateau=float(each)) for each in points]
+    for plateau in (2450.0, 3000.0, 3771.0, 4700.0):
+        own = solved_below(0.6, plateau=plateau)
+        found = between(numpy.log(points), tables, math.log(plateau))
+        assert found.force[10:] == pytest.approx(own.force[10:], rel=1.5e-5)
+        assert found.largest_strain == pytest.approx(own.largest_strain, abs=1e-4)
+        slopes = [elastic_stiffness(each.law(), 0.03) for each in (found, own)]
+        assert slopes[0] == pytest.approx(slopes[1], rel=2e-4)
+
+
+def test_a_table_without_maps_has_the_forces_of_one_with_them():
+    far = 0.4 * PAN.thickness
+    forces = make_table(pan_layer(cell=0.005), SPARSE * SPACING, far)
+    with_maps = smoothed(make_table(pan_layer(cell=0.01), SPACING, far), forces)
+    found = without_maps(forces, SPACING)
+    assert numpy.array_equal(found.force, with_maps.force)
+    assert found.largest_strain == pytest.approx(with_maps.largest_strain, abs=1e-3)
+    assert found.pressure.size == 0
+
+
+def test_points_of_a_key_are_those_of_chebyshev():
+    """Roots of T5 for a factor of two, in the logarithm of the key."""
+    found = KeyRange("seat", "plateau", 2.0, 4.0).points
+    assert numpy.polynomial.chebyshev.chebval(2.0 * numpy.log2(found) - 3.0, [0, 0, 0, 0, 0, 1]) == pytest.approx(
+        numpy.zeros(5), abs=1e-12
+    )
+    assert len(KeyRange("seat", "plateau", 1.0, 10.0).points) == 9
+    with pytest.raises(ValueError, match="low"):
+        _ = KeyRange("seat", "plateau", 0.0, 1.0).points

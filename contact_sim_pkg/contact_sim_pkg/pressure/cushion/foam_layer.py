@@ -26,6 +26,7 @@ from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
+from scipy import fft
 
 from contact_sim_pkg.compiled.guards import require, require_count, require_positive, require_values
 from contact_sim_pkg.laws.elastic_law import check_elastic
@@ -177,7 +178,7 @@ class FoamLayer:
 
     def _spread(self, w: Field) -> Field:
         """c R*w [Pa]."""
-        return numpy.asarray(numpy.fft.irfft2(self._remainder * numpy.fft.rfft2(w), s=w.shape))
+        return numpy.asarray(fft.irfft2(self._remainder * fft.rfft2(w), s=w.shape))
 
     def _free_step(
         self, stiffness: Field, free: Cells, load: Field, tolerance: float = INNER_TOLERANCE
@@ -194,7 +195,7 @@ class FoamLayer:
         direction, before, steps = x, 1.0, 0
         while steps < MOST_INNER_STEPS and numpy.linalg.norm(residual) > tolerance * size:
             steps += 1
-            better = numpy.fft.irfft2(smooth * numpy.fft.rfft2(residual), s=load.shape) * free
+            better = fft.irfft2(smooth * fft.rfft2(residual), s=load.shape) * free
             now = float((residual * better).sum())
             direction = better + now / before * direction
             applied = (stiffness * direction + self._spread(direction)) * free

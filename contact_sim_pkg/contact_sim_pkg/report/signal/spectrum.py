@@ -54,6 +54,19 @@ class Transmissibility(NamedTuple):
     segments: int
     """number of segments averaged"""
 
+    @property
+    def spread(self) -> NDArray[np.float64]:
+        """`magnitude_spread` [frequencies]."""
+        return magnitude_spread(self.coherence, self.segments)
+
+
+def magnitude_spread(coherence: NDArray[np.float64], segments: int | NDArray[np.float64]) -> NDArray[np.float64]:
+    """Standard deviation of a magnitude by chance, over the magnitude: ``sqrt((1 - c)/(2 n c))`` of n segments with the
+    coherence c, 0 to 1. Source: Bendat and Piersol, Random Data, table 9.6.
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(np.sqrt(np.maximum(1.0 - coherence, 0.0) / (2.0 * segments * coherence)))
+
 
 class CrossDensity(NamedTuple):
     """One-sided cross spectral densities of several signals."""

@@ -8,9 +8,9 @@ from contact_sim_pkg.compare.side_by_side import Curve
 from contact_sim_pkg.report.comparison.figures import Run, legend, over_legend
 from contact_sim_pkg.report.drawing import MUTED, Picture, picture
 from contact_sim_pkg.report.series import Recording
-from contact_sim_pkg.report.signal.spectrum import band, power_density, transmissibility
+from contact_sim_pkg.report.signal.spectrum import band, power_density
 from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import frequency_axis
-from contact_sim_pkg.rigs.vehicle.seat.report.response import TRUSTED_COHERENCE, trusted_part
+from contact_sim_pkg.rigs.vehicle.seat.report.response import TRUSTED_COHERENCE, transmissibility_curve
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals
 
 
@@ -19,15 +19,11 @@ def seat_curves(recording: Recording) -> dict[str, Curve]:
     signals = ride_signals(recording.motion)
     if signals is None:
         return {}
-    way = transmissibility(signals.floor, signals.seat, signals.sample_rate)
-    trusted = trusted_part(way, signals.floor, signals.sample_rate)
-    inside = band(way.frequency)
-    found = {}
-    if trusted is not None:
-        values = np.where(trusted, way.magnitude, np.nan)
-        found["seat.transmissibility"] = Curve("Hz", way.frequency[inside], values[inside])
+    way = transmissibility_curve(signals)
+    found = {} if way is None else {"seat.transmissibility": way}
     for name, values in (("seat.psd", signals.seat), ("floor.psd", signals.floor)):
         density = power_density(values, signals.sample_rate)
+        inside = band(density.frequency)
         found[name] = Curve("Hz", density.frequency[inside], density.density[inside])
     return found
 

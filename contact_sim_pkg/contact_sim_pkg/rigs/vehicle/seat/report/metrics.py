@@ -171,9 +171,7 @@ def _way_to_seat(make: Callable[..., Metric], signals: RideSignals, doubts: tupl
     if peak is None:
         return []
     place = int(np.argmin(np.abs(way.frequency - peak[1])))
-    # Bendat and Piersol, Random Data, table 9.6
-    coherence = float(way.coherence[place])
-    error = peak[0] * math.sqrt(max(1.0 - coherence, 0.0)) / (math.sqrt(2.0 * way.segments * coherence))
+    coherence, error = float(way.coherence[place]), peak[0] * float(way.spread[place])
     return [
         make("peak", "T(f) at its peak", peak[0], "", quantity="seat_peak", broken=doubts, count=way.segments,
              spread=confidence.TWO_SIDED * error, remark=f"coherence {coherence:.3g}"),

@@ -1,11 +1,13 @@
-"""Where a response of the seat can be trusted, and its peak."""
+"""Way from floor to seat: where a response can be trusted, its curve, and its peak."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_sim_pkg.report.signal.spectrum import Transmissibility, band, power_density
+from contact_sim_pkg.compare.side_by_side import Curve
+from contact_sim_pkg.report.signal.spectrum import Transmissibility, band, power_density, transmissibility
+from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals
 
 TRUSTED_COHERENCE = 0.9
 DRIVEN_SHARE = 1e-3
@@ -26,6 +28,17 @@ def trusted_part(result: Transmissibility, source: NDArray[np.float64], sample_r
         shown & (result.coherence >= TRUSTED_COHERENCE) & (driven >= DRIVEN_SHARE * driven[shown].max())
     )
     return found
+
+
+def transmissibility_curve(signals: RideSignals) -> Curve | None:
+    """T(f) up to 80 Hz, nan where it cannot be trusted, with the spread of each line; None for a floor at rest."""
+    way = transmissibility(signals.floor, signals.seat, signals.sample_rate)
+    trusted = trusted_part(way, signals.floor, signals.sample_rate)
+    if trusted is None:
+        return None
+    inside = band(way.frequency)
+    values = np.where(trusted, way.magnitude, np.nan)
+    return Curve("Hz", way.frequency[inside], values[inside], way.spread[inside])
 
 
 def peak_of(result: Transmissibility, trusted: NDArray[np.bool_]) -> tuple[float, float] | None:
