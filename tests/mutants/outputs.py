@@ -110,7 +110,7 @@ REPORT = (
     Mutant("tire/report/metrics._along", "-float(axle.longitudinal", "float(axle.longitudinal", TIRE),
     # Series of a bag
     Mutant(
-        "report/reading._motion",
+        "report/reading.motion_series",
         '("position", "acceleration", "velocity")',
         '("position", "velocity", "acceleration")',
         READING,

@@ -7,7 +7,7 @@ import pytest
 
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
-from contact_sim_pkg.rigs.vehicle.effects.suspension_kernel import DryFriction, ShakenMass, Strut
+from contact_sim_pkg.rigs.vehicle.effects.suspension_kernel import DryFriction, Strut
 from contact_sim_pkg.rigs.vehicle.effects.travel_stops_kernel import TravelStops
 from contact_sim_pkg.rigs.vehicle.motion import elements, entries
 from contact_sim_pkg.rigs.vehicle.motion.columns import FORCES
@@ -16,7 +16,7 @@ from contact_sim_pkg.rigs.vehicle.motion.ground import Ground
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass, accelerate
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Back, Leaning, MasslessNode, Seat, Seated, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.motion.road import AsperityPush, RoadContact
-from contact_sim_pkg.rigs.vehicle.motion.spring import DriveLine, Spring
+from contact_sim_pkg.rigs.vehicle.motion.spring import DriveLine, ShakenMass, Spring
 from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 
 MASSES = (Mass(0, 40.0), Mass(2, 300.0))

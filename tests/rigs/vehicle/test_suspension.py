@@ -11,6 +11,8 @@ from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.friction import STICK
 from contact_sim_pkg.laws.parameters import Contact, NormalDissipative, NormalElastic
 from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.rigs.vehicle.acting import Acting, Joined
+from contact_sim_pkg.rigs.vehicle.effects import bump_stop_kernel
 from contact_sim_pkg.rigs.vehicle.effects.suspension_kernel import DryFriction, Strut
 from contact_sim_pkg.rigs.vehicle.effects.travel_stops_kernel import TravelStops
 from contact_sim_pkg.rigs.vehicle.model import build, standing_state
@@ -134,6 +136,30 @@ def test_a_seat_that_rests_on_its_lower_stop_stays_there(tmp_path):
     assert height[0] < -0.05
     for each in motion.position.values():
         assert abs(each - each[0]).max() < 1e-7
+
+
+def test_a_run_that_lies_on_its_stop_hits_it_once(tmp_path):
+    recording = recorded(tmp_path, "suspension_seat", "effects.seat.suspension={preload: 300, friction: 0}", *BARE)
+    found = {metric.key.rpartition(".")[2]: metric for metric in seat_metrics(recording)}
+    assert found["stop_hits"].value == 1.0
+    assert found["travel_used"].remark.endswith("on a stop for 100 % of the run")
+
+
+@pytest.mark.parametrize(
+    ("brought", "sentence"),
+    [
+        (
+            Acting(((1.0, 2.0),)),
+            r"effects.tire.bump_stop: brings an element of the class tuple, which is not registered",
+        ),
+        (Acting((), (Joined("lump", Mass(0, 1.0), (1.0, 1.0)),)), "named lump, a name that ends in _z is needed"),
+        (Acting((), 2 * (Joined("lump_z", Mass(0, 1.0), (1.0, 1.0)),)), "named lump_z, as another effect does"),
+    ],
+)
+def test_what_no_vehicle_can_hold_is_refused_by_the_effect_that_brings_it(monkeypatch, brought, sentence):
+    monkeypatch.setattr(bump_stop_kernel, "bump_stop", lambda keys, chassis: brought)
+    with pytest.raises(SceneError, match=sentence):
+        build(resolved("tire_bump", "effects.tire.bump_stop={}"))
 
 
 @pytest.mark.parametrize("bump", [0.08, -0.03])

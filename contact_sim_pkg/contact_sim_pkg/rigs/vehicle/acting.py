@@ -19,7 +19,7 @@ class Chassis(NamedTuple):
 
     gravity: float  # [m/s^2]
     wheel: Mass | None  # None without a tire, as the body; the floor is the frame of reference then
-    body: Mass | None
+    body: Mass | None  # a mass in that frame needs a `motion/spring.ShakenMass` beside it
     seated: float  # [kg] of the occupant; 0 without a seat
     suspension: float  # [N/m] of the spring between wheel and body; 0 without a tire
     first_state: int  # from which on the states of the effect lie: two for each mass, then its own

@@ -5,6 +5,7 @@ for becomes ``None``.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -27,6 +28,7 @@ from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
     shortest_time,
 )
 from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
+from contact_sim_pkg.rigs.vehicle.motion.elements import is_registered
 from contact_sim_pkg.rigs.vehicle.motion.ends import Floor, Pan, base_of
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Leaning, MasslessNode, Seat, Seated, Softening, Vehicle
@@ -53,6 +55,7 @@ from contact_sim_pkg.rigs.vehicle.tire.quarter_car import QuarterCar
 from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss
 from contact_sim_pkg.rigs.vehicle.tire.standing import TireAtRest
 from contact_sim_pkg.run.contact_laws import Cushion, elastic_law, friction, hysteresis, normal_loss
+from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing
@@ -228,6 +231,24 @@ def _coupling(
     return CouplingRule(tolerance, allowances, longest, shortest, segments, ways)
 
 
+def _refuse_brought(where: str, brought: Acting, before: Sequence[Acting]) -> None:
+    """SceneError for what no vehicle can hold beside what effects ``before`` have brought."""
+    names = [joined.name for each in (*before, brought) for joined in each.joined]
+    sentence = ""
+    if unknown := [type(each).__qualname__ for each in brought.elements if not is_registered(type(each))]:
+        sentence = (
+            f"brings an element of the class {unknown[0]}, which is not registered; call register_element with it"
+        )
+    elif misnamed := [joined.name for joined in brought.joined if not joined.name.endswith("_z")]:
+        sentence = f"brings a mass named {misnamed[0]}, a name that ends in _z is needed"
+    elif twice := [name for name in names if names.count(name) > 1]:
+        sentence = f"brings a mass named {twice[0]}, as another effect does; remove one of them, or rename its mass"
+    elif brought.pan is not None and any(each.pan is not None for each in before):
+        sentence = "carries the cushion, as another effect does; remove one of them"
+    if sentence:
+        raise SceneError([Fault("scene", 0, 0, where, sentence)])
+
+
 def _acting(scene: ResolvedScene, quarter: QuarterCar | None, seated: float) -> Acting:
     """What the effects of all contacts bring, contact by contact; ``seated`` [kg] of the occupant."""
     found: list[Acting] = []
@@ -239,7 +260,9 @@ def _acting(scene: ResolvedScene, quarter: QuarterCar | None, seated: float) -> 
             wheel, body, suspension = (
                 (None, None, 0.0) if quarter is None else (quarter.wheel, quarter.body, quarter.suspension.stiffness)
             )
-            found.append(load(effect.elements)(keys, Chassis(GRAVITY, wheel, body, seated, suspension, state, mode)))
+            brought = load(effect.elements)(keys, Chassis(GRAVITY, wheel, body, seated, suspension, state, mode))
+            _refuse_brought(f"effects.{contact.name}.{effect.name}", brought, found)
+            found.append(brought)
             state += 2 * len(found[-1].joined) + len(found[-1].states)
             mode += found[-1].modes
     pans = [each.pan for each in found if each.pan is not None]

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact_sim_pkg.records.metric import EVENT, Metric
 from contact_sim_pkg.report.drawing import ACCENT, MUTED, Picture, draw_series, new_figure, picture
@@ -36,10 +37,15 @@ class Travel(NamedTuple):
         return float(np.ptp(self.height)) / (self.high - self.low)
 
     @property
+    def on_stop(self) -> NDArray[np.bool_]:
+        """Whether it is beyond where a stop begins [samples]."""
+        found: NDArray[np.bool_] = (self.height < self.low) | (self.height > self.high)
+        return found
+
+    @property
     def hits(self) -> int:
-        """How often a stop is reached."""
-        inside = (self.height >= self.low) & (self.height <= self.high)
-        return int(np.count_nonzero(inside[:-1] & ~inside[1:]))
+        """How often a stop is reached; once where the run begins on it."""
+        return int(self.on_stop[0]) + int(np.count_nonzero(~self.on_stop[:-1] & self.on_stop[1:]))
 
 
 def travel_metrics(travel: Travel | None) -> list[Metric]:
@@ -50,6 +56,8 @@ def travel_metrics(travel: Travel | None) -> list[Metric]:
     make = Maker(travel.contact, "bench/motion", window, basis=EVENT).make
     low, high = 1e3 * float(travel.height.min()), 1e3 * float(travel.height.max())
     free = f"{low:.3g} to {high:.3g} mm, free {1e3 * travel.low:.3g} to {1e3 * travel.high:.3g} mm"
+    if travel.on_stop.any():
+        free += f"; on a stop for {100.0 * travel.on_stop.mean():.3g} % of the run"
     count = travel.height.size
     return [
         make("travel_used", f"{travel.what}, share used", 100.0 * travel.used, "%", count=count, remark=free),

@@ -19,9 +19,10 @@ from contact_sim_pkg.rigs.vehicle.motion.elements import register_element
 from contact_sim_pkg.rigs.vehicle.motion.ends import between, push_apart
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
 from contact_sim_pkg.rigs.vehicle.motion.scales import contact_scale
+from contact_sim_pkg.rigs.vehicle.motion.spring import ShakenMass
 from contact_sim_pkg.scene.schema.fields import given
 
-__all__ = ["DryFriction", "ShakenMass", "Strut", "suspension"]
+__all__ = ["DryFriction", "Strut", "suspension"]
 
 
 class Strut(NamedTuple):
@@ -43,13 +44,6 @@ class DryFriction(NamedTuple):
     mode: int  # place of `laws/friction.py`'s
     force: float  # [N], > 0
     stiffness: float  # [N/m] of the spring that holds
-
-
-class ShakenMass(NamedTuple):
-    """A mass in the frame of the shaken floor."""
-
-    place: int
-    mass: float  # [kg]
 
 
 @borrowing_kernel
@@ -97,20 +91,8 @@ def _rub_transition(friction, ground, mode, state, event, direction):
     return 1.0
 
 
-@borrowing_kernel
-def _shaken(mass, ground, mode, state, out):
-    return 0.0, -mass.mass * ground.acceleration_z * state[mass.place + 1], 0.0, 0.0
-
-
-@borrowing_kernel
-def _shake(mass, ground, state, out):
-    out[mass.place + 1] -= ground.acceleration_z
-    return 0.0
-
-
 register_element(Strut, _act)
 register_element(DryFriction, _rub, events=_rub_events, event_count=1, transition=_rub_transition)
-register_element(ShakenMass, _shaken, finish=_shake)
 
 
 def suspension(keys: SuspensionSection, chassis: Chassis) -> Acting:

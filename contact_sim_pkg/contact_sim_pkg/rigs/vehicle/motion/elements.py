@@ -28,7 +28,18 @@ from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, kernel_overload
 from contact_sim_pkg.rigs.vehicle.motion.ground import Ground
 
-__all__ = ["act", "energies", "events", "events_of", "finish", "need_rate", "observe", "register_element", "transition"]
+__all__ = [
+    "act",
+    "energies",
+    "events",
+    "events_of",
+    "finish",
+    "is_registered",
+    "need_rate",
+    "observe",
+    "register_element",
+    "transition",
+]
 
 Work = tuple[float, float, float, float]
 Elements = tuple[Any, ...]
@@ -104,6 +115,11 @@ def register_element(
     does ``derivative`` belong to ``state``.
     """
     _KERNELS[element_class] = _Kernels(act, finish, events, event_count, transition, observe, energies, needs_rate)
+
+
+def is_registered(element_class: type) -> bool:
+    """Whether tuples of this class are elements."""
+    return element_class in _KERNELS
 
 
 def events_of(elements: Elements) -> int:

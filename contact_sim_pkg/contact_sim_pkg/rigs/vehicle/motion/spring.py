@@ -1,4 +1,6 @@
-"""Spring and damper between two coordinates, and the acceleration that a drive line gives to one."""
+"""Spring and damper between two coordinates, and the accelerations that a drive line gives: to a free body, and to a mass
+in the frame of the floor.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.rigs.vehicle.motion.elements import register_element
 
-__all__ = ["DriveLine", "Spring", "spring_force"]
+__all__ = ["DriveLine", "ShakenMass", "Spring", "spring_force"]
 
 
 class Spring(NamedTuple):
@@ -25,6 +27,13 @@ class DriveLine(NamedTuple):
 
     place: int
     mass: float  # [kg] of the body
+
+
+class ShakenMass(NamedTuple):
+    """A mass in the shaken frame of reference, which the floor is without a tire: it feels ``-m a_z``."""
+
+    place: int
+    mass: float  # [kg]
 
 
 def spring_force(spring: Spring, state: Vector) -> Any:
@@ -57,4 +66,18 @@ def _shake(drive_line, ground, state, out):
 
 
 register_element(Spring, _act)
+
+
+@borrowing_kernel
+def _carry(mass, ground, mode, state, out):
+    return 0.0, -mass.mass * ground.acceleration_z * state[mass.place + 1], 0.0, 0.0
+
+
+@borrowing_kernel
+def _lag(mass, ground, state, out):
+    out[mass.place + 1] -= ground.acceleration_z
+    return 0.0
+
+
 register_element(DriveLine, _drive, finish=_shake)
+register_element(ShakenMass, _carry, finish=_lag)
