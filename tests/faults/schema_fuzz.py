@@ -51,6 +51,7 @@ COARSE_ROLLER = (
     "effects.roller.track_waves.cells=32",
 )
 PROFILE = Path(__file__).with_name("profile.csv")
+FOAM = Path(__file__).parents[2] / "examples" / "inputs" / "foam.csv"
 BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with changes; together they hold every number
     "tire": (
         ("tire_braking",),
@@ -70,6 +71,10 @@ BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with 
         ("seat_ride", "vibration={kind: sweep, start_frequency: 1, end_frequency: 9, amplitude: 1, duration: 9}"),
         ("seat_ride", "vibration={kind: noise, low: 1, high: 9, rms: 1}"),
         ("suspension_seat",),
+        (
+            "seat_ride",
+            f"effects.seat.cushion.curve={{file: {FOAM}, header_line: 1, area: 0.01, thickness: 0.05}}",
+        ),
     ),
     "car": (("car_full_bench",),),
     "occupant": (("seat_ride_full",),),

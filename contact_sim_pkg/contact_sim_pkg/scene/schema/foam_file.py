@@ -73,7 +73,8 @@ def read_foam_file(path: Path, area: float | None, thickness: float, header_line
     test = _Test(table, way, load, way.values / size, load.values / (area or 1.0 if load.unit == "N" else 1.0))
     test.refuse_signs(thickness, where)
     peak = int(numpy.argmax(test.strain))
-    last = int(numpy.flatnonzero(test.strain == test.strain[peak])[-1])  # of those that are held at the largest
+    left = test.strain[peak:] != test.strain[peak]
+    last = peak + int(numpy.argmax(left)) - 1 if left.any() else len(left) + peak - 1  # that is held at the largest
     test.refuse_folds(numpy.arange(peak + 1), loading=True)
     back = numpy.arange(last if last > peak else peak + 1, len(test.strain))
     loading = test.branch(numpy.arange(peak + 1), rising=True)
