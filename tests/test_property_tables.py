@@ -15,6 +15,7 @@ TESTED_IN = {
     "laws.contact_force": "laws/test_force_laws.py",
     "laws.dynamic_stiffness": "laws/test_dynamic_stiffness.py",
     "laws.elastic_law": "laws/test_force_laws.py",
+    "laws.foam_columns": "laws/test_foam_columns.py",
     "laws.foam_elastic": "laws/test_foam.py",
     "laws.foam_hysteresis": "laws/test_foam.py",
     "laws.friction": "laws/test_friction.py",

@@ -116,6 +116,15 @@ def force(path):
     table(path, "time [ms],force [N]", 1e3 * time, 52.36 * np.sin(np.pi * np.clip(time / 1.8e-3, 0.0, 1.0)))
 
 
+def foam(path):
+    """A specimen of 100 x 100 x 50 mm, pressed to 35 mm and released: the formula of a foam times 1.15 and 0.85."""
+    way = np.arange(0.0, 36.0)
+    left = 1.0 - way / 50.0
+    force = 0.01 * (3e3 * (1.0 / left - left ** (4e4 / 3e3 - 1.0)) + 100.0 * (left**-4.0 - 1.0 / left))
+    force = np.concatenate((1.15 * force, 0.85 * force[::-1]))
+    table(path, "deflection [mm],force [N]", np.concatenate((way, way[::-1])), force)
+
+
 def xsensor(path):
     rows = "\n".join(",".join(f"{value / 133.322:.2f}" for value in row) for row in MAT.pressure)
     path.write_text(f"FILE NAME:,drive\nROWS:,40\nCOLUMNS:,40\nFrame:,1\nTime:,10:00:00.000\n{rows}\n")
@@ -198,6 +207,7 @@ SAMPLES_OF: dict[str, Callable[[Path], object]] = {
         path, "m,R,V0,tau,k", *np.outer([0.02, 0.01, 1.0, 0.001, 0.5], [1.0, 1.001])
     ),
     "force.csv": force,
+    "foam.csv": foam,
     "limits.yaml": lambda path: path.write_text(LIMITS),
     "tolerances.yaml": lambda path: path.write_text(TOLERANCES),
 }  # fmt: skip

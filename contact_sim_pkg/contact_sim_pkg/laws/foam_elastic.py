@@ -16,16 +16,12 @@ fitted.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
 
 import numpy
-from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.jit import kernel
 from contact_sim_pkg.laws.parameters import FoamElastic
 
-Field = NDArray[numpy.float64]
 GREATEST_STRAIN = 0.999
 NEWTON_STEPS = 200
 SERIES_BELOW = 1.0e-2  # the first term left out is then below 1e-16
@@ -60,8 +56,8 @@ def foam_tangent_modulus(foam: FoamElastic, strain: float) -> float:
 
 
 @kernel
-def _energy_density(foam, strain):
-    """Energy per volume in [J/m^3]."""
+def foam_energy_density(foam: FoamElastic, strain: float) -> float:
+    """Energy per volume in [J/m^3] at ``strain`` 0 to 0.999."""
     logarithm = math.log1p(-strain)
     first = _excess(foam.modulus / foam.plateau, logarithm)
     return foam.plateau * first - foam.densification * _excess(-foam.densification_exponent, logarithm)
@@ -107,7 +103,7 @@ def foam_energy(foam: FoamElastic, approach: float) -> float:
     if approach <= 0.0:
         return 0.0
     strain, beyond = _strain_and_beyond(foam, approach)
-    density = _energy_density(foam, strain)
+    density = foam_energy_density(foam, strain)
     if beyond > 0.0:
         density += beyond * (foam_stress(foam, strain) + 0.5 * beyond * foam_tangent_modulus(foam, strain))
     return foam.area * foam.thickness * density
@@ -141,31 +137,3 @@ def foam_approach_of_force(foam: FoamElastic, force: float) -> float:
             return following
         x = following
     return x
-
-
-def column_stresses(foam: FoamElastic, strain: Field) -> Field:
-    """Stress [Pa] of many columns at ``strain``, of any shape and below 0.999; with the modulus of
-    first contact where the strain is negative.
-    """
-    return numpy.where(strain > 0.0, _of_columns(foam_stress, foam, strain), _first_modulus(foam) * strain)
-
-
-def column_tangent_moduli(foam: FoamElastic, strain: Field) -> Field:
-    """d(stress)/d(strain) [Pa] of many columns, as ``column_stresses``."""
-    return _of_columns(foam_tangent_modulus, foam, strain)
-
-
-def column_energies(foam: FoamElastic, strain: Field) -> Field:
-    """Energy per volume [J/m^3] of many columns, as ``column_stresses``."""
-    density = numpy.vectorize(getattr(_energy_density, "py_func", _energy_density), excluded=(0,), otypes=[float])
-    return numpy.where(strain > 0.0, density(foam, numpy.maximum(strain, 0.0)), 0.5 * _first_modulus(foam) * strain**2)
-
-
-def _first_modulus(foam: FoamElastic) -> float:
-    """Tangent modulus [Pa] at first contact."""
-    return foam.modulus + foam.densification_exponent * foam.densification
-
-
-def _of_columns(law: Callable[..., Any], foam: FoamElastic, strain: Field) -> Field:
-    """A law written for numbers, as Python, of the positive part of each strain."""
-    return numpy.asarray(getattr(law, "py_func", law)(foam, numpy.maximum(strain, 0.0)))

@@ -43,6 +43,17 @@ class TabulatedElastic(NamedTuple):
         return self.spacing * (len(self.pieces) - 1)
 
 
+class FoamCurve(NamedTuple):
+    """Foam by its measured stress over strain (``laws/foam_columns.py``): the columns of a layer."""
+
+    thickness: float  # h [m] of the layer, > 0
+    strain: tuple[float, ...]  # above 0, below 1, rising; the curve begins at (0, 0)
+    stress: tuple[float, ...]  # [Pa] at each strain, > 0, rising
+
+
+LayerFoam: TypeAlias = FoamElastic | FoamCurve
+"""What the columns of a foam layer are made of."""
+
 ElasticLaw: TypeAlias = NormalElastic | FoamElastic | TabulatedElastic
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
+from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN, valid_strain
 from contact_sim_pkg.report.series import FloatArray, Recording
 
 __all__ = ["FIRST_YIELD", "cushion_warnings", "yield_warnings"]
@@ -25,13 +25,20 @@ def cushion_warnings(contact: str, recording: Recording) -> list[str]:
     if not keys or "tissue" in keys or series is None or series.approach.size == 0:
         return []
     strain = series.approach / float(keys["thickness"])
-    if strain.max() <= VALID_STRAIN:
+    curve = keys.get("curve")
+    valid = valid_strain(None if curve is None else curve["points"])
+    if strain.max() <= valid:
         return []
     found = f"The cushion of the {contact} was compressed to {strain.max():.2f} of its thickness"
     beyond = int((strain > REACH).sum())
-    if beyond:
+    if beyond and curve is None:
         return [
             f"{found}; beyond {REACH:g} ({beyond} of {strain.size} samples) its force goes on along a straight line."
+        ]
+    if curve is not None:
+        outside = int((strain > valid).sum())
+        return [
+            f"{found}; its measured curve ends at {valid:.4g}, beyond it ({outside} of {strain.size} samples) the slope stays."
         ]
     return [f"{found}; the law of its foam holds to {VALID_STRAIN:g}."]
 

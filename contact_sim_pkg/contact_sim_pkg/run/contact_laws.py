@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws import parameters
 from contact_sim_pkg.laws.elastic_law import elastic_force
+from contact_sim_pkg.laws.foam_columns import columns_of
 from contact_sim_pkg.laws.general_dissipative import SMOOTHING
 from contact_sim_pkg.laws.parameters import (
     ElasticLaw,
@@ -22,7 +23,7 @@ from contact_sim_pkg.laws.parameters import (
 )
 from contact_sim_pkg.laws.restitution import damping_of_restitution
 from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, coefficient_of_restitution
-from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
+from contact_sim_pkg.pressure.cushion import REACH, valid_strain
 from contact_sim_pkg.pressure.cushion.foam_layer import CushionError, FoamGrid, FoamLayer
 from contact_sim_pkg.pressure.cushion.force_table import (
     BELOW,
@@ -39,6 +40,7 @@ from contact_sim_pkg.run.compilation import note_computation
 from contact_sim_pkg.run.tables_between import table_between
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.foam_points import elastic_of
 from contact_sim_pkg.scene.schema.laws import (
     STIFFEST,
     THICKEST,
@@ -57,6 +59,7 @@ __all__ = [
     "build_cushion",
     "elastic_law",
     "foam_of",
+    "formula_foam",
     "friction",
     "hysteresis",
     "layer_under",
@@ -127,7 +130,7 @@ def hysteresis(scene: ResolvedScene, contact: str, offset: int) -> parameters.Fo
     scene calls for none.
     """
     law = scene.effect(contact, FoamHysteresisSection)
-    return None if law is None else parameters.FoamHysteresis(offset, law.share, given(law.energy))
+    return None if law is None else parameters.FoamHysteresis(offset, given(law.share), given(law.energy))
 
 
 class Cushion(NamedTuple):
@@ -153,8 +156,15 @@ class PressingBody(NamedTuple):
     on_plate: bool = False  # a rigid plate carries the body, not foam; it has tissue
 
 
-def foam_of(keys: CushionSection) -> parameters.FoamElastic:
-    """Foam of a cushion, its area 1 m^2; a hardness scales its stresses."""
+def foam_of(keys: CushionSection) -> parameters.LayerFoam:
+    """Foam of a cushion: its measured curve, or that of the formula."""
+    if keys.curve is None:
+        return formula_foam(keys)
+    return parameters.FoamCurve(keys.thickness, *elastic_of(given(keys.curve.points)))
+
+
+def formula_foam(keys: CushionSection) -> parameters.FoamElastic:
+    """Foam of a cushion by the formula, its area 1 m^2; a hardness scales its stresses."""
     foam = parameters.FoamElastic(
         1.0, keys.thickness, keys.modulus, keys.plateau, keys.densification, keys.densification_exponent
     )
@@ -187,7 +197,7 @@ def build_cushion(contact: str, keys: CushionSection, load: float, body: Pressin
     load: [N] at rest. Raises SceneError where the cushion does not carry it within its range, or its
     hardness scales the modulus beyond STIFFEST.
     """
-    _refuse_modulus(contact, foam_of(keys).modulus)
+    _refuse_modulus(contact, keys)
 
     def make(keys: CushionSection, *, is_alone: bool) -> ForceTable:
         return _table_of(contact, keys, body, has_maps=is_alone or body.tissue is not None)
@@ -232,23 +242,30 @@ def _table_of(contact: str, keys: CushionSection, body: PressingBody, *, has_map
     return kept_table(description, compute)
 
 
-def _refuse_modulus(contact: str, modulus: float) -> None:
-    """A modulus that the hardness has scaled beyond its range."""
+def _refuse_modulus(contact: str, keys: CushionSection) -> None:
+    """A modulus that the hardness has scaled beyond its range, or that the curve begins with."""
+    foam = foam_of(keys)
+    modulus = foam.modulus if isinstance(foam, parameters.FoamElastic) else columns_of(foam).first_modulus
     if modulus > STIFFEST:
-        sentence = f"scales the modulus to {modulus:.4g} Pa, {STIFFEST:g} Pa at most is allowed; take a softer cushion"
-        raise SceneError([Fault("scene", 0, 0, f"effects.{contact}.cushion.hardness", sentence)])
+        key, begins = (
+            ("hardness", "scales the modulus to") if keys.curve is None else ("curve", "begins with a modulus of")
+        )
+        sentence = f"{begins} {modulus:.4g} Pa, {STIFFEST:g} Pa at most is allowed; take a softer cushion"
+        raise SceneError([Fault("scene", 0, 0, f"effects.{contact}.cushion.{key}", sentence)])
 
 
 def _refuse_load(contact: str, keys: CushionSection, table: ForceTable, load: float) -> None:
     """A load at rest beyond the range of the foam's law, or of the cells."""
-    most = table.most_force
+    valid = valid_strain(None if keys.curve is None else keys.curve.points)
+    most = table.most_force(valid)
     if load <= most:
         return
     if not table.largest_strain.any():
         reason = f"the plate carries {most:.4g} N at most by the tissue, the load at rest is {load:.4g} N; take a lighter body"
         raise SceneError([Fault("scene", 0, 0, f"effects.{contact}.cushion", reason)])
-    if table.largest_strain.max() > VALID_STRAIN:
-        reason, thicker = f"its strain reaches {VALID_STRAIN:g}", keys.thickness < THICKEST
+    if table.largest_strain.max() > valid:
+        end = "" if keys.curve is None else ", where its curve ends"
+        reason, thicker = f"its strain reaches {valid:.4g}{end}", keys.thickness < THICKEST
     else:
         reason, thicker = "under more the contact reaches its edge", False
     cure = f"a harder cushion, one thicker than {keys.thickness:g} m," if thicker else "a harder cushion"

@@ -5,14 +5,27 @@ content.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple, Protocol
 
 from contact_sim_pkg.excitation.kinds import Kind
+from contact_sim_pkg.scene.schema.foam_curve import curves_of
+from contact_sim_pkg.scene.schema.places import candidates, find_file
 from contact_sim_pkg.scene.schema.scene import Scene
 
-SHIPPED = Path(__file__).resolve().parent.parent / "excitation"
-"""Folder whose `data/` holds the input files of the shipped scenes."""
-PACKAGE_PREFIX = "data/"
+__all__ = ["InputFile", "candidates", "excitations", "find_file", "input_files"]
+
+
+class FileReader(Protocol):
+    """What reads an input file."""
+
+    largest_file: ClassVar[int]
+    """[bytes]"""
+
+    def input_file(self) -> tuple[str, str | None] | None:
+        """Name of the file, and the checksum that the scene states; None: it reads none."""
+
+    def file_memory(self, path: Path) -> int:
+        """Memory in [bytes] that reading it takes."""
 
 
 class InputFile(NamedTuple):
@@ -23,7 +36,7 @@ class InputFile(NamedTuple):
     where: str
     name: str
     sha256: str | None
-    reader: Kind
+    reader: FileReader
 
 
 def excitations(scene: Scene) -> dict[str, Kind]:
@@ -33,18 +46,6 @@ def excitations(scene: Scene) -> dict[str, Kind]:
 
 def input_files(scene: Scene) -> list[InputFile]:
     """The files that a scene names."""
-    found = ((f"{name}.file", kind.input_file(), kind) for name, kind in excitations(scene).items())
-    return [InputFile(where, *file, kind) for where, file, kind in found if file is not None]
-
-
-def candidates(name: str, folder: Path) -> list[Path]:
-    """Places where a file is looked for: from the folder, and for `data/…` also in the package."""
-    places = [folder / name]
-    if name.startswith(PACKAGE_PREFIX):
-        places.append(SHIPPED / name)
-    return places
-
-
-def find_file(name: str, folder: Path) -> Path | None:
-    """The first candidate that is a file, absolute; None where there is none."""
-    return next((place.absolute() for place in candidates(name, folder) if place.is_file()), None)
+    readers: list[tuple[str, FileReader]] = [*excitations(scene).items(), *curves_of(scene)]
+    found = ((f"{where}.file", reader.input_file(), reader) for where, reader in readers)
+    return [InputFile(where, *file, reader) for where, file, reader in found if file is not None]

@@ -18,6 +18,11 @@ TIED_TO_FILE = {"road": ("start", "sha256", "header_line"), "vibration": ("start
 """Keys that say something about one file and go when another file takes its place."""
 FILE = "file"
 """Key of an input file, in whatever section."""
+CURVE, READ_FROM_FILE = (
+    "curve",
+    {"file": ("points", "sha256"), **dict.fromkeys(("area", "thickness", "header_line"), ("points",))},
+)
+"""Section of a measured foam, and what of it was read from its file: another one is read anew."""
 REMOVED = "null"
 """Value of `--set` that takes a key out of the scene, an effect for instance."""
 
@@ -114,6 +119,8 @@ def apply(root: MappingNode, overrides: Iterable[Override]) -> list[Fault]:
             sentence = _put(root, override.path, override.node, mark)
         if sentence:
             faults.append(mark.fault(".".join(override.path), sentence))
+        elif override.path[-2:-1] == (CURVE,):
+            _drop(root, override.path[:-1], READ_FROM_FILE.get(override.path[-1], ()))
     return faults
 
 
@@ -194,6 +201,17 @@ def _remove(root: MappingNode, path: tuple[str, ...]) -> str:
     del node.entries[path[-1]]
     node.key_marks.pop(path[-1], None)
     return ""
+
+
+def _drop(root: MappingNode, path: tuple[str, ...], keys: Iterable[str]) -> None:
+    """Take keys out of a section that is there, those that it has."""
+    node: Node | None = root
+    for key in path:
+        node = None if node is None else _below(node, key)
+    if isinstance(node, MappingNode):
+        for key in keys:
+            node.entries.pop(key, None)
+            node.key_marks.pop(key, None)
 
 
 def _below(node: Node, key: str) -> Node | None:

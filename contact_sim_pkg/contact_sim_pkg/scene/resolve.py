@@ -43,7 +43,9 @@ def resolve(scene: Scene) -> ResolvedScene:
         path = find_file(file.name, Path(scene.file).parent)
         if path is None:
             raise SceneError([Fault(scene.file, 1, 1, file.where, f"the file {file.name!r} is not there")])
-        section = data[file.where.split(".")[0]]
+        section = data
+        for name in file.where.split(".")[:-1]:
+            section = section[name]
         section["file"] = path.name if Path(file.name).is_absolute() else file.name
         section["sha256"] = sha256_of(path)
         files[file.where] = path
@@ -105,6 +107,7 @@ def explicit(scene: Scene) -> dict[str, Any]:
     contacts = rigs()[scene.rig].contacts
     absent: dict[str, Any] = {contact.name: {} for contact in contacts if getattr(scene, contact.name) is None}
     whole = Scene.model_validate({**_dump(scene), **absent})  # the schema fills in the defaults
+    whole._file = scene.file
     data = _dump(whole)
     data["duration"] = whole_duration(scene)
     used = plugins_of(data)

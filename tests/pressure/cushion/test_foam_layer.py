@@ -7,7 +7,7 @@ from scipy.optimize import minimize
 from tests.pressure.cushion.cushions import PAN, pan_layer
 from tests.pressure.cushion.test_bonded_layer import navier_influence
 
-from contact_sim_pkg.laws.parameters import FoamElastic
+from contact_sim_pkg.laws.parameters import FoamCurve, FoamElastic
 from contact_sim_pkg.pressure.cushion.foam_layer import CushionError, FoamGrid, FoamLayer
 
 SMALL = FoamGrid(20, 16, 0.02, 0.02)
@@ -31,6 +31,26 @@ def test_an_even_load_has_the_stress_of_the_foam(strain, shear_share):
     layer = FoamLayer(SMALL, PAN, numpy.zeros((20, 16)), shear_share)
     found = layer.solve(strain * PAN.thickness)
     assert found.pressure == pytest.approx(float(stress(PAN, mpmath.mpf(strain))), rel=1e-10)
+
+
+@pytest.mark.parametrize("shear_share", [0.0, 0.3])
+def test_an_even_load_follows_a_measured_curve(shear_share):
+    strain, measured = (0.05, 0.15, 0.3, 0.5, 0.6), (1500.0, 2600.0, 3300.0, 5100.0, 8000.0)
+    layer = FoamLayer(SMALL, FoamCurve(0.06, strain, measured), numpy.zeros((20, 16)), shear_share)
+    for place, expected in zip(strain, measured, strict=True):
+        assert layer.solve(place * 0.06).pressure == pytest.approx(expected, rel=1e-10)
+
+
+def test_a_curve_of_the_formula_carries_as_the_formula():
+    """Sampled at every percent of strain: the monotone cubic is within 2e-5 of the closed form from 3 % on."""
+    gap, strain = sphere_gap(SMALL, 0.1), 0.01 * numpy.arange(1, 71)
+    curve = FoamCurve(PAN.thickness, tuple(strain), tuple(stress(PAN, strain)))
+    for approach in (0.01, 0.03, 0.04):
+        expected = FoamLayer(SMALL, PAN, gap).solve(approach).force
+        assert FoamLayer(SMALL, curve, gap).solve(approach).force == pytest.approx(expected, rel=1e-3)
+    columns = numpy.maximum(0.04 - gap, 0.0) / PAN.thickness
+    alone = FoamLayer(SMALL, curve, gap, 0.0).solve(0.04)
+    assert alone.force == pytest.approx(stress(PAN, columns).sum() * SMALL.cell_area, rel=1e-4)
 
 
 def test_without_shear_each_cell_is_a_column():

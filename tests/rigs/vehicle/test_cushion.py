@@ -1,5 +1,7 @@
 """A seat on foam of finite thickness: one law with and without its map, scipy's motion, and what is refused."""
 
+from types import SimpleNamespace
+
 import numpy
 import pytest
 from scipy.integrate import solve_ivp
@@ -8,9 +10,13 @@ from tests.run.scenes import resolved
 
 from contact_sim_lab.rigs.vehicle.accuracy_cushion import cushion_rows
 from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.laws.elastic_law import elastic_force
+from contact_sim_pkg.pressure.cushion.sitter import PERCENTILES, pan_gap
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
+from contact_sim_pkg.report.ranges import cushion_warnings
 from contact_sim_pkg.report.signal.spectrum import transmissibility
 from contact_sim_pkg.rigs.vehicle.model import build
+from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.errors import SceneError
@@ -323,3 +329,89 @@ def test_keys_of_a_hard_seat_that_nothing_uses_are_refused(values, sentence):
 def test_a_plate_refuses_a_load_beyond_its_tissue():
     with pytest.raises(SceneError, match=r"the plate carries .* N at most by the tissue"):
         build(resolved("plate", "seat.occupant={mass: 900}"))
+
+
+FOAM = SeatCushion()
+
+
+def formula(strain):
+    """Stress [Pa] of the default foam, two terms of Hill's hyperfoam."""
+    left, power = 1.0 - strain, FOAM.modulus / FOAM.plateau - 1.0
+    first = FOAM.plateau * (1.0 / left - left**power)
+    return first + FOAM.densification * (left ** (-FOAM.densification_exponent - 1.0) - 1.0 / left)
+
+
+def foam_test(path, share=0.0, last=70):
+    """A test of the default foam on 0.05 m^2, 100 mm thick, every millimetre up to `last` and back."""
+    way = numpy.arange(0.0, last + 1.0)
+    force = 0.05 * formula(way / 100.0)
+    rows = [*zip(way, (1.0 + share) * force, strict=True), *zip(way[::-1], (1.0 - share) * force[::-1], strict=True)]
+    path.write_text("deflection_mm,force_N\n" + "\n".join(f"{x:.6f},{y:.9f}" for x, y in rows))
+    return f"effects.seat.cushion.curve={{file: {path}, area: 0.05, thickness: 0.1}}"
+
+
+def test_a_curve_of_the_formula_carries_as_the_formula(tmp_path):
+    """Columns alone: the force is the sum of the closed form over the cells."""
+    law = build(resolved("seat_ride", foam_test(tmp_path / "foam.csv"), "effects.seat.cushion.shear_share=0")).rig
+    table = law.seat_contact.elastic
+    x, y = (0.0025 * numpy.arange(-96, 192), 0.0025 * (numpy.arange(-128, 128) + 0.5))
+    gap = pan_gap(PERCENTILES[50], x, y)
+    for approach in (0.01, 0.02, 0.03, 0.04, 0.05):
+        expected = formula(numpy.maximum(approach - gap, 0.0) / FOAM.thickness).sum() * 0.0025**2
+        assert elastic_force(table, approach) == pytest.approx(expected, rel=2e-3)
+
+
+def test_a_curve_of_the_formula_moves_as_the_formula(tmp_path):
+    plain, curved = (
+        joined(messages("seat_ride", "duration=0.3", *values)["seat/force"], "normal")
+        for values in ((), (foam_test(tmp_path / "foam.csv", 0.12), "effects.seat.foam_hysteresis={energy: 1.0}"))
+    )
+    assert numpy.abs(curved - plain).max() <= 3e-4 * plain.max()
+
+
+def test_the_loop_of_a_curve_is_that_of_the_contact(tmp_path):
+    scene = resolved("seat_ride", foam_test(tmp_path / "foam.csv", 0.2), "effects.seat.foam_hysteresis={}")
+    assert build(scene).rig.seat_contact.hysteresis.share == pytest.approx(0.2, rel=1e-6)
+
+
+def test_a_load_beyond_the_end_of_a_curve_is_refused(tmp_path):
+    with pytest.raises(SceneError, match=r"strain reaches 0\.4, where its curve ends"):
+        build(resolved("seat_ride", foam_test(tmp_path / "foam.csv", last=40)))
+
+
+def test_a_curve_that_begins_too_stiff_is_refused(tmp_path):
+    path = tmp_path / "foam.csv"
+    foam_test(path)
+    with pytest.raises(SceneError, match=r"cushion\.curve: begins with a modulus of"):
+        build(resolved("seat_ride", f"effects.seat.cushion.curve={{file: {path}, area: 0.001, thickness: 0.1}}"))
+
+
+@pytest.mark.parametrize(
+    ("deepest", "said"),
+    [
+        (0.031, ""),
+        (
+            0.04,
+            "compressed to 0.50 of its thickness; its measured curve ends at 0.4, beyond it (2 of 3 samples) the slope stays.",
+        ),
+    ],
+)
+def test_a_run_beyond_the_end_of_a_curve_says_so(deepest, said):
+    keys = {"thickness": 0.08, "curve": {"points": [[0.1, 1e3], [0.4, 5e3]]}}
+    series = SimpleNamespace(approach=numpy.array([0.01, deepest, deepest]))
+    recording = SimpleNamespace(scene={"effects": {"seat": {"cushion": keys}}}, contacts={"seat": series})
+    found = cushion_warnings("seat", recording)
+    assert len(found) == (said != "")
+    assert all(said in each for each in found)
+
+
+def test_another_curve_has_another_table(tmp_path):
+    first, second = (
+        build(resolved("seat_ride", foam_test(tmp_path / f"{share}.csv", share))).rig.seat_contact.elastic
+        for share in (0.0, 0.1)
+    )
+    assert first.pieces == pytest.approx(second.pieces, rel=1e-5, abs=1e-3)  # the mean is the same
+    other = tmp_path / "other.csv"
+    other.write_text((tmp_path / "0.0.csv").read_text().replace("40.000000,", "40.050000,"))
+    curve = f"effects.seat.cushion.curve={{file: {other}, area: 0.05, thickness: 0.1}}"
+    assert not numpy.array_equal(first.pieces, build(resolved("seat_ride", curve)).rig.seat_contact.elastic.pieces)

@@ -24,11 +24,11 @@ from contact_sim_pkg.report.signal.spectrum import CrossDensity, Welch
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.seat.cushion import pan_layer
 from contact_sim_pkg.rigs.vehicle.seat.occupants import SEATED_MASS
-from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion, SeatHysteresis
-from contact_sim_pkg.run.contact_laws import foam_of
+from contact_sim_pkg.rigs.vehicle.seat.schema import SeatCushion
+from contact_sim_pkg.run.contact_laws import formula_foam
 from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
 from contact_sim_pkg.scene.resolve import load_resolved
-from contact_sim_pkg.scene.schema.laws import USUAL_REVERSAL
+from contact_sim_pkg.scene.schema.laws import USUAL_REVERSAL, USUAL_SHARE
 
 __all__ = ["THIGHS_FROM", "VALIDATION", "SittingMap", "default_hardness", "sitting"]
 
@@ -105,7 +105,7 @@ def sitting(load: float, percentile: int = 50, scene: str = "", hardness: float 
 
 def default_hardness() -> float:
     """Stress [Pa] of the default foam at 40 % strain."""
-    foam = foam_of(SeatCushion())._replace(area=1.0)
+    foam = formula_foam(SeatCushion())._replace(area=1.0)
     return float(elastic_force(foam, 0.4 * foam.thickness))
 
 
@@ -119,7 +119,7 @@ def _indentation_ratio() -> float:
     """Force of a disc of 323 cm^2 at 40 % over the stress of an even load times its area; 100 mm
     foam.
     """
-    foam: FoamElastic = foam_of(SeatCushion(thickness=0.1))._replace(area=DISC_AREA)
+    foam: FoamElastic = formula_foam(SeatCushion(thickness=0.1))._replace(area=DISC_AREA)
     place = (numpy.arange(64) - 31.5) * 0.008
     distance = numpy.hypot(place[:, None], place[None, :])
     gap = numpy.where(distance <= numpy.sqrt(DISC_AREA / numpy.pi), 0.0, 1.0)
@@ -130,14 +130,14 @@ def _indentation_ratio() -> float:
 
 def _slow_loop() -> float:
     """Work lost in [%] between no load and 705 N and back, so slowly that no rate acts."""
-    section, contact = SeatHysteresis(), build(load_resolved("seat_ride")).rig.seat_contact
+    share, contact = USUAL_SHARE, build(load_resolved("seat_ride")).rig.seat_contact
     assert contact is not None
     stored = float(elastic_energy(contact.elastic, approach_of_force(contact.elastic, LOOP_LOAD)))
     scale = USUAL_REVERSAL
     # z = 1 - exp(-u/u0) on the way in, -1 + (1 + z_end) exp(-(U - u)/u0) on the way out
     passed = 1.0 - math.exp(-stored / scale)
-    work_in = stored + section.share * (stored - scale * passed)
-    work_out = stored + section.share * (scale * passed * (1.0 + passed) - stored)
+    work_in = stored + share * (stored - scale * passed)
+    work_out = stored + share * (scale * passed * (1.0 + passed) - stored)
     return 100.0 * (1.0 - work_out / work_in)
 
 

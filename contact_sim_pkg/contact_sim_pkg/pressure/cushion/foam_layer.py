@@ -6,7 +6,7 @@ delta:
 
 ``minimise  sum(h U(w/h) + 1/2 c w R*w) A  subject to  w >= delta - g``,
 
-U the energy density of the foam under an even load (``laws/foam_elastic.py``), A the area of a
+U the energy density of the foam under an even load (``laws/foam_columns.py``), A the area of a
 cell, ``R = 1/K - E_i/h >= 0`` in wave numbers, K the influence function of the layer
 (``bonded_layer.py``, nu = 0, modulus E_i, that of the foam at first contact). ``p = sigma(w/h) + c
 R*w`` is the pressure where the body touches and 0 elsewhere. Small strains with c = 1 are the
@@ -29,9 +29,8 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from contact_sim_pkg.compiled.guards import require, require_count, require_positive, require_values
-from contact_sim_pkg.laws.elastic_law import check_elastic
-from contact_sim_pkg.laws.foam_elastic import column_energies, column_stresses, column_tangent_moduli
-from contact_sim_pkg.laws.parameters import FoamElastic
+from contact_sim_pkg.laws.foam_columns import columns_of
+from contact_sim_pkg.laws.parameters import LayerFoam
 from contact_sim_pkg.pressure.cushion import REACH
 from contact_sim_pkg.pressure.cushion.bonded_layer import layer_influence
 
@@ -81,15 +80,15 @@ class FoamLayer:
     """Foam layer under one body: cells, remainder in wave numbers, gap of the body."""
 
     def __init__(
-        self, grid: FoamGrid, foam: FoamElastic, gap: Field, shear_share: float = 0.3, *, inextensible: bool = False
+        self, grid: FoamGrid, foam: LayerFoam, gap: Field, shear_share: float = 0.3, *, inextensible: bool = False
     ) -> None:
         """Make the remainder's transform.
 
-        foam: its ``thickness`` is that of the layer, its ``area`` does not act; gap: [rows, cols]
+        foam: its ``thickness`` is that of the layer, an ``area`` does not act; gap: [rows, cols]
         [m] of the body at zero approach; shear_share: c, 0 to 1; inextensible: a cover that cannot
         move sideways. Raises ValueError outside the range.
         """
-        check_elastic(foam)
+        self._columns = columns_of(foam)
         require_count("rows", grid.rows, least=4)
         require_count("cols", grid.cols, least=4)
         require_positive("cell_x", grid.cell_x, "m")
@@ -97,7 +96,7 @@ class FoamLayer:
         self.grid, self.foam = grid, foam
         self.shear_share = require("shear share", shear_share, least=0.0, most=1.0)
         self.gap = require_values("gap", gap, "m", shape=(grid.rows, grid.cols))
-        self.first_modulus = foam.modulus + foam.densification_exponent * foam.densification
+        self.first_modulus = self._columns.first_modulus
         along = 2.0 * numpy.pi * numpy.fft.fftfreq(grid.rows, grid.cell_x)
         across = 2.0 * numpy.pi * numpy.fft.rfftfreq(grid.cols, grid.cell_y)
         wave_number = numpy.hypot(along[:, None], across[None, :])
@@ -165,16 +164,16 @@ class FoamLayer:
     def energy(self, found: Compression) -> float:
         """Energy [J] stored at a solution."""
         w = found.deflection
-        columns = column_energies(self.foam, w / self.foam.thickness).sum() * self.foam.thickness
+        columns = self._columns.energy(w / self.foam.thickness).sum() * self.foam.thickness
         return float(columns + 0.5 * (w * self._spread(w)).sum()) * self.grid.cell_area
 
     def _pressure(self, w: Field) -> Field:
         """sigma(w/h) + c R*w [Pa]."""
-        return column_stresses(self.foam, w / self.foam.thickness) + self._spread(w)
+        return self._columns.stress(w / self.foam.thickness) + self._spread(w)
 
     def _stiffness(self, w: Field) -> Field:
         """d(sigma)/dw [Pa/m] of each column."""
-        return column_tangent_moduli(self.foam, w / self.foam.thickness) / self.foam.thickness
+        return self._columns.modulus(w / self.foam.thickness) / self.foam.thickness
 
     def _spread(self, w: Field) -> Field:
         """c R*w [Pa]."""

@@ -22,7 +22,7 @@ from scipy.interpolate import BarycentricInterpolator, CubicSpline
 from scipy.optimize import brentq
 
 from contact_sim_pkg.compiled.guards import require_positive
-from contact_sim_pkg.laws import foam_elastic
+from contact_sim_pkg.laws import foam_columns, foam_elastic
 from contact_sim_pkg.laws.parameters import TabulatedElastic
 from contact_sim_pkg.laws.tabulated_elastic import tabulated_law
 from contact_sim_pkg.pressure.cushion import REACH, VALID_STRAIN
@@ -80,10 +80,9 @@ class ForceTable(NamedTuple):
     pressure: NDArray[numpy.float32]  # [nodes, rows, cols] [Pa]
     end: str = ""  # why the table ends before its reach; empty where it does not
 
-    @property
-    def most_force(self) -> float:
-        """Largest force [N] of the table at a strain within the range of the foam's law."""
-        return float(self.force[self.largest_strain <= VALID_STRAIN].max())
+    def most_force(self, valid: float = VALID_STRAIN) -> float:
+        """Largest force [N] of the table at a strain within ``valid``, the range of the foam's law."""
+        return float(self.force[self.largest_strain <= valid].max())
 
     def law(self) -> TabulatedElastic:
         """The elastic law through the forces."""
@@ -207,7 +206,8 @@ def between(places: Field, tables: Sequence[ForceTable], place: float) -> ForceT
 
 def kept_table(description: str, make: Callable[[], ForceTable], directory: Path | None = None) -> ForceTable:
     """The table that ``description`` stands for, kept on disk (``kept_arrays``)."""
-    sources = (*sorted(Path(__file__).parent.glob("*.py")), Path(foam_elastic.__file__))
+    laws = (Path(foam_columns.__file__), Path(foam_elastic.__file__))
+    sources = (*sorted(Path(__file__).parent.glob("*.py")), *laws)
     found = kept_arrays("cushions", description, sources, lambda: make()._asdict(), directory)
     spacing, cell_area = (float(found.pop(name)) for name in ("spacing", "cell_area"))
     return ForceTable(spacing, cell_area, end=str(found.pop("end")), **found)

@@ -23,7 +23,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.guards import require, require_fields, require_values
-from contact_sim_pkg.laws.parameters import FoamElastic
+from contact_sim_pkg.laws.parameters import LayerFoam
 from contact_sim_pkg.pressure.cushion.foam_layer import Compression, CushionError, FoamGrid, FoamLayer
 
 __all__ = ["PlateUnderTissue", "Tissue", "TissueOnFoam", "form_without_load"]
@@ -105,7 +105,7 @@ class TissueOnFoam(FoamLayer):
     """Foam layer under a body with tissue, two springs in series at each cell."""
 
     def __init__(
-        self, grid: FoamGrid, foam: FoamElastic, gap: Field, tissue: Tissue, shear_share: float = 0.3, *,
+        self, grid: FoamGrid, foam: LayerFoam, gap: Field, tissue: Tissue, shear_share: float = 0.3, *,
         inextensible: bool = False,
     ) -> None:  # fmt: skip
         """As ``FoamLayer``; ``gap``: [rows, cols] [m] of the body without load."""

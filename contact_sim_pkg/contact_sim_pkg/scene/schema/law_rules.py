@@ -8,8 +8,12 @@ from contact_sim_pkg.records.fields import Section
 from contact_sim_pkg.records.registry import contacts
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
+from contact_sim_pkg.scene.schema.foam_curve import FoamCurveSection
 from contact_sim_pkg.scene.schema.laws import CushionSection, Foam, FrictionSection, GeneralDissipation, HuntCrossley
 from contact_sim_pkg.scene.schema.scene import Scene
+
+FORMULA_KEYS = ("modulus", "plateau", "densification", "densification_exponent", "hardness")
+"""Keys of a cushion's stresses by the formula."""
 
 
 def law_breaches(scene: Scene) -> Iterator[Breach]:
@@ -25,6 +29,8 @@ def law_breaches(scene: Scene) -> Iterator[Breach]:
         for name, foam in (("foam", scene.effect(contact, Foam)), ("cushion", scene.effect(contact, CushionSection))):
             if foam is not None:
                 yield from _foam(where, name, foam, general)
+            if isinstance(foam, CushionSection) and foam.curve is not None:
+                yield from _curve(f"{where}.{name}", foam, foam.curve)
         if friction is not None and friction.coefficient_kinetic > friction.coefficient_static:
             kinetic, static = show(friction.coefficient_kinetic), show(friction.coefficient_static)
             sentence = f"{kinetic} is above coefficient_static ({static})"
@@ -71,6 +77,15 @@ def _general(where: str, general: GeneralDissipation, friction: FrictionSection 
     if general.end == "gap" and friction is not None:
         sentence = "a contact that pulls has no Coulomb limit; take end: force or remove friction"
         yield Breach(f"{place}.end", sentence, (f"{where}.friction",))
+
+
+def _curve(where: str, cushion: CushionSection, curve: FoamCurveSection) -> Iterator[Breach]:
+    """Stresses of the formula beside those of a curve; a curve that is none."""
+    for name in FORMULA_KEYS:
+        if getattr(cushion, name) != type(cushion).model_fields[name].default:
+            sentence = "is a stress of the formula, the curve has its own; remove one of them"
+            yield Breach(f"{where}.{name}", sentence, (f"{where}.curve",))
+    yield from curve.breaches(f"{where}.curve")
 
 
 def _foam(where: str, name: str, foam: Foam | CushionSection, general: GeneralDissipation | None) -> Iterator[Breach]:

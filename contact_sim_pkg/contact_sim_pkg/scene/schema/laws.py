@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from contact_sim_pkg.records.fields import Section, choice, number
 from contact_sim_pkg.scene.schema.accuracy import level_of
+from contact_sim_pkg.scene.schema.foam_curve import FoamCurveSection, share_at
+from contact_sim_pkg.scene.schema.foam_points import MOST_SHARE
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.schema.scene import Scene
@@ -20,6 +22,9 @@ THICKEST = 0.2
 
 STIFFEST = 1e6
 """[Pa] modulus of a cushion; under a person a harder one touches too few cells of its map."""
+
+USUAL_SHARE = 0.12
+"""[1] of a foam's hysteresis, where neither a scene nor a measured curve gives one: 21 % are lost."""
 
 USUAL_REVERSAL = 1.0
 """[J] of a foam's hysteresis, where a scene names none."""
@@ -97,6 +102,9 @@ class CushionSection(Section):
         100.0, 1e5, "Pa", "stress at 40 % strain (ISO 3386-1): scales the three stresses together; none: as they are",
         default=None,
     )  # fmt: skip
+    curve: FoamCurveSection | None = choice(
+        "measured stress over strain in place of modulus, plateau, densification and hardness", default=None
+    )
     shear_share: float = number(
         0.0, 1.0, "", "part of the shear stiffness of the bonded layer that buckled foam keeps", default=0.3
     )
@@ -119,14 +127,18 @@ class FoamHysteresisSection(Section):
     1 follows the loading.
     """
 
-    share: float = number(0.0, 0.9, "", "s; a long loading dissipates 2 s/(1 + s): 21 % by default", default=0.12)
+    share: float | None = number(
+        0.0, MOST_SHARE, "", "s; a long loading dissipates 2 s/(1 + s); by default that of the cushion's curve, or 0.12: 21 %",
+        default=None,
+    )  # fmt: skip
     energy: float | None = number(
         1e-6, 1e6, "J", "u₀, stored energy of a reversal (choice); 1 J by default, on a cushion by the load at rest",
         above=True, default=None,
     )  # fmt: skip
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
-        return {"energy": USUAL_REVERSAL}
+        measured = share_at(scene, self) if self.share is None else None
+        return {"energy": USUAL_REVERSAL, "share": USUAL_SHARE if measured is None else measured}
 
 
 class GeneralDissipation(Section):

@@ -111,9 +111,12 @@ def text_of(name: str, values: Sequence[str], found: Reduced, request: float, *,
         data["effects"][contact.name] = {each: given.get(each, {}) for each in named}
     drop_inputs(data, gone)
     for where, path in found.scene.files.items():
-        section, key = where.split(".")
-        if Path(data[section][key]).is_absolute() or (Path(scene.file).parent / data[section][key]).is_file():
-            data[section][key] = str(path.absolute())
+        *sections, key = where.split(".")
+        section = data
+        for each in sections:
+            section = section[each]
+        if Path(section[key]).is_absolute() or (Path(scene.file).parent / section[key]).is_file():
+            section[key] = str(path.absolute())
     return "".join(f"# {line}\n" for line in _comment(name, found, request)) + ResolvedScene(data).to_yaml()
 
 

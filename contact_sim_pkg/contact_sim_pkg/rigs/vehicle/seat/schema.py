@@ -267,10 +267,11 @@ class SeatHysteresis(FoamHysteresisSection):
     """
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
+        usual = super().open_values(scene)
         if scene.effect("seat", SeatCushion) is None:
-            return super().open_values(scene)
+            return usual
         mass = sum(scene.section(SeatSection).occupant.model_of().masses)
-        return {"energy": USUAL_REVERSAL * mass / REFERENCE_MASS}
+        return {**usual, "energy": USUAL_REVERSAL * mass / REFERENCE_MASS}
 
 
 class CushionMap(Section):

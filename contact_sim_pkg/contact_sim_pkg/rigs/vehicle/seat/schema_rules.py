@@ -20,7 +20,7 @@ from contact_sim_pkg.scene.schema.scene import Scene
 
 LIGHTEST = 0.1  # [kg] of a frame that is not massless: a lighter one swings faster than the rest by far
 FOAM_KEYS = (
-    "thickness", "modulus", "plateau", "densification", "densification_exponent", "hardness", "shear_share", "cover",
+    "thickness", "modulus", "plateau", "densification", "densification_exponent", "hardness", "curve", "shear_share", "cover",
 )  # fmt: skip
 VALUES = ("frame_mass", "masses", "links", "stiffness", "damping", "head")
 

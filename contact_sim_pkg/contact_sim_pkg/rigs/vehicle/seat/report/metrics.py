@@ -12,7 +12,7 @@ import numpy as np
 
 from contact_sim_pkg.bag.texts import excitation_of_text
 from contact_sim_pkg.excitation.kinds import VibrationKind, kind_known
-from contact_sim_pkg.pressure.cushion import VALID_STRAIN
+from contact_sim_pkg.pressure.cushion import valid_strain
 from contact_sim_pkg.records.metric import EVENT, LIMIT, STATE, USUAL_RANGE, Metric
 from contact_sim_pkg.report.metrics.exposure import Exposed, exposure_metrics
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, conditions_of
@@ -187,12 +187,9 @@ def cushion_metrics(recording: Recording, maker: Maker, errors: Errors) -> list[
         return map_metrics(SEAT, field, maker, HARD_SEAT if "tissue" in keys else "cushion", errors)
     deepest = 1e3 * float(contact.approach.max())
     law = "range of the foam's law"
+    valid = valid_strain((keys.get("curve") or {}).get("points"))
     # With tissue the approach is that of both.
-    band = (
-        None
-        if not keys or "tissue" in keys
-        else at_most(1e3 * VALID_STRAIN * float(keys["thickness"]), law, USUAL_RANGE)
-    )
+    band = None if not keys or "tissue" in keys else at_most(1e3 * valid * float(keys["thickness"]), law, USUAL_RANGE)
     return [maker.make("sink", "deepest sink", deepest, "mm", band=band, count=contact.approach.size, basis=EVENT)]
 
 
