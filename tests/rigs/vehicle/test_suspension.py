@@ -59,19 +59,20 @@ def test_natural_frequency_and_damping_are_those_of_the_closed_form(ratio):
 
 @pytest.mark.parametrize(("share", "holds"), [(0.999, True), (1.001, False)])
 def test_friction_locks_below_its_breakaway_force(share, holds):
-    """Under a share of it the mass moves as the spring of the friction yields, and no further."""
+    """Under a share of what friction and spring hold together, 1 + k/k_t times its force, the mass moves as the spring of
+    the friction yields, and no further; beyond, the strut moves it until its spring takes what friction cannot hold.
+    """
     force, spring = 40.0, 4e5
-    strut = Strut(None, 0, WEIGHT + share * force, STIFFNESS, 9000.0)  # so much damping that nothing swings
-    friction = DryFriction(None, 0, 2, 1, force, spring)
-    _time, states, mode, _change = moved((strut, friction), [0.0], 2.0)
-    yields = share * force / (STIFFNESS + spring)
+    push = share * (1.0 + STIFFNESS / spring) * force
+    damping, seconds = (4e4, 2.0) if holds else (9000.0, 25.0)  # so much that nothing swings, and long enough
+    strut, friction = Strut(None, 0, WEIGHT + push, STIFFNESS, damping), DryFriction(None, 0, 2, 1, force, spring)
+    _time, states, mode, _change = moved((strut, friction), [0.0], seconds)
     if holds:
-        assert states[-1, 0] == pytest.approx(yields, rel=1e-6)
+        assert states[-1, 0] == pytest.approx(push / (STIFFNESS + spring), rel=1e-6)
         assert mode == STICK
-    else:  # the strut moves it until the spring has taken over what friction cannot hold
-        strut = strut._replace(preload=WEIGHT + 1.5 * force)
-        _time, states, _mode, _change = moved((strut, friction), [0.0], 20.0)
-        assert states[-1, 0] == pytest.approx(0.5 * force / STIFFNESS, rel=1e-3)
+    else:
+        assert states[-1, 0] == pytest.approx((push - force) / STIFFNESS, rel=1e-5)
+        assert states[-1, 0] > 1.0008 * force / spring  # where it would have held
 
 
 def test_a_slide_ends_where_the_closed_form_does_and_holds_there():
