@@ -107,6 +107,6 @@ def test_what_two_processes_save_of_one_function_at_once_is_both_there(tmp_path)
 
 def test_a_file_of_another_key_is_not_taken(tmp_path, monkeypatch):
     files = _CheckedFiles(str(tmp_path), "module.function")
-    monkeypatch.setattr(_CheckedFiles, "_path", lambda _self, _key: tmp_path / "same")
+    monkeypatch.setattr(_CheckedFiles, "path", lambda _self, _key: tmp_path / "same")
     files.save(("int64",), "machine code for integers")
     assert files.load(("float64",)) is None

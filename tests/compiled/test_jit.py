@@ -69,6 +69,7 @@ class Start:
         for name in (
             "assembler.py",
             "call_graph.py",
+            "claims.py",
             "companion.py",
             "compiler.py",
             "held.py",

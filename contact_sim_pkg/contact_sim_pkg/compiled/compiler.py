@@ -14,13 +14,14 @@ import gc
 import uuid
 import zlib
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from typing import Any, TypeVar
 
 from numba.core.compiler import Compiler
 from numba.core.errors import NumbaTypeError
 
 from contact_sim_pkg.compiled import companion
+from contact_sim_pkg.compiled.claims import given_back_on_failure
 from contact_sim_pkg.compiled.linking import KernelLibrary, Overload
 from contact_sim_pkg.compiled.tested import IS_TESTED
 
@@ -55,7 +56,7 @@ class _KernelCompiler(Compiler):
         companion.begin()
         codegen = state.targetctx.codegen()
         state.library = KernelLibrary(codegen, function.func_qualname, overload, is_machine_code=self.is_entry)
-        with _few_collections():
+        with _few_collections(), given_back_on_failure() if overload is not None else nullcontext():
             result = _on_a_large_stack(super()._compile_bytecode)
         _refuse_uncounted_array(state, result.signature.return_type)
         global _compiled

@@ -41,7 +41,7 @@ import numpy
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 from numba.core.serialize import dumps
 
-from contact_sim_pkg.compiled import linking
+from contact_sim_pkg.compiled import claims, linking
 from contact_sim_pkg.compiled.outside import digest_of_packages, package_of, packages_in
 from contact_sim_pkg.compiled.sources import digest_of_sources
 
@@ -375,7 +375,7 @@ class _CheckedFiles:
     def load(self, key: Any) -> Any:
         """What was saved under ``key``; None where nothing was."""
         try:
-            payload = read_kept(self._path(key))
+            payload = read_kept(self.path(key))
         except FileNotFoundError:
             return None
         except UntrustedError as error:
@@ -386,11 +386,12 @@ class _CheckedFiles:
 
     def save(self, key: Any, data: Any) -> None:
         """Replace what was saved under ``key``, in one step for other processes."""
-        path = self._path(key)
+        path = self.path(key)
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)  # somebody may have emptied the cache meanwhile
         write_kept(path, dumps((key, data)))
 
-    def _path(self, key: Any) -> Path:
+    def path(self, key: Any) -> Path:
+        """Where what is saved under ``key`` lies."""
         directory = _session.directory_of(self._own | packages_in(key[0]))
         assert directory is not None  # callers have looked
         return directory / f"{self._name}.{hashlib.sha256(repr(key).encode()).hexdigest()[:16]}"
@@ -411,16 +412,27 @@ class _CheckedCache(FunctionCache):
         if _session.directory is None:
             return None
         try:
-            return super().load_overload(sig, target_context)
+            found = super().load_overload(sig, target_context)
+            if found is None and claims.claim(self._path_of(sig, target_context.codegen())):
+                found = super().load_overload(sig, target_context)
+                if found is not None:
+                    claims.release(self._path_of(sig, target_context.codegen()))
         except OSError as error:
             _session.close(error)
             return None
         except Exception as error:  # noqa: BLE001 - whatever unpickling damaged code raises; answered by compiling
             _session.rebuild(error)
             return None
+        return found
 
     def save_overload(self, sig: Any, data: Any) -> None:
         linking.when_loaded(data, partial(self._save, sig, data))
+        if _session.directory is not None:
+            claims.release(self._path_of(sig, data.codegen))
+
+    def _path_of(self, sig: Any, codegen: Any) -> Path:
+        path: Path = self._cache_file.path(self._index_key(sig, codegen))
+        return path
 
     def _save(self, sig: Any, data: Any) -> None:
         if _session.directory is None:

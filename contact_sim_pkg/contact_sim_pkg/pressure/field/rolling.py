@@ -22,6 +22,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.held import Held, hold
+from contact_sim_pkg.pressure.closed_form.lame import fit_patch
 from contact_sim_pkg.pressure.field.follow import FIRST_LENGTH, MOST_CORRECTIONS
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, coarsened, make_half_space
 from contact_sim_pkg.pressure.field.instant import (
@@ -35,6 +36,7 @@ from contact_sim_pkg.pressure.field.instant import (
 )
 from contact_sim_pkg.pressure.field.nested import halve, window_of_half
 from contact_sim_pkg.pressure.field.outside import widened
+from contact_sim_pkg.pressure.field.patch import summarise
 from contact_sim_pkg.pressure.field.prediction import EXTRAPOLATION, make_previous_field
 from contact_sim_pkg.pressure.field.solver import (
     BAD_INPUT,
@@ -329,3 +331,7 @@ def compile_now() -> None:
     halve(wide, field)
     window_of_half(4, 4, (0, 1, 0, 1))
     widened(2, 2, 0, 1, 0, 1)
+    # What is published of a field
+    grid = (1.0, 1.0, 0.0, 0.0)
+    summarise(field, *grid)
+    fit_patch(field, *grid)
