@@ -137,4 +137,4 @@ def test_a_patch_brings_what_it_says(tmp_path, name, use):
 
 @pytest.mark.parametrize("name", USES)
 def test_few_shared_files_are_edited_by_hand(name):
-    assert len(shared_files(name)) <= (1 if PATCHES[name].whole and name != "effect that acts" else 3)
+    assert len(shared_files(name)) <= PATCHES[name].most

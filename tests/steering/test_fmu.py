@@ -72,7 +72,7 @@ class Instance:
         self.references = {each.name: each.valueReference for each in self.description.modelVariables}
         self.said = said  # FMPy's proxy of the logger calls that of the instance made last
         callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(lambda *told: self.said.append(told[4].decode()))
+        callbacks.logger = fmi2CallbackLoggerTYPE(lambda *given: self.said.append(given[4].decode()))
         callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
         callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
         # FMPy's own proxy writes the arguments of the message into it

@@ -11,6 +11,7 @@ from contact_sim_pkg import load_scene, run
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.run.tables_between import KeyRange
 from contact_sim_pkg.sweep import fit as fits
+from contact_sim_pkg.sweep import scene_runs
 from contact_sim_pkg.sweep.case import Task, run_case
 from contact_sim_pkg.sweep.fit import fit
 from contact_sim_pkg.sweep.measured import Points, Series, read_points, read_series
@@ -260,7 +261,7 @@ def test_many_impacts_are_fitted_from_a_distant_start():
 
 def of_foam(*names, **keys):
     data = {"effects": {"seat": {"cushion": {}, **keys}, "backrest": {}}}
-    return fits._tables_over(free(*names), [{"duration": "6", "effects.seat.cushion.cell": "0.01"}], data)
+    return scene_runs._tables_over(free(*names), [{"duration": "6", "effects.seat.cushion.cell": "0.01"}], data)
 
 
 def test_one_free_stress_of_a_cushion_without_maps_is_taken_between_tables():
@@ -329,7 +330,7 @@ def test_an_effect_is_left_out_where_the_scene_lets_it(tmp_path):
     keys = free("effects.seat.foam_hysteresis.share=0.05:0.3", "effects.seat.cushion.plateau=2400:4800:log")
     to = Series("seat/force.normal", TIME, TIME)
     with Workers(1) as workers:
-        runs = fits._SceneRuns("seat_ride", to, [{}], keys, tmp_path, workers, lambda _text, _done: None)
+        runs = scene_runs.SceneRuns("seat_ride", to, [{}], keys, tmp_path, workers, lambda _text, _done: None)
         without = runs.without("effects.seat.foam_hysteresis")
         assert [each.key for each in without.free] == ["effects.seat.cushion.plateau"]
         assert without._cases == [{"effects.seat.foam_hysteresis": "null"}]

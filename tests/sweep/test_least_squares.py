@@ -13,7 +13,7 @@ TIMES = numpy.linspace(0.0, 1.0, 40)
 
 
 class Counted:
-    """A residual of places in [0, 1], and how many it was asked for."""
+    """A residual of places in [0, 1], and how many it was taken at."""
 
     def __init__(self, residual):
         self._residual, self._known = residual, {}

@@ -1,29 +1,25 @@
 """Keys of a scene fitted to what was measured, with intervals, and whether the scene can follow it at all.
 
-Least squares (`sweep/least_squares.py`) over residuals (`sweep/residuals.py`) of runs that are cases over processes, their
-keys in [0, 1] between their bounds, by the logarithm where asked. A series is fitted to its beginning first, then to longer
-parts: over many impacts at once the square has minima by the hundred. Then the accuracy that the runs request is tightened
-until a finer one moves what is left by less than chance tells.
+Least squares (`sweep/least_squares.py`) over residuals (`sweep/residuals.py`) of the runs of a scene (`sweep/scene_runs.py`),
+their keys in [0, 1] between their bounds, by the logarithm where a range says so. A series is fitted to its beginning first,
+then to longer parts: over many impacts at once the square has minima by the hundred. Then the accuracy that the runs request
+is tightened until a finer one moves what is left by less than chance lets it.
 """
 
 from __future__ import annotations
 
-import copy
 import math
 import re
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Sequence, Set
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import Any, Protocol
 
 import numpy
 from numpy.typing import NDArray
 from scipy import stats
 
-from contact_sim_pkg.run.tables_between import STRESSES, KeyRange
-from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.schema.accuracy import requested
-from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
+from contact_sim_pkg.sweep.case import scene_of
 from contact_sim_pkg.sweep.fit_result import LEAST_PROBABILITY, Compared, Fit, Fitted
 from contact_sim_pkg.sweep.intervals import LEVEL, Interval, intervals, unidentified
 from contact_sim_pkg.sweep.least_squares import ROUGH, At, Minimum, minimum
@@ -36,15 +32,15 @@ from contact_sim_pkg.sweep.residuals import (
     ResponseResidual,
     SeriesResidual,
 )
+from contact_sim_pkg.sweep.scene_runs import Runs, SceneRuns
 from contact_sim_pkg.sweep.sweep import CASES, Notify, check_folder, processors, texts_of
 from contact_sim_pkg.sweep.variation import SweepError, Values, Variation, samples_of
 
-__all__ = ["Compared", "Fit", "Fitted", "Runs", "fit"]
+__all__ = ["Compared", "Fit", "Fitted", "fit"]
 
 Field = NDArray[numpy.float64]
 
 EFFECT_KEY = re.compile(r"(effects\.\w+\.\w+)\.\w+")
-CUSHION_KEY = re.compile(r"effects\.(seat)\.cushion\.(\w+)")
 STARTS = 4
 """Cases a parameter, drawn over the ranges, of which the best is the start."""
 PARTS = 0.125, 0.35, 1.0
@@ -69,31 +65,6 @@ def _within_request(found: Fit, scene: str) -> float:
     accuracy = requested(scene_of(scene, texts_of(found.values)).data["accuracy"])
     left = float(abs(compared.fitted - compared.measured).max())
     return accuracy if left <= accuracy * float(abs(compared.measured).max()) else 0.0
-
-
-class Runs(Protocol):
-    """What the scene gives at places in [0, 1], each parameter between its bounds."""
-
-    free: Sequence[Variation]
-    count: int
-    """runs so far"""
-    accuracy: float
-    """that the runs request"""
-    is_held: bool
-    """whether that stays"""
-    end: float | None
-    """[s] to which a run is needed; None: all of it"""
-
-    def __call__(self, places: Sequence[Field]) -> list[Field]:
-        """Of each place, of points the metrics [cases, metrics], of a series its times and values [2, samples], of a
-        transmissibility frequencies, magnitudes and their spreads [3, lines].
-        """
-
-    def values_at(self, place: Field) -> Values:
-        """What a place sets."""
-
-    def without(self, effect: str) -> Runs | None:
-        """Those of the scene without an effect, over the other keys; None where it cannot be left out."""
 
 
 def fit(
@@ -146,7 +117,7 @@ def fit(
     with ExitStack() as stack:
         if workers is None:
             workers = stack.enter_context(Workers(jobs or processors()))
-        runs = _SceneRuns(scene, to, cases, free, folder, workers, notify)
+        runs = SceneRuns(scene, to, cases, free, folder, workers, notify)
         runs.accuracy = requested(middle.data["accuracy"])
         runs.is_held = any("accuracy" in each for each in cases)
         if isinstance(to, Points):
@@ -159,119 +130,6 @@ def fit(
         found = found._replace(coarse=_within_request(found, scene))
     (folder / "fitted.yaml").write_text(_text_of(scene, found), encoding="utf-8")
     return found
-
-
-class _SceneRuns:
-    """What the scene gives at parameters, by cases."""
-
-    def __init__(
-        self, scene: str, to: Measured, cases: Sequence[Values], free: Sequence[Variation], folder: Path,
-        workers: Workers, notify: Notify,
-    ) -> None:  # fmt: skip
-        self._scene, self._to, self._cases, self.free = scene, to, cases, free
-        self._folder, self._workers, self._notify = folder, workers, notify
-        self.count = 0
-        self.accuracy, self.is_held = 0.0, True
-        self.end: float | None = None
-        block = scene_of(scene, texts_of(cases[0])).data
-        self._whole, self._block = float(block["duration"]), float(block["block_length"])
-        self._known: dict[tuple[KeyRange | None, tuple[str, ...]], Field] = {}
-        self._accuracies: set[float] = set()
-        self._over = _tables_over(free, cases, block)
-
-    def __call__(self, places: Sequence[Field]) -> list[Field]:
-        cases, settings = self._cases, self._settings()
-        series = self._to.name if isinstance(self._to, Series) else ""
-        is_response = isinstance(self._to, MeasuredResponse)
-        named = [texts_of({**self.values_at(place), **settings}) for place in places]
-        tables = self._tables(len(set(named)))
-        new = [texts for texts in dict.fromkeys(named) if (tables, texts) not in self._known]
-        tasks = [
-            Task(len(cases) * i + j, self._scene, (*texts_of(case), *texts), str(self._folder.absolute()), False,
-                 sources_hash(), series, is_response, tables)
-            for i, texts in enumerate(new) for j, case in enumerate(cases)
-        ]  # fmt: skip
-        rows: dict[int, Row] = {}
-        for row in self._workers.run(tasks):
-            if row["outcome"] != FINISHED:
-                raise SweepError(f"{' '.join(tasks[row['number']].values)} did not finish: {row['sentence']}")
-            rows[row["number"]] = row
-            self._notify(f"{self.count + len(rows)} runs", 0.0)
-        self.count += len(tasks)
-        for i, texts in enumerate(new):
-            self._known[tables, texts] = self._given([rows[len(cases) * i + j] for j in range(len(cases))])
-        return [self._known[tables, texts] for texts in named]
-
-    def values_at(self, place: Field) -> Values:
-        """What a place sets."""
-        return {each.key: each.at(float(part)) for each, part in zip(self.free, place, strict=True)}
-
-    def without(self, effect: str) -> Runs | None:
-        """Those of the scene without an effect, over the other keys; None where it cannot be left out."""
-        found = copy.copy(self)
-        found.free = [each for each in self.free if not each.key.startswith(f"{effect}.")]
-        found._cases = [{**case, effect: "null"} for case in self._cases]
-        found._known, found.count = {}, 0
-        middle = {each.key: each.at(0.5) for each in found.free}
-        try:
-            block = scene_of(self._scene, texts_of({**found._cases[0], **middle})).data
-        except SceneError:
-            return None
-        found._over = _tables_over(found.free, found._cases, block)
-        return found
-
-    def _tables(self, places: int) -> KeyRange | None:
-        """Between which tables the next runs take their cushion's. One that is only looked at, at an accuracy of smaller cells,
-        has its own: the others would be for nothing.
-        """
-        if self._over is not None and self.accuracy not in self._accuracies and places == 1:
-            return self._over._replace(is_own=True)
-        self._accuracies.add(self.accuracy)
-        return self._over
-
-    def _settings(self) -> Values:
-        """Accuracy and duration where they are not those of the scene."""
-        found: Values = {} if self.is_held else {"accuracy": f"{self.accuracy:.6g}"}
-        blocks = math.inf if self.end is None else math.ceil(self.end / self._block) + 2
-        if blocks * self._block < self._whole:
-            found["duration"] = f"{blocks * self._block:.9g}"
-        return found
-
-    def _given(self, rows: Sequence[Row]) -> Field:
-        if isinstance(self._to, Points):
-            return numpy.array(
-                [[_metric(row, each, self._to.units.get(each)) for each in self._to.metrics] for row in rows]
-            )
-        names = ("x", "y", "spread") if isinstance(self._to, MeasuredResponse) else ("time", "values")
-        return numpy.array([rows[0][name] for name in names])
-
-
-def _tables_over(free: Sequence[Variation], cases: Sequence[Values], data: Mapping[str, Any]) -> KeyRange | None:
-    """The range between whose tables runs take their cushion's: of the only free key of a seat's cushion, whose maps are not
-    recorded; None where there is no such key.
-    """
-    set_by_cases = {key for case in cases for key in case if len({each.get(key) for each in cases}) > 1}
-    found = [(each, match) for each in free if (match := CUSHION_KEY.fullmatch(each.key))]
-    if len(found) != 1 or any(each.startswith("effects") for each in set_by_cases):
-        return None
-    ((variation, match),) = found
-    contact, key = match.groups()
-    if (
-        key not in STRESSES
-        or (data["effects"].get(contact) or {}).get("contact_field") is not None
-        or not variation.low > 0.0
-    ):
-        return None
-    return KeyRange(contact, key, variation.low, variation.high)
-
-
-def _metric(row: Row, key: str, unit: str | None) -> float:
-    for each in row["metrics"]:
-        if each["key"] == key:
-            if unit is not None and unit != each["unit"]:
-                raise SweepError(f"{key} was measured in {unit}, the metric is in {each['unit'] or '1'}")
-            return math.nan if each["value"] is None else float(each["value"])
-    raise SweepError(f"the run has no metric {key}; it has {', '.join(each['key'] for each in row['metrics'])}")
 
 
 class _Concluded:

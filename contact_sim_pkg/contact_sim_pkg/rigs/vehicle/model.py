@@ -5,7 +5,6 @@ for becomes ``None``.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -17,7 +16,7 @@ from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, Friction
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.rig import load
-from contact_sim_pkg.rigs.vehicle.acting import Acting, Chassis
+from contact_sim_pkg.rigs.vehicle.acting import Acting, Chassis, refuse_brought, together
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldGrids, make_grids, tangent_law
 from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
     CouplingRule,
@@ -28,7 +27,6 @@ from contact_sim_pkg.rigs.vehicle.field.coupling_rule import (
     shortest_time,
 )
 from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
-from contact_sim_pkg.rigs.vehicle.motion.elements import is_registered
 from contact_sim_pkg.rigs.vehicle.motion.ends import Floor, Pan, base_of
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Leaning, MasslessNode, Seat, Seated, Softening, Vehicle
@@ -55,7 +53,6 @@ from contact_sim_pkg.rigs.vehicle.tire.quarter_car import QuarterCar
 from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss
 from contact_sim_pkg.rigs.vehicle.tire.standing import TireAtRest
 from contact_sim_pkg.run.contact_laws import Cushion, elastic_law, friction, hysteresis, normal_loss
-from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing
@@ -144,9 +141,8 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
     tire_field = None if tire is None else tire.field
     quarter = None if tire is None else tire.quarter
     acting = _acting(scene, quarter, 0.0 if given_seat is None else occupant_mass(given_seat.occupant))
-    if quarter is not None and acting.of_body:
-        body = quarter.body._replace(mass=quarter.body.mass - acting.of_body)
-        quarter = quarter._replace(body=body, drive_line=quarter.drive_line._replace(mass=body.mass))
+    if quarter is not None and acting.joined:
+        quarter = quarter.lightened(acting.mass)
     seat = None if occupant is None else _seat(scene, occupant, lean, quarter, acting)
     cushion = None if occupant is None else build_pan_cushion(scene, rest_of(occupant, pose_of(lean), GRAVITY).pan)
     seat_contact = None if seat is None else _seat_contact(scene, seat, lean, cushion, seat_field, shape)
@@ -168,7 +164,7 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
     return Model(
         rig=rig,
         timing=timing,
-        scale=_scale(rig, coordinates, acting, given(scene.integrator.relative_tolerance)),
+        scale=_scale(rig, coordinates, quarter, acting, given(scene.integrator.relative_tolerance)),
         coordinates=coordinates,
         quarter=quarter,
         acting=acting,
@@ -231,24 +227,6 @@ def _coupling(
     return CouplingRule(tolerance, allowances, longest, shortest, segments, ways)
 
 
-def _refuse_brought(where: str, brought: Acting, before: Sequence[Acting]) -> None:
-    """SceneError for what no vehicle can hold beside what effects ``before`` have brought."""
-    names = [joined.name for each in (*before, brought) for joined in each.joined]
-    sentence = ""
-    if unknown := [type(each).__qualname__ for each in brought.elements if not is_registered(type(each))]:
-        sentence = (
-            f"brings an element of the class {unknown[0]}, which is not registered; call register_element with it"
-        )
-    elif misnamed := [joined.name for joined in brought.joined if not joined.name.endswith("_z")]:
-        sentence = f"brings a mass named {misnamed[0]}, a name that ends in _z is needed"
-    elif twice := [name for name in names if names.count(name) > 1]:
-        sentence = f"brings a mass named {twice[0]}, as another effect does; remove one of them, or rename its mass"
-    elif brought.pan is not None and any(each.pan is not None for each in before):
-        sentence = "carries the cushion, as another effect does; remove one of them"
-    if sentence:
-        raise SceneError([Fault("scene", 0, 0, where, sentence)])
-
-
 def _acting(scene: ResolvedScene, quarter: QuarterCar | None, seated: float) -> Acting:
     """What the effects of all contacts bring, contact by contact; ``seated`` [kg] of the occupant."""
     found: list[Acting] = []
@@ -260,21 +238,13 @@ def _acting(scene: ResolvedScene, quarter: QuarterCar | None, seated: float) -> 
             wheel, body, suspension = (
                 (None, None, 0.0) if quarter is None else (quarter.wheel, quarter.body, quarter.suspension.stiffness)
             )
-            brought = load(effect.elements)(keys, Chassis(GRAVITY, wheel, body, seated, suspension, state, mode))
-            _refuse_brought(f"effects.{contact.name}.{effect.name}", brought, found)
+            chassis = Chassis(GRAVITY, wheel, body, seated, suspension, state, mode)
+            brought = load(effect.elements)(keys, chassis)
+            refuse_brought(f"effects.{contact.name}.{effect.name}", brought, chassis, found)
             found.append(brought)
-            state += 2 * len(found[-1].joined) + len(found[-1].states)
+            state += found[-1].width
             mode += found[-1].modes
-    pans = [each.pan for each in found if each.pan is not None]
-    return Acting(
-        tuple(element for each in found for element in each.elements),
-        tuple(joined for each in found for joined in each.joined),
-        tuple(size for each in found for size in each.states),
-        mode - 1,
-        sum(each.of_body for each in found),
-        pans[-1] if pans else None,
-        tuple(scale for each in found for scale in each.scales),
-    )
+    return together(found)
 
 
 def _seat(
@@ -290,7 +260,7 @@ def _seat(
     offset, floor = (0, None) if quarter is None else (quarter.states, quarter.body.place)
     if acting.pan is not None:
         floor = Pan(acting.pan) if quarter is None else acting.pan
-    offset += 2 * len(acting.joined) + len(acting.states)
+    offset += acting.width
     masses = numpy.array(occupant.masses, dtype=numpy.float64)
     seat = Seat(offset, masses, ends, springs.T.copy(), node, floor=floor)
     effect = scene.effect("seat", seat_schema.SofteningSection)
@@ -412,11 +382,12 @@ def _coordinates(rig: Vehicle, quarter: QuarterCar | None, acting: Acting) -> tu
     return tuple(found)
 
 
-def _scale(rig: Vehicle, coordinates: tuple[Coordinate, ...], acting: Acting, tolerance: float) -> Vector:
+def _scale(
+    rig: Vehicle, coordinates: tuple[Coordinate, ...], quarter: QuarterCar | None, acting: Acting, tolerance: float
+) -> Vector:
     """Error allowed per step and state; the two works at the end are not controlled."""
     sizes = numpy.zeros(2 * len(coordinates) + len(acting.states))
-    moving = {place for each in coordinates for place in (each.place, each.speed)}
-    sizes[[place for place in range(len(sizes)) if place not in moving]] = acting.states
+    sizes[acting.own_states(0 if quarter is None else quarter.states)] = acting.states
     for each in coordinates:
         sizes[[each.place, each.speed]] = each.scale
     scale: list[float] = (tolerance * sizes).tolist()
@@ -454,8 +425,7 @@ def standing_state(model: Model, height: float, rate: float = 0.0) -> Vector:
     quarter = model.quarter
     if quarter is not None:
         (wheel, wheel_mass), (body, body_mass), belt = quarter.wheel, quarter.body, quarter.belt
-        beside = sum(joined.mass.mass for joined in model.acting.joined)
-        carried = (body_mass + occupant + beside) * rig.gravity
+        carried = (body_mass + occupant + model.acting.mass) * rig.gravity
         on_wheel = carried + wheel_mass * rig.gravity
         on_road = on_wheel + (0.0 if belt is None else belt.mass * rig.gravity)
         state[wheel] = height - approach_of_force(quarter.contact.law.elastic, on_road)
@@ -469,7 +439,8 @@ def standing_state(model: Model, height: float, rate: float = 0.0) -> Vector:
     if model.acting.elements:
         for joined in model.acting.joined:
             state[joined.mass.place], state[joined.mass.place + 1] = floor, rate
-        settle(rig, model.acting.modes, occupant * rig.gravity, state, (height, rate))
+        own = zip(model.acting.own_states(0 if quarter is None else quarter.states), model.acting.states, strict=True)
+        settle(rig, model.acting.modes, occupant * rig.gravity, tuple(own), state, (height, rate))
         base = None if rig.seat is None else base_of(rig.seat.floor)
         floor = 0.0 if base is None else state[base]
     # The occupant on the cushion, its masses on their springs.

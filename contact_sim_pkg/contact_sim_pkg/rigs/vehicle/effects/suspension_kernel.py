@@ -115,5 +115,5 @@ def suspension(keys: SuspensionSection, chassis: Chassis) -> Acting:
         elements.append(ShakenMass(pan.place, pan.mass))
     return Acting(
         tuple(elements), (Joined("suspension_z", pan, contact_scale(law, load, pan.mass)),), states, len(states),
-        of_body=0.0 if floor is None else pan.mass, pan=pan.place,
+        pan=pan.place,
     )  # fmt: skip

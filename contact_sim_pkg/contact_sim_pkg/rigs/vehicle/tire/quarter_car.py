@@ -53,6 +53,11 @@ class QuarterCar(NamedTuple):
         """Number of states."""
         return 2 * len(self.masses)
 
+    def lightened(self, mass: float) -> QuarterCar:
+        """The same with ``mass`` [kg] taken from the body: what moves on its own there."""
+        body = self.body._replace(mass=self.body.mass - mass)
+        return self._replace(body=body, drive_line=self.drive_line._replace(mass=body.mass))
+
 
 def quarter_car(section: TireSection, ring: RigidRingSection | None, law: Contact, *, pushed: bool) -> QuarterCar:
     """The quarter car of a scene on a contact ``law``; ``pushed``: by the road's asperities."""
