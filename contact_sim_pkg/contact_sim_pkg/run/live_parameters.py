@@ -10,8 +10,13 @@ from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, leaves_of
 
-__all__ = ["Change", "Parameter", "ParameterError", "by_block", "changed_scene", "parameters_of", "refuse_fixed"]
+__all__ = [
+    "STEERING", "Change", "Parameter", "ParameterError", "block_at", "by_block", "changed_scene", "parameters_of", "refuse_changes",
+    "refuse_fixed",
+]  # fmt: skip
 
+STEERING = "bench/steering"
+"""Topic of a run's changes."""
 SPEED = "travel.speed"
 RAMP = 3.0
 """[m/s^2] with which the speed of a run goes to another one."""
@@ -105,6 +110,25 @@ def refuse_fixed(known: Mapping[str, Parameter], values: Mapping[str, float]) ->
             raise ParameterError(f"{key} is {value!r}, a number is needed")
 
 
+def block_at(scene: ResolvedScene, time: float) -> int:
+    """The block of a scene that starts at a ``time`` [s]. Raises ParameterError within a block."""
+    block = round(time / scene.block_length)
+    if abs(time - block * scene.block_length) > 1e-9 * max(time, scene.block_length):
+        raise ParameterError(
+            f"parameters change between blocks of {scene.block_length:g} s, {time:g} s lies within one"
+        )
+    return block
+
+
+def refuse_changes(scene: ResolvedScene, changes: Iterable[Change]) -> None:
+    """Raise ParameterError where a run of the scene cannot make some changes, as far as that is known before it."""
+    for block, values in by_block(changes):
+        if not 0 <= block < scene.blocks:
+            raise ParameterError(f"parameters change before block {block}; the scene has {scene.blocks} blocks, from 0")
+        refuse_fixed(parameters_of(scene), values)
+        scene = changed_scene(scene, block, values)
+
+
 def changed_scene(scene: ResolvedScene, block: int, values: Mapping[str, float]) -> ResolvedScene:
     """The scene with other ``values`` from a ``block`` on; all other keys stay, those too that once followed from them.
 
@@ -141,8 +165,9 @@ def _programme(scene: ResolvedScene, now: float, speed: float) -> list[list[floa
 
 
 def by_block(changes: Iterable[Change]) -> list[tuple[int, dict[str, float]]]:
-    """Changes block by block."""
+    """Changes block by block, in the order of the blocks."""
+    ordered = sorted(changes, key=lambda each: each.block)
     return [
         (block, {each.key: each.value for each in group})
-        for block, group in groupby(changes, key=lambda each: each.block)
+        for block, group in groupby(ordered, key=lambda each: each.block)
     ]

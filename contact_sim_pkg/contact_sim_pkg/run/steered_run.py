@@ -13,6 +13,7 @@ from contact_sim_pkg.records.messages import ParameterChange
 from contact_sim_pkg.run.block_simulation import BlockSimulation, InputBlock
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.live_parameters import (
+    STEERING,
     Change,
     Parameter,
     ParameterError,
@@ -27,9 +28,8 @@ from contact_sim_pkg.run.sources import Source, make_sources
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["STEERING", "Steerable", "SteeredRun"]
+__all__ = ["Steerable", "SteeredRun"]
 
-STEERING = "bench/steering"
 OUTSIDE = ("road", "vibration")
 """Sections of a scene that come to a simulation as blocks alone."""
 
