@@ -1,5 +1,8 @@
 """Parameters that change between two blocks of a run: whole, or refused and the run unharmed."""
 
+import re
+from pathlib import Path
+
 import numpy
 import pytest
 
@@ -19,12 +22,13 @@ from contact_sim_pkg.scene.load import shipped_names
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import read_explicit
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.catalog import catalog
+from contact_sim_pkg.scene.schema.catalog import catalog, without_kinds
 
 INFLATION, FRICTION = "effects.tire.inflation.pressure", "effects.block.rigid_contact.friction"
 ROUGH = ("road={kind: iso8608, roughness: 64e-6}", "travel={speed: 20}")
 LOSS = "effects={seat: {normal_elastic: {}, normal_dissipative: {}}}"
 GENERAL = "effects={seat: {normal_elastic: {}, general_dissipative: {}}}"
+BACK_GENERAL = ("effects={backrest: {normal_elastic: {}, general_dissipative: {}}}",)
 BACK = ("effects={backrest: {normal_elastic: {}, normal_dissipative: {}}}", "backrest.sliding.amplitude=0")
 
 CASES = [
@@ -51,7 +55,9 @@ CASES = [
     ("seat_slap", (), 30, 20, {"backrest.preload": 300.0, "backrest.mass": 30.0}),
     ("seat_slap", BACK, 30, 20, {"effects.backrest.normal_elastic.coefficient": 2e5}),
     ("seat_slap", BACK, 30, 20, {"effects.backrest.normal_dissipative.damping": 1.0}),
-    ("seat_general", (), 30, 20, {"effects.backrest.general_dissipative.coefficient": 3e5}),
+    ("tire_cleat", ("effects.tire.wheel_spin.brake=1", "effects.tire.wheel_spin.drive=1"), 10, 6,
+     {"effects.tire.wheel_spin.brake": 300.0, "effects.tire.wheel_spin.drive": 100.0}),
+    ("seat_general", BACK_GENERAL, 30, 20, {"effects.backrest.general_dissipative.coefficient": 3e5}),
     ("block_fall", (), 18, 40, {FRICTION: 0.05, "effects.block.rigid_contact.restitution": 0.6}),
 ]  # fmt: skip
 """Scene, its values, blocks before and behind the change, what changes."""
@@ -220,6 +226,13 @@ def test_every_key_is_live_or_has_its_reason():
     entries = [each for each in catalog().values() if each.kind not in ("section", "kinds")]
     ours = [each for each in entries if not each.live and not each.fixed]
     assert not ours
+
+
+def test_the_page_lists_the_live_keys():
+    page = (Path(__file__).parents[2] / "docs" / "steering.md").read_text(encoding="utf-8")
+    rows = [line.split("|")[1:3] for line in page.splitlines() if line.endswith(("| excitation |", "| law |"))]
+    listed = {key: live.strip() for keys, live in rows for key in re.findall(r"`([^`]+)`", keys)}
+    assert listed == {".".join(without_kinds(where)): each.live for where, each in catalog().items() if each.live}
 
 
 def test_fixed_keys_are_refused_with_their_reason_and_change_nothing():
