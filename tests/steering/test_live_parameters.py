@@ -13,6 +13,8 @@ from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.excitation.blocks import AHEAD
 from contact_sim_pkg.excitation.changed_road import CHANGE_LENGTH
+from contact_sim_pkg.report.facts import warnings_of
+from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.rigs.vehicle.run.bodies import Bodies
 from contact_sim_pkg.run.from_bag import changes_from_bag, refuse_steered, sources_from_bag
 from contact_sim_pkg.run.live_parameters import RAMP, Change, ParameterError, parameters_of
@@ -50,6 +52,7 @@ CASES = [
     ("seat_ride", (GENERAL,), 30, 20, {"effects.seat.general_dissipative.coefficient": 2e5}),
     ("seat_ride", (LOSS,), 30, 20, {"seat.occupant.frame_mass": 20.0}),
     ("seat_ride_full", (), 10, 8, {"seat.occupant.frame_mass": 20.0}),
+    ("seat_ride_full", (), 10, 8, {"backrest.preload": 40.0, "effects.backrest.normal_dissipative.damping": 1.0}),
     ("suspension_seat", (), 10, 10, {"vibration.scale": 1.5}),
     ("seat_slap", (), 30, 20, {"vibration.amplitude": 6.0}),
     ("seat_slap", (), 30, 20, {"backrest.preload": 300.0, "backrest.mass": 30.0}),
@@ -321,6 +324,11 @@ def test_a_steered_run_is_a_bag_that_repeats_its_bytes(scene, values, changes, t
     assert [each[2] for each in bits([each for each in outputs if each.topic == "bench/steering"])] == found
     energy = [each.record.stored for each in outputs if each.topic == "bench/energy"]
     assert (open_bag(tmp_path / "first").columns("bench/energy")["stored"] == energy).all()
+    # Its page names what changed, before the numbers
+    (said,) = [
+        each for each in warnings_of(read_recording(open_bag(tmp_path / "first"))) if "Parameters changed" in each
+    ]
+    assert all(f"{each.key} {each.value:.6g} from {each.block * 0.01:.3f} s" in said for each in wanted)
     with pytest.raises(BagError, match="run it again"):
         refuse_steered(tmp_path / "first", "run it again")
 

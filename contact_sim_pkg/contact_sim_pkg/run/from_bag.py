@@ -71,14 +71,18 @@ def sources_from_bag(path: Path, scene: ResolvedScene) -> dict[str, Source]:
 
 def changes_from_bag(path: Path) -> tuple[Change, ...]:
     """The changes of parameters that the run of the bag at ``path`` has made; BagError where one cannot be read."""
-    bag = open_bag(path)
+    return changes_of(open_bag(path))
+
+
+def changes_of(bag: Bag) -> tuple[Change, ...]:
+    """The same of a bag that is open; none where it has no such topic."""
     if not bag.count(STEERING):
         return ()
     bag.refuse_other_definition(STEERING)
     try:
         found = [decode(ParameterChange, message.data) for message in bag.messages(STEERING)]
     except MessageError as error:
-        raise BagError(f"{path}: {STEERING}: {error}") from None
+        raise BagError(f"{bag.path}: {STEERING}: {error}") from None
     return tuple(Change(each.block, each.key, each.value) for each in found)
 
 
