@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import weakref
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,6 +18,7 @@ from contact_sim_pkg.records.table import table_html
 from contact_sim_pkg.report.export.table import table_of
 from contact_sim_pkg.report.export.time_series import Series, series_of
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.live_parameters import Change, block_at
 from contact_sim_pkg.run.offline import RunProgress, run_offline
 from contact_sim_pkg.scene.load import load_scene as load_checked
 from contact_sim_pkg.scene.overrides import set_value
@@ -51,25 +52,35 @@ def open_bag(path: str | Path, *, skip_bad: bool = False) -> Bag:
     return Bag(parts_of(Path(path), skip_bad=skip_bad), skip_bad)
 
 
-def run(scene: ResolvedScene | str | Path, directory: str | Path | None = None, *, progress: bool = True) -> Bag:
+def run(
+    scene: ResolvedScene | str | Path, directory: str | Path | None = None, *, progress: bool = True,
+    changes: Mapping[float, Mapping[str, float]] | None = None,
+) -> Bag:  # fmt: skip
     """Run a scene offline, as fast as it goes, and return its bag.
 
     Args:
         scene: a scene, or its name or path.
         directory: of the bag, which must not exist; None: a temporary one, removed with the bag.
         progress: whether a run that lasts more than a second is shown on standard error, its compiling too.
+        changes: values of live keys (docs/steering.md) by the time [s] from which on they hold, the start of a block.
 
     Raises:
         SceneError: the scene is faulty.
+        ParameterError: a change is refused.
         RunError: the physics or the excitation ended the run; the bag holds the blocks before.
         BagWriteError: the bag could not be written to its end.
     """
     found = scene if isinstance(scene, ResolvedScene) else load_scene(scene)
+    made = [
+        Change(block_at(found, time), key, value)
+        for time, values in (changes or {}).items()
+        for key, value in values.items()
+    ]
     folder = Path(tempfile.mkdtemp(prefix="contact_bench_")) if directory is None else None
     path = folder / found.name if folder is not None else Path(str(directory))
     try:
         with working(f"{found.name}: starting") if progress else nullcontext():
-            outcome = run_offline(found, path, _show, on_set_up=doing)
+            outcome = run_offline(found, path, _show, on_set_up=doing, changes=made)
         if outcome.failure:
             raise RunError(outcome.failure)
         if outcome.loss:

@@ -59,15 +59,15 @@ def test_one_that_is_observed_is_made_anew(monkeypatch):
             return []
 
     monkeypatch.setattr(
-        "contact_sim_pkg.steering.contact_bench.make_simulation",
+        "contact_sim_pkg.run.steered_run.make_simulation",
         lambda scene: _Observed(make_simulation(scene), {"effects.block.counting": (Counting(), "")}),
     )
     bench = ContactBench("block_fall", "duration=0.1")
-    assert not isinstance(bench._simulation, Resettable)
+    assert not isinstance(bench._run.simulation, Resettable)
     first = bits(bench.step(0.1).outputs)
-    before = bench._simulation
+    before = bench._run.simulation
     bench.reset()
-    assert bench._simulation is not before
+    assert bench._run.simulation is not before
     assert bits(bench.step(0.1).outputs) == first
 
 

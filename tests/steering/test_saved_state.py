@@ -135,11 +135,11 @@ def test_a_state_of_another_scene_or_version_is_refused():
 
 def test_what_declares_no_state_is_refused_by_its_name():
     bench = ContactBench("block_fall")
-    bench._simulation = _Observed(bench._simulation, {"effects.block.counting": (None, "")})
+    bench._run.simulation = _Observed(bench._run.simulation, {"effects.block.counting": (None, "")})
     with pytest.raises(StateError, match=r"effects\.block\.counting: what only looks at a run declares no state"):
         bench.save()
     bench = ContactBench("block_fall")
-    bench._simulation.body = object()
+    bench._run.simulation.body = object()
     with pytest.raises(StateError, match=r"BlockBodySimulation\.body is a object, which declares no state"):
         bench.save()
 

@@ -32,6 +32,7 @@ APPEARS = {
     "scene": "always",
     "road/patch": "scenes with `road` and `travel`",
     "platform/vibration": "scenes with `vibration`",
+    "bench/steering": "offline runs whose parameters changed",
     "cost": "always",
     "state": "always; not recorded",
     "clock": "unless another node publishes it; not recorded",

@@ -27,6 +27,9 @@ _TABLE = (
         "every `block_length`, samples at `vibration.sample_rate`",
         kind="excitation",
     ),
+    recorded_topic(
+        "bench/steering", "contact_msgs_defs/msg/ParameterChange", "a block before which a parameter changed"
+    ),
     *contact_topics(),
     recorded_topic("bench/episodes", "contact_msgs_defs/msg/ContactEpisodes", "a block in which an episode ended"),
     recorded_topic("bench/motion", "contact_msgs_defs/msg/BodyMotion"),

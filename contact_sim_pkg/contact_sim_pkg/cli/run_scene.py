@@ -26,6 +26,8 @@ from contact_sim_pkg.files import RefusedError
 from contact_sim_pkg.requirements import is_met, is_of_ros, package_sentence
 
 if TYPE_CHECKING:
+    from contact_sim_pkg.run.live_parameters import Change
+    from contact_sim_pkg.run.sources import Source
     from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 Result = TypeVar("Result")
@@ -158,6 +160,10 @@ def run_scene(
     Raises:
         SceneError, BagError, ExcitationError: refused; nothing was created.
     """
+    if from_bag is not None and not offline:
+        from contact_sim_pkg.run.from_bag import STEERED, refuse_steered
+
+        refuse_steered(from_bag, STEERED)
     scene, directory, forecast = prepare(options, out=out, from_bag=from_bag, record=record, allow_long=allow_long)
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
     signals = OtherSignals()
@@ -242,16 +248,18 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
     from contact_sim_pkg.run.computing import Computing
     from contact_sim_pkg.run.offline import RunOutcome, run_offline
 
-    sources = None
+    sources: dict[str, Source] | None = None
+    changes: tuple[Change, ...] = ()
     if from_bag is not None:
-        from contact_sim_pkg.run.from_bag import sources_from_bag
+        from contact_sim_pkg.run.from_bag import changes_from_bag, sources_from_bag
 
-        sources = sources_from_bag(from_bag, scene)
+        sources, changes = sources_from_bag(from_bag, scene), changes_from_bag(from_bag)
     stop = StopRequest()
     before = time.monotonic() - BEGAN
     computing = Computing[RunOutcome]()
     worker = Worker(
-        run_offline, scene, directory, display.show, stop, sources, computing, display.show_set_up, display.print_line
+        run_offline, scene, directory, display.show, stop, sources, computing, display.show_set_up, display.print_line,
+        changes,
     )  # fmt: skip
     broken_off: RunOutcome | None = None
     # the run has a thread of its own: this one waits for signals, and gives a block `GRACE` to end

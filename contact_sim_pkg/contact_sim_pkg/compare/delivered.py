@@ -18,7 +18,7 @@ from contact_sim_pkg.compare.windows import CheckWindow, from_the_start, windows
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.records.messages import SolverCost
 from contact_sim_pkg.run.block_simulation import BlockSimulation
-from contact_sim_pkg.run.from_bag import sources_from_bag
+from contact_sim_pkg.run.from_bag import refuse_steered, sources_from_bag
 from contact_sim_pkg.run.rigs import result_topics
 from contact_sim_pkg.run.sources import Source, make_sources, make_surface, road_lattice
 from contact_sim_pkg.scene.errors import SceneError
@@ -73,10 +73,11 @@ class _Companions(NamedTuple):
 def check_bag(path: Path, notify: Notify, *, scene: ResolvedScene | None = None, whole: bool = False) -> Check:
     """Check the run that a bag holds, in windows, or over its ``whole`` length.
 
-    Raises BagError where the bag cannot be read or holds no scene, no judged topic or no block,
+    Raises BagError where the bag cannot be read, parameters changed in it, or it holds no scene, no judged topic or no block,
     RunError where the companion run fails.
     """
     scene = scene or scene_of_bag(path)
+    refuse_steered(path, "a finer run beside it has one scene for the whole")
     outputs, costs = outputs_of_bag(path, scene), costs_of_bag(path)
     if not outputs or not costs:
         raise BagError(f"{path} holds nothing that accuracy bounds: no contact force, motion or pressure")

@@ -107,7 +107,7 @@ class RoadBlocks:
                 f"limit {LARGEST_PATCH}; use larger cells or shorter blocks"
             )
         self.surface, self.travel, self.block_length = surface, travel, block_length
-        self.cell_x, self.cell_y, self.half_length = cell_x, cell_y, half_length
+        self.cell_x, self.cell_y, self.half_length, self.cols = cell_x, cell_y, half_length, cols
         self._y = numpy.asarray((numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y, dtype=numpy.float64)
         self._first_held = 0
         self._held: NDArray[numpy.float32] = numpy.empty((0, cols), dtype=numpy.float32)
@@ -120,7 +120,7 @@ class RoadBlocks:
         height there.
         """
         start, end = block * self.block_length, (block + 1) * self.block_length
-        first_row, last_row = self._rows(start, end)
+        first_row, last_row = self.rows(start, end)
         strip = self._strip_ahead if block == 0 and end < AHEAD else self._strip
         height = strip(first_row, last_row)
         if not numpy.isfinite(height).all():
@@ -135,7 +135,7 @@ class RoadBlocks:
             first_row=first_row, cell_x=self.cell_x, cell_y=self.cell_y, height=height,
         )  # fmt: skip
 
-    def _rows(self, start: float, end: float) -> tuple[int, int]:
+    def rows(self, start: float, end: float) -> tuple[int, int]:
         """First and last row under the travel between two times in [s]."""
         lowest, highest = self.travel.extent(start, end)
         return floor((lowest - self.half_length) / self.cell_x) - 1, ceil(
@@ -146,7 +146,7 @@ class RoadBlocks:
         """The strip of block 0 with the travel of `AHEAD`; without it where the road ends before, or does not
         fit into a block.
         """
-        further = self._rows(0.0, AHEAD)[1]
+        further = self.rows(0.0, AHEAD)[1]
         if (further + 1 - first_row) * len(self._y) <= LARGEST_PATCH:
             try:
                 height = self._strip(first_row, further)
@@ -177,7 +177,7 @@ class RoadBlocks:
 
     def refuse_short_road(self, duration: float) -> None:
         """Raise ExcitationError where the surface has no height somewhere under a run of so long, [s]."""
-        first, last = self._rows(0.0, duration)
+        first, last = self.rows(0.0, duration)
         self.surface.heights(numpy.array([first, last]) * self.cell_x, self._y)
 
     def describe(self) -> dict[str, Any]:

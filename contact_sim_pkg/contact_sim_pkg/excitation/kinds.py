@@ -38,6 +38,10 @@ class Kind(Section):
     against the checksum and handed over as `Setting.file`.
     """
 
+    fixed: ClassVar[str] = (
+        "another form would jump under the wheel, or on the floor; what scales it is live where there is such a key"
+    )
+
     largest_file: ClassVar[int] = 256 << 20
     """[bytes]"""
 

@@ -131,5 +131,5 @@ def frequency_key(meaning: str, example: float) -> Any:
 
 
 def acceleration_key(meaning: str) -> Any:
-    """A key of an acceleration that is not negative."""
-    return number(0.0, SHARPEST, "m/s²", meaning, example=1.0)
+    """A key of an acceleration that is not negative; it scales the vibration, so that it is live."""
+    return number(0.0, SHARPEST, "m/s²", meaning, example=1.0, live="excitation")

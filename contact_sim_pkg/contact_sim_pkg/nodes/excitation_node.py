@@ -129,8 +129,9 @@ class ExcitationNode(Node):
 
 
 def _source_of_bag(topic: str, bag: str, scene: ResolvedScene) -> Source:
-    from contact_sim_pkg.run.from_bag import sources_from_bag
+    from contact_sim_pkg.run.from_bag import STEERED, refuse_steered, sources_from_bag
 
+    refuse_steered(Path(bag), STEERED)
     sources = sources_from_bag(Path(bag), scene)
     if topic not in sources:
         raise NodeError(f"bag {bag} holds no {topic}, which the scene calls for", REFUSED)

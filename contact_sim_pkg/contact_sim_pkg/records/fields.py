@@ -5,12 +5,15 @@ of help.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, TypeVar
+from typing import Any, ClassVar, Literal, TypeAlias, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 from pydantic_core import PydanticCustomError
 
 Value = TypeVar("Value")
+
+Live: TypeAlias = Literal["excitation", "law"]
+"""What a key that may change in a run acts on: what moves the rig, or a law of its motion."""
 
 LEAST = 1e-30
 """In size, of any number but 0: squares and quotients of smaller ones leave the range of 64-bit
@@ -25,6 +28,9 @@ class Section(BaseModel):
     """A mapping of a scene: strict types, no unknown keys, no NaN, cannot be changed."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False, defer_build=True)
+
+    fixed: ClassVar[str] = ""
+    """Why its keys hold for a whole run, but for those that are live; empty: what holds for their kind of value."""
 
     def open_values(self, scene: Any) -> dict[str, Any]:
         """Values of the keys that a `scene.Scene` leaves open, where they follow from other keys or
@@ -64,14 +70,18 @@ def number(
     default: Any = ...,
     above: bool = False,
     example: float | None = None,
+    live: Live | None = None,
+    fixed: str = "",
 ) -> Any:
     """A number or whole number from low to high, all in `unit` (`[1]`: dimensionless); `above`: low
     itself is not allowed.
 
-    `example` is a valid value of a field that has no default.
+    `example` is a valid value of a field that has no default. `live`: it may change between two blocks of a run; else
+    `fixed` may say why not.
     """
     bounds: dict[str, Any] = {"gt" if above else "ge": low, "le": high}
-    return Field(default, description=meaning, json_schema_extra={"unit": unit, "example": example}, **bounds)
+    extra: dict[str, Any] = {"unit": unit, "example": example, "live": live or "", "fixed": fixed}
+    return Field(default, description=meaning, json_schema_extra=extra, **bounds)
 
 
 def choice(meaning: str, *, default: Any = ..., example: Any = None) -> Any:

@@ -287,6 +287,12 @@ class ImpactWave(_Record):
     height: NDArray[numpy.float64]
 
 @dataclass(frozen=True, kw_only=True)
+class ParameterChange(_Record):
+    block: int
+    key: str
+    value: float
+
+@dataclass(frozen=True, kw_only=True)
 class RoadPatch(_Record):
     block: int
     travel_start: float

@@ -83,7 +83,16 @@ def warnings(recording: Recording) -> list[str]:
 
 def warnings_of(recording: Recording) -> list[str]:
     """What every view names first: how a run ended early, and excitation that is not its scene's."""
-    return [*ended_early(recording), *_strange_sources(recording)]
+    return [*ended_early(recording), *_strange_sources(recording), *_changed_parameters(recording)]
+
+
+def _changed_parameters(recording: Recording) -> list[str]:
+    """What changed in the run, and from when on."""
+    length = float(recording.scene.get("block_length", 0.0))
+    made = [f"{each.key} {each.value:.6g} from {each.block * length:.3f} s" for each in recording.changes]
+    if not made:
+        return []
+    return [f"Parameters changed in the run: {'; '.join(made)}. Figures that need the scene are of its start."]
 
 
 def ended_early(recording: Recording) -> list[str]:

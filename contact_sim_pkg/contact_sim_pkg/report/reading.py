@@ -33,6 +33,7 @@ from contact_sim_pkg.report.series import (
     TopicCount,
 )
 from contact_sim_pkg.report.signal.episodes import episode_series
+from contact_sim_pkg.run.from_bag import changes_of
 from contact_sim_pkg.run.outputs import Estimate
 from contact_sim_pkg.scene.errors import SceneError
 
@@ -106,6 +107,7 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
         block_errors=of_blocks,
         unknown={name: each.describe() for name, each in unknown.items()},
         date=date.fromtimestamp(bag.path.stat().st_mtime).isoformat(),
+        changes=changes_of(bag),
     )
 
 

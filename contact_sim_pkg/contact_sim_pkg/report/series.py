@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.records.messages import ContactEpisodes
 from contact_sim_pkg.report.film import Film
 from contact_sim_pkg.report.point_series import PointSeries
+from contact_sim_pkg.run.live_parameters import Change
 from contact_sim_pkg.run.outputs import Estimate
 
 FloatArray = NDArray[np.float64]
@@ -219,3 +220,5 @@ class Recording(NamedTuple):
     """what is no number in the messages of a topic such as `seat/force`; a topic without is absent"""
     date: str = ""
     """when the bag's file was written, `2026-11-27`"""
+    changes: Sequence[Change] = ()
+    """parameters that changed in the run"""

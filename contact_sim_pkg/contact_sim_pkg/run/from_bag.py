@@ -9,17 +9,21 @@ from typing import Any
 
 from contact_sim_pkg.bag.errors import BagError, MessageError
 from contact_sim_pkg.bag.excitation import DECODERS, Block
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.bag.texts import excitation_of_text, scene_of_text, values_of_text
 from contact_sim_pkg.bag.versions import differences_from, installed_versions
-from contact_sim_pkg.records.messages import RoadPatch
+from contact_sim_pkg.records.messages import ParameterChange, RoadPatch
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names, kernel_fingerprint
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.live_parameters import STEERING, Change
 from contact_sim_pkg.run.sources import Source, road_lattice
 from contact_sim_pkg.scene.renamed_keys import removed_keys, sentence_of
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.timing import make_timing
 
+STEERED = "run it again with `bench run --offline`"
+"""What nodes say, to which no parameter of a run is known."""
 KEYS = ("rig", "road", "vibration", "travel", "seed", "block_length")  # of a scene, that make its excitation
 
 
@@ -63,6 +67,29 @@ def sources_from_bag(path: Path, scene: ResolvedScene) -> dict[str, Source]:
     refuse_other_scene(path, scene)
     bag = open_bag(path)
     return {topic: BagSource(bag, topic) for topic in input_names(scene)}
+
+
+def changes_from_bag(path: Path) -> tuple[Change, ...]:
+    """The changes of parameters that the run of the bag at ``path`` has made; BagError where one cannot be read."""
+    return changes_of(open_bag(path))
+
+
+def changes_of(bag: Bag) -> tuple[Change, ...]:
+    """The same of a bag that is open; none where it has no such topic."""
+    if not bag.count(STEERING):
+        return ()
+    bag.refuse_other_definition(STEERING)
+    try:
+        found = [decode(ParameterChange, message.data) for message in bag.messages(STEERING)]
+    except MessageError as error:
+        raise BagError(f"{bag.path}: {STEERING}: {error}") from None
+    return tuple(Change(each.block, each.key, each.value) for each in found)
+
+
+def refuse_steered(path: Path, what: str) -> None:
+    """Raise BagError where parameters changed in the run of the bag at ``path``, which ``what`` does not know."""
+    if changes_from_bag(path):
+        raise BagError(f"{path}: parameters changed in this run ({STEERING}); {what}")
 
 
 def cautions(path: Path) -> list[str]:

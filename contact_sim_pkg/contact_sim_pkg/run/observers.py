@@ -43,8 +43,8 @@ class Observer(Protocol):
 class _Observed:
     """A simulation and those who look at it; all else is the simulation's."""
 
-    reset = STATE = None
-    """It is made anew, and not saved: nobody knows what an observer remembers."""
+    reset = take_over = STATE = None
+    """It is made anew, not saved and not taken over: nobody knows what an observer remembers."""
 
     def __init__(self, simulation: BlockSimulation, observers: Mapping[str, tuple[Observer, str]]) -> None:
         """``observers``: of an effect by its dotted name, with the topic that it announces."""

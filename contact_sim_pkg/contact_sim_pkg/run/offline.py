@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from contact_sim_pkg.bag.block_encoder import encode_block
 from contact_sim_pkg.bag.errors import BagWriteError, RecordingStoppedError
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
@@ -21,8 +22,10 @@ from contact_sim_pkg.run.block_simulation import BlockSimulation, cautions_of
 from contact_sim_pkg.run.compilation import reported_compilation
 from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.live_parameters import STEERING, Change, ParameterError, by_block, refuse_changes
 from contact_sim_pkg.run.rigs import make_simulation
-from contact_sim_pkg.run.sources import Source, make_sources
+from contact_sim_pkg.run.sources import Source
+from contact_sim_pkg.run.steered_run import SteeredRun
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 NANOSECONDS = 1_000_000_000
@@ -62,6 +65,7 @@ def run_offline(
     computing: Computing[RunOutcome] | None = None,
     on_set_up: Callable[[str], None] = lambda _sentence: None,
     on_caution: Callable[[str], None] = lambda _sentence: None,
+    changes: Sequence[Change] = (),
 ) -> RunOutcome:
     """Run ``scene`` and record it in ``directory``, which must not exist (None: no recording).
 
@@ -71,17 +75,18 @@ def run_offline(
     outcome names it. Raises what a bad scene, file or directory raises, before anything is created.
     ``computing`` lets another thread end it within a block. ``on_set_up`` gets a sentence each
     second in which kernels are compiled, from a thread of its own; ``on_caution`` what is to be
-    said once before the run.
+    said once before the run. ``changes`` are made before their blocks, and recorded.
     """
+    refuse_changes(scene, changes)
     began, computing = time.perf_counter(), computing or Computing()
-    sources = make_sources(scene) if sources is None else sources
     simulation = _prepared(scene, on_set_up, on_caution)
-    descriptions = {topic: source.describe() for topic, source in sources.items()}
+    run, due = SteeredRun(scene, simulation, sources), dict(by_block(changes))
+    descriptions = {topic: source.describe() for topic, source in run.sources.items()}
     if stop is not None and stop():
         return RunOutcome(0, time.perf_counter() - began, 0.0, None, True, "", descriptions)
     writer = None
     if directory is not None:
-        names = recorded_names(scene)
+        names = [*recorded_names(scene), *([STEERING] if due else [])]
         writer = BagWriter(directory, recorded_topics(names), attachments(scene, descriptions))
     startup = time.perf_counter() - began
     first = time.perf_counter()
@@ -112,11 +117,11 @@ def run_offline(
                 if stop is not None and stop():
                     stopped = True
                     break
-                progress = _one_block(simulation, sources, block, scene.block_length, writer, first, computing)
+                progress = _one_block(run, due.get(block, {}), block, writer, first, computing)
                 done = block + 1
                 if on_progress is not None:
                     on_progress(progress)
-    except (RunError, ExcitationError) as error:
+    except (RunError, ExcitationError, ParameterError) as error:
         failure = str(error)
     except (BagWriteError, RecordingStoppedError) as error:
         loss = str(error)
@@ -151,21 +156,24 @@ def _outcome(done: int, blocks: int, failure: str, stopped: bool, first: float) 
 
 
 def _one_block(
-    simulation: BlockSimulation,
-    sources: dict[str, Source],
+    run: SteeredRun,
+    changes: Mapping[str, float],
     block: int,
-    length: float,
     writer: BagWriter | None,
     first: float,
     computing: Computing[RunOutcome],
 ) -> RunProgress:
+    length = run.scene.block_length
     stamp = block * round(length * NANOSECONDS)
+    changed = computing.call(run.change, block, changes) if changes else []
     # the inputs are recorded too, before the results of the block
-    inputs = {topic: source.block(block) for topic, source in sources.items()}
-    result = computing.call(simulation.advance, block, inputs)
+    inputs = {topic: source.block(block) for topic, source in run.sources.items()}
+    result = computing.call(run.simulation.advance, block, inputs)
     if writer is not None:
         ranked = sorted(inputs, key=lambda name: TOPICS[name].rank)
-        writer.write_all([*((topic, stamp, encode(inputs[topic], stamp)) for topic in ranked), *result.messages])
+        given = [(topic, stamp, encode(inputs[topic], stamp)) for topic in ranked]
+        writer.write_all([*given, *encode_block(changed), *result.messages])
     simulated = (block + 1) * length
     elapsed = time.perf_counter() - first
-    return RunProgress(block + 1, simulation.blocks, simulated, simulated / elapsed, result.load, result.peak_pressure)
+    blocks = run.simulation.blocks
+    return RunProgress(block + 1, blocks, simulated, simulated / elapsed, result.load, result.peak_pressure)

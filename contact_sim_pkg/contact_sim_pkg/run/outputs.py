@@ -122,6 +122,12 @@ def energy_ledger(
     )  # fmt: skip
 
 
+def open_energy(energies: Sequence[float] | NDArray[numpy.float64]) -> float:
+    """What kinetic, potential and stored energy, work supplied and dissipated [J] leave open: supplied less the rest."""
+    kinetic, potential, stored, supplied, dissipated = (float(each) for each in energies)
+    return supplied - kinetic - potential - stored - dissipated
+
+
 class Estimate(NamedTuple):
     """Estimated numerical error of a column, in a block or over a run."""
 

@@ -13,19 +13,20 @@ import hashlib
 import importlib
 import json
 import platform
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from importlib.metadata import version
 from operator import attrgetter
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.records.state import state_of
+from contact_sim_pkg.records.state import State, state_of
 from contact_sim_pkg.run.bag_content import kernel_fingerprint
+from contact_sim_pkg.run.live_parameters import Change
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["StateError", "load_state", "save_state"]
+__all__ = ["SavedState", "StateError", "carry_state", "load_state", "open_state", "save_state"]
 
 MAGIC = b"contact bench state 1\n"
 PACKAGE = __name__.partition(".")[0]
@@ -35,26 +36,47 @@ PLAIN = (bool, int, float, str, type(None))
 
 Node: TypeAlias = Any
 Array = NDArray[Any]
+Part: TypeAlias = Callable[[State], tuple[str, ...]]
+ALL: Part = attrgetter("names")
+PHYSICS: Part = attrgetter("physics")
+"""Names of a declared state that are written and read."""
 
 
 class StateError(ValueError):
     """A state that cannot be saved or loaded; the text says why. Nothing was changed."""
 
 
-def save_state(simulation: object, block: int, scene: ResolvedScene) -> bytes:
-    """The state of a ``simulation`` before a ``block``. Raises StateError where a part of it declares none."""
+class SavedState(NamedTuple):
+    """A state that fits scene, bench and processor.
+
+    Attributes:
+        block: before which it was saved.
+        changes: of parameters in the run until then.
+    """
+
+    block: int
+    changes: tuple[Change, ...]
+    arrays: list[Array]
+    tree: Node
+
+
+def save_state(simulation: object, block: int, scene: ResolvedScene, changes: Iterable[Change] = ()) -> bytes:
+    """The state of a ``simulation`` before a ``block``, of a ``scene`` whose parameters had those ``changes``. Raises
+    StateError where a part of it declares none.
+    """
     if observers := getattr(simulation, "undeclared", ""):
         raise StateError(f"{observers}: what only looks at a run declares no state; leave it out to save one")
     writer = _Writer()
-    tree = writer.node(simulation, f"the simulation of rig {scene.rig}")
+    tree = writer.node(simulation, _name(scene))
     content = b"".join(writer.content)
-    header = json.dumps({"of": _origin(scene), "block": block, "arrays": writer.described, "state": tree}).encode()
+    known = {"of": _origin(scene), "block": block, "arrays": writer.described, "state": tree}
+    header = json.dumps({**known, "changes": [*changes]}).encode()
     body = len(header).to_bytes(8, "little") + header + content
     return MAGIC + hashlib.sha256(body).digest() + body
 
 
-def load_state(data: bytes, simulation: object, scene: ResolvedScene) -> int:
-    """Put a saved state into a ``simulation`` of the same scene; returns the block before which it was saved.
+def open_state(data: bytes, scene: ResolvedScene) -> SavedState:
+    """Read a saved state of a ``scene``, as it was at the start of the run.
 
     Raises StateError where it is damaged, or of another scene, bench, version or processor.
     """
@@ -62,11 +84,32 @@ def load_state(data: bytes, simulation: object, scene: ResolvedScene) -> int:
     for name, value in _origin(scene).items():
         if header["of"].get(name) != value:
             raise StateError(f"the state was saved with another {name}: {header['of'].get(name)}, this is {value}")
-    reader = _Reader(_arrays(header["arrays"], content))
-    reader.value(header["state"], simulation, f"the simulation of rig {scene.rig}")
+    changes = tuple(Change(int(block), str(key), float(value)) for block, key, value in header["changes"])
+    return SavedState(int(header["block"]), changes, _arrays(header["arrays"], content), header["state"])
+
+
+def load_state(saved: SavedState, simulation: object, scene: ResolvedScene) -> None:
+    """Put a saved state into a ``simulation`` of the same scene. Raises StateError where it does not fit."""
+    _put(_Reader(saved.arrays), saved.tree, simulation, _name(scene))
+
+
+def carry_state(before: object, after: object, where: str) -> None:
+    """Copy the physics of an object, and of those in it, into another one of its class: what a motion goes on from
+    where warm starts and step control are of no use. Raises StateError where it does not fit.
+    """
+    writer = _Writer(PHYSICS)
+    tree = writer.node(before, where)
+    _put(_Reader(_arrays(writer.described, b"".join(writer.content)), PHYSICS), tree, after, where)
+
+
+def _put(reader: _Reader, tree: Node, into: object, where: str) -> None:
+    reader.value(tree, into, where)
     for write in reader.writes:
         write()
-    return int(header["block"])
+
+
+def _name(scene: ResolvedScene) -> str:
+    return f"the simulation of rig {scene.rig}"
 
 
 @functools.cache
@@ -107,7 +150,8 @@ def _arrays(described: list[list[Any]], content: bytes) -> list[Array]:
 class _Writer:
     """The tree of values, and their arrays. What stands in several places is written once."""
 
-    def __init__(self) -> None:
+    def __init__(self, part: Part = ALL) -> None:
+        self._part = part
         self.described: list[list[Any]] = []
         self.content: list[bytes] = []
         self._known: dict[int, tuple[int, Any]] = {}  # the thing too, so that no other takes its place in memory
@@ -142,7 +186,7 @@ class _Writer:
         declared = state_of(value)
         assert declared is not None
         name = type(value).__name__
-        parts = {path: self.node(attrgetter(path)(value), f"{name}.{path}") for path in declared.names}
+        parts = {path: self.node(attrgetter(path)(value), f"{name}.{path}") for path in self._part(declared)}
         return {"object": _named(value), "parts": parts}
 
     def _record(self, value: Any, fields: dict[str, Any], where: str) -> Node:
@@ -160,7 +204,8 @@ class _Writer:
 class _Reader:
     """Makes values of a tree; what it writes is planned, and done when all is known to fit."""
 
-    def __init__(self, arrays: list[Array]) -> None:
+    def __init__(self, arrays: list[Array], part: Part = ALL) -> None:
+        self._part = part
         self._arrays = arrays  # where one takes the place of a buffer, the buffer
         self._objects: list[Any] = []
         self.writes: list[Callable[[], None]] = []
@@ -196,10 +241,10 @@ class _Reader:
         declared = state_of(before)
         if declared is None or name != _named(before):
             raise StateError(f"{where} is no {name.rpartition(':')[2]} here")
-        if set(parts) != set(declared.names):
+        if set(parts) != set(self._part(declared)):
             raise StateError(f"{where} has other parts than the state")
         self._objects.append(before)
-        for path in declared.names:
+        for path in self._part(declared):
             way, _, last = path.rpartition(".")
             holder = attrgetter(way)(before) if way else before
             now, named = getattr(holder, last), f"{type(before).__name__}.{path}"

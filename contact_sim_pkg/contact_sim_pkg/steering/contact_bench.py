@@ -15,9 +15,9 @@ from contact_sim_pkg.report.export.table import has_columns, table_of_records
 from contact_sim_pkg.report.export.time_series import Series, series_of
 from contact_sim_pkg.run.block_simulation import InputBlock, Resettable
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.run.rigs import make_simulation
-from contact_sim_pkg.run.saved_state import load_state, save_state
-from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.run.live_parameters import Parameter
+from contact_sim_pkg.run.saved_state import load_state, open_state, save_state
+from contact_sim_pkg.run.steered_run import SteeredRun
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import resolve
@@ -96,10 +96,9 @@ class ContactBench:
     def _build(self, scene: ResolvedScene) -> None:
         self.scene = scene
         self.block_length = scene.block_length
-        self._sources = make_sources(scene)
-        self._simulation = make_simulation(scene)
-        self._simulation.prepare()
-        self.blocks, self.inputs = self._simulation.blocks, tuple(self._sources)
+        self._run = SteeredRun(scene)
+        self._run.simulation.prepare()
+        self.blocks, self.inputs = self._run.simulation.blocks, tuple(self._run.sources)
         self._block = 0
         self._is_broken = False
 
@@ -124,8 +123,9 @@ class ContactBench:
             name, values = self._name
             self._build(_resolved(name, (*values, f"seed={seed}")))
             return
-        if isinstance(self._simulation, Resettable):
-            self._simulation.reset()
+        self._run = self._run.at_start()
+        if isinstance(self._run.simulation, Resettable):
+            self._run.simulation.reset()
         else:  # of a plug-in
             self._build(self.scene)
         self._block, self._is_broken = 0, False
@@ -135,16 +135,26 @@ class ContactBench:
         the scene, or in another process. Raises StateError where a part of the scene declares no state.
         """
         self._refuse_broken()
-        return save_state(self._simulation, self._block, self.scene)
+        return save_state(self._run.simulation, self._block, self.scene, self._run.changes)
 
     def load(self, data: bytes) -> None:
         """Go back, or on, to a state that was saved. Raises StateError, and changes nothing, where the bytes are damaged,
         or of another scene, bench, version or processor.
         """
-        self._block = load_state(data, self._simulation, self.scene)
-        self._is_broken = False
+        saved = open_state(data, self.scene)
+        run = self._run.with_changes(saved.changes)
+        load_state(saved, run.simulation, self.scene)
+        self._run, self._block, self._is_broken = run, saved.block, False
 
-    def step(self, duration: float | None = None, vibration: ArrayLike | None = None) -> Step:
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """Every key of the scene, dotted: present value, unit, range, and whether `step` may change it, or why not."""
+        return self._run.parameters
+
+    def step(
+        self, duration: float | None = None, vibration: ArrayLike | None = None,
+        parameters: Mapping[str, float] | None = None,
+    ) -> Step:  # fmt: skip
         """Simulate on, and return what the topics hold.
 
         Args:
@@ -152,9 +162,12 @@ class ContactBench:
             vibration: acceleration [m/s²] in place of the scene's own: upwards [samples], or forward and upward
                 [samples, 2], at ``vibration.sample_rate``. Between samples it is linear, after the last one of the step it
                 is held; with one sample more that one is the end.
+            parameters: values of live keys from the start of the step on, all of them or none; each is a message
+                ``bench/steering`` of the step.
 
         Raises:
             ValueError: no whole number of blocks, or another number of samples.
+            ParameterError: a key that is fixed, or a value that is refused; the run goes on as if it had not been given.
             RunError: the scene is over, or the physics ended in a named failure; then only `reset` goes on.
         """
         count = self._count(duration)
@@ -164,18 +177,21 @@ class ContactBench:
                 f"the scene ends at {self.blocks * self.block_length:g} s, it is {self.time:g} s; give it a longer duration"
             )
         own = None if vibration is None else self._vibration(count, vibration)
-        first, outputs = self._block, []
+        first, outputs = self._block, list[Output]()
+        if parameters:
+            given = {} if own is None else {VIBRATION: own(first, 0)}
+            outputs += self._run.change(first, parameters, given)
         self._is_broken = True  # until the last block has ended
         for number in range(count):
             block = first + number
             inputs: dict[str, InputBlock] = {
                 topic: source.block(block)
-                for topic, source in self._sources.items()
+                for topic, source in self._run.sources.items()
                 if topic != VIBRATION or own is None
             }
             if own is not None:
                 inputs[VIBRATION] = own(block, number)
-            outputs += self._simulation.advance(block, inputs).outputs
+            outputs += self._run.simulation.advance(block, inputs).outputs
         self._block, self._is_broken = first + count, False
         return Step(first * self.block_length, self.time, outputs)
 
@@ -186,7 +202,7 @@ class ContactBench:
         Raises ValueError where the scene has none, or the duration is no whole number of blocks.
         """
         self._refuse_still()
-        blocks = [self._sources[VIBRATION].block(self._block + number) for number in range(self._count(duration))]
+        blocks = [self._run.sources[VIBRATION].block(self._block + number) for number in range(self._count(duration))]
         parts = [
             numpy.stack([each.acceleration_x, each.acceleration_z], axis=1)
             for each in blocks if isinstance(each, VibrationBlock)
@@ -198,7 +214,7 @@ class ContactBench:
             raise RunError("the run ended in a failure; reset the bench, or load a state")
 
     def _refuse_still(self) -> None:
-        if VIBRATION not in self._sources:
+        if VIBRATION not in self._run.sources:
             raise ValueError(f"{self.scene.name} has no vibration; its inputs are {', '.join(self.inputs) or 'none'}")
 
     def _count(self, duration: float | None) -> int:

@@ -10,7 +10,7 @@ few sines.
 
 from collections.abc import Iterator
 from math import ceil, floor, isfinite, sqrt
-from typing import Any, Literal, TypeAlias
+from typing import Any, ClassVar, Literal, TypeAlias
 
 import numpy
 from numpy.typing import NDArray
@@ -223,6 +223,8 @@ class TextureSection(Section):
     directions.
     """
 
+    fixed: ClassVar[str] = RoadKind.fixed
+
     shortest_wavelength: float = number(
         0.001,
         1.0,
@@ -240,7 +242,12 @@ class Iso8608RoadSection(RoadKind):
     kind: Literal["iso8608"]
     roughness_class: RoughnessClass | None = choice("ISO 8608 class, taken at its geometric mean", default=None)
     roughness: float | None = number(
-        0.0, 1.0, "m³", "spectral density at 0.1 cycles/m; class A is 16e-6, C is 256e-6", default=None
+        0.0,
+        1.0,
+        "m³",
+        "spectral density at 0.1 cycles/m; class A is 16e-6, C is 256e-6",
+        default=None,
+        live="excitation",
     )
     exponent: float = number(1.0, 4.0, "", "falling power of the spectrum; ISO 8608 takes 2", default=2.0)
     length: float = number(

@@ -87,7 +87,7 @@ class SelfAffineRoadSection(RoadKind):
 
     kind: Literal["self_affine"]
     hurst: float = number(0.0, 1.0, "", "Hurst's exponent; 0.8 for road surfaces", default=0.8)
-    rms: float = number(0.0, 0.05, "m", "root mean square of the heights", default=5e-4)
+    rms: float = number(0.0, 0.05, "m", "root mean square of the heights", default=5e-4, live="excitation")
     shortest_wavelength: float = number(
         0.001, 1.0, "m", "shortest wavelength; at least two cells of the contact field are resolved", default=0.005
     )

@@ -75,7 +75,7 @@ class PlatformSection(AxisVibration):
 
     kind: Literal["platform"]
     spectrum: SpectrumName = choice("class of machines", example="EM1")
-    scale: float = number(0.0, 10.0, "1", "factor on the acceleration", default=1.0)
+    scale: float = number(0.0, 10.0, "1", "factor on the acceleration", default=1.0, live="excitation")
 
     def wave(self, seed: int) -> NoiseSignal:
         """See AxisVibration."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import Field
 
@@ -32,6 +32,8 @@ class Back(Section):
     its middle.
     """
 
+    fixed: ClassVar[str] = "the form of a back is that of its cells"
+
     width: float = number(0.05, 5.0, "m", "width of the back", default=0.40)
     height: float = number(0.05, 5.0, "m", "height of the back", default=0.50)
     radius_across: float = number(0.05, 1000.0, "m", "radius of curvature across", default=0.6)
@@ -43,6 +45,8 @@ class Sliding(Section):
     acts in friction.
     """
 
+    fixed: ClassVar[str] = "another sliding would jump at an instant"
+
     amplitude: float = number(0.0, 1.0, "m", "amplitude of the displacement; 0: none", default=0.0)
     frequency: float = number(0.0, 1000.0, "Hz", "frequency of the sliding", above=True, default=5.25)
 
@@ -52,6 +56,8 @@ class MatSection(Section):
     points instead.
     """
 
+    fixed: ClassVar[str] = "its cells are those of the run's maps"
+
     rows: int = number(4, 256, "", "cells up the back", default=40)
     cols: int = number(4, 256, "", "cells across the back", default=32)
 
@@ -59,10 +65,11 @@ class MatSection(Section):
 class BackrestSection(Section):
     """Occupant against a seat back that is shaken along its normal (x, forward)."""
 
+    fixed: ClassVar[str] = "the seat back is built once"
+
     mass: float | None = number(
         0.1, 1000.0, "kg", f"moving mass of the occupant, {MASS:g} by default; replaced by a shell; not in rig occupant",
-        default=None,
-    )  # fmt: skip
+        default=None, live="law")  # fmt: skip
     angle: float | None = number(
         0.0, 0.6, "rad", f"of the seat back from the vertical; rig occupant alone, {ANGLE:g} by default", default=None
     )
@@ -72,6 +79,7 @@ class BackrestSection(Section):
         "N",
         "constant force on the seat back; by default mass · 9.81 m/s², 20 N for a shell; in rig occupant 0, the push of the feet",
         default=None,
+        live="law",
     )
     back: Back = Field(default_factory=Back, description="shape of the back; of a cushion the percentile is")
     sliding: Sliding = Field(default_factory=Sliding, description="rigid sliding along the seat back")
@@ -90,7 +98,7 @@ class BackElastic(PowerLaw):
     """
 
     coefficient: float = number(
-        1.0, 1e12, "N/m^exponent", "A; by default 447 N at 14.91 mm: 45.6 kg have 5 Hz", default=2.457e5
+        1.0, 1e12, "N/m^exponent", "A; by default 447 N at 14.91 mm: 45.6 kg have 5 Hz", default=2.457e5, live="law"
     )
 
 
@@ -130,7 +138,9 @@ class BackLoss(HuntCrossley):
 
     usual_damping = 1.949743421626532
 
-    damping: float | None = number(0.0, 100.0, "s/m", "λ; 1.9497 by default: restitution 0.6 at 0.5 m/s", default=None)
+    damping: float | None = number(
+        0.0, 100.0, "s/m", "λ; 1.9497 by default: restitution 0.6 at 0.5 m/s", default=None, live="law"
+    )
 
 
 class BackGeneralDissipation(GeneralDissipation):
@@ -142,8 +152,7 @@ class BackGeneralDissipation(GeneralDissipation):
 
     coefficient: float | None = number(
         0.0, 1e12, "N/m^p/(m/s)^q", "B; 4.7905e5 by default: with the default exponents restitution 0.6 at 0.5 m/s",
-        default=None,
-    )  # fmt: skip
+        default=None, live="law")  # fmt: skip
 
 
 class BackFriction(FrictionSection):
@@ -171,6 +180,8 @@ class ShellModesSection(Section):
     """The back as a doubly curved shallow shell in modal form with candidate contact points, in
     place of one mass.
     """
+
+    fixed: ClassVar[str] = "the modes of the shell are its state"
 
     modes: int = number(1, 25, "", "modes: 1, 4, 9 or 25 (m and n up to 1, 2, 3 or 5)", default=9)
     points_up: int = number(1, 64, "", "candidate contact points up the back", default=20)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 
 import numpy
 from numpy.typing import NDArray
@@ -20,7 +21,8 @@ from contact_sim_pkg.rigs.backrest.outputs import BackrestRecord, block_outputs
 from contact_sim_pkg.rigs.backrest.parameters import ENDED, MOST_EPISODES, BackrestSamples, Shaking, make_mode
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.run.outputs import largest
+from contact_sim_pkg.run.outputs import largest, open_energy
+from contact_sim_pkg.run.saved_state import carry_state
 from contact_sim_pkg.run.vibration_drive import VIBRATION, accelerations
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -65,6 +67,14 @@ class BackrestSimulation:
             0, {VIBRATION: VibrationBlock(block=0, sample_period=period, acceleration_x=still, acceleration_z=still)}
         )
         self.reset()
+
+    def take_over(self, before: BackrestSimulation, block: int, inputs: Mapping[str, InputBlock]) -> None:
+        """See `Steerable`."""
+        now = block * self.model.timing.block_length
+        carry_state(before, self, "the backrest")
+        self._work.event_direction[:], self._work.step[:] = before._work.event_direction, before._work.step
+        self._work.last_event[:], self._start_energy = before._work.last_event, before._start_energy
+        self.state[-2] += open_energy(before._energies(now)) - open_energy(self._energies(now))
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, ClassVar, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -31,6 +31,8 @@ class BlockGround(Section):
     peaks between them go unseen.
     """
 
+    fixed: ClassVar[str] = "the ground is made once"
+
     slope: float = number(-1.4, 1.4, "rad", "angle at which the plane rises along x", default=0.0)
     heights: list[Bounded] | None = numbers(
         "m", "heights at equal distances along x, in place of the plane; straight between them and beyond the ends",
@@ -42,6 +44,8 @@ class BlockGround(Section):
 
 class Block(Section):
     """A rigid body that falls, slides, sticks and rests. Positions are of its centre of mass."""
+
+    fixed: ClassVar[str] = "body, start and known forces are given at the start"
 
     motion: Literal["plane", "space"] = choice("motion in the plane x, z, or in space", default="plane")
     shape: Literal["box", "sphere", "points"] = choice(
@@ -74,8 +78,10 @@ class RigidContact(Section):
     complementarity.
     """
 
-    friction: float = number(0.0, 5.0, "", "Coulomb friction μ", default=0.3)
-    restitution: float = number(0.0, 1.0, "", "restitution of the rule", default=0.3)
+    fixed: ClassVar[str] = "the solver is made for it"
+
+    friction: float = number(0.0, 5.0, "", "Coulomb friction μ", default=0.3, live="law")
+    restitution: float = number(0.0, 1.0, "", "restitution of the rule", default=0.3, live="law")
     rule: Literal["energetic", "poisson", "newton"] = choice(
         "restitution of works (never gains energy), of impulses, or of velocities (may gain energy with friction)",
         default="energetic",
@@ -91,6 +97,8 @@ class CompliantContact(Section):
     requested restitution (below 0.01: 0.01); spring and damper along the ground that stick, with a
     Coulomb limit. Stiffer is nearer to rigid, and more expensive.
     """
+
+    fixed: ClassVar[str] = "the points hold their depth and deflection by it"
 
     stiffness: float = number(1.0, 1e12, "N/m^exponent", "of a point, normal to the ground", default=1e6)
     exponent: float = number(1.0, 3.0, "", "exponent of the depth; 1 is a spring, 1.5 is Hertz", default=1.0)

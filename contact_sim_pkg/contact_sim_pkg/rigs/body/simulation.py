@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from typing import TypeAlias
 
 import numpy
@@ -22,6 +23,7 @@ from contact_sim_pkg.rigs.body.outputs import BodyRecord, block_outputs
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import largest
+from contact_sim_pkg.run.saved_state import carry_state
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 Body: TypeAlias = LocatedBody | CompliantMotion
@@ -63,6 +65,11 @@ class BlockBodySimulation:
         if model.contact is None:
             _warm_up(model)
         contact_arms(model, model.start.position, model.start.rotation)
+
+    def take_over(self, before: BlockBodySimulation, block: int, inputs: Mapping[str, InputBlock]) -> None:
+        """See `Steerable`: friction and restitution hold no energy."""
+        carry_state(before, self, "the body")
+        self._start = before._start
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from pydantic import Field
 
@@ -34,6 +34,8 @@ MATERIALS: dict[str, SampleMaterial] = {
 class Sample(Section):
     """The half-space. What is not given is that of the material."""
 
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
+
     material: Literal["rubber", "foam", "steel"] = choice("material of the absent values", default="rubber")
     storage_modulus: float | None = number(
         1.0, 1e13, "Pa", "E' of the half-space: rubber 8e6, foam 2e5, steel 2.1e11", default=None
@@ -58,6 +60,8 @@ class ImpactSection(Section):
     """A sphere that strikes a sample: drop tower or pendulum, one release or a programme of
     them.
     """
+
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
 
     machine: Literal["drop", "pendulum"] = choice(
         "drop tower, or pendulum that strikes at its lowest point", default="drop"

@@ -4,7 +4,7 @@ takes all defaults.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, ClassVar, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -16,11 +16,15 @@ TableRow: TypeAlias = Annotated[list[float], Field(min_length=3, max_length=3)]
 class SphereElastic(Section):
     """Elastic force 4/3 k_p E' √R x^(3/2), from the sphere and the sample of `impact`."""
 
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
+
 
 class SphereLoss(Section):
     """Viscous force 4 k_p √R (E' tan β/ω) x^(1/2) x', ω the angular frequency π/τ of the impact
     itself.
     """
+
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
 
     end: Literal["force", "gap"] = choice(
         "contact ends at zero force (never tensile), or at zero gap (tensile before)",
@@ -32,6 +36,8 @@ class Shift(Section):
     """Time-temperature shift: E' and tan β of each impact from a table over temperature, measured
     at one impact speed.
     """
+
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
 
     law: Literal["wlf", "arrhenius"] = choice("Williams-Landel-Ferry, or one activation energy", default="wlf")
     glass_temperature: float = number(1.0, 2000.0, "K", "glass temperature Tg", default=223.0)
@@ -63,6 +69,8 @@ class Shift(Section):
 class ContactStress(Section):
     """Stress over the contact radius in time, elastic and viscous, as `impact/stress`."""
 
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
+
     shape: Literal["parabola", "hertz", "printed"] = choice(
         "over the radius: 1 − ρ², √(1 − ρ²), or as printed with 3/4 of the force", default="parabola"
     )
@@ -72,6 +80,8 @@ class ContactStress(Section):
 
 class SurfaceWaves(Section):
     """Ring and circular wave around each impact, as `impact/wave`."""
+
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
 
     spread: Literal["none", "cylindrical"] = choice("decay of the amplitude with the radius", default="none")
     lengths: float = number(0.5, 1000.0, "", "recorded distance around the contact, in wave lengths", default=3.0)
@@ -85,11 +95,15 @@ class MicroFront(Section):
     shear wave, as `impact/front`.
     """
 
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
+
     instants: int = number(3, 1001, "", "instants of each impact", default=101)
 
 
 class ThermalVolume(Section):
     """Position of the contact surface: depth, volumes, heating, as `impact/position`."""
+
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
 
     variant: int = number(1, 2, "", "1: the border sinks (static), 2: it stays on the surface (impact)", default=2)
     border_factor: Literal["equal", "consistent"] = choice("k_c of variant 1", default="equal")
@@ -101,6 +115,8 @@ class ThermalVolume(Section):
 class History(Section):
     """Depth by the hereditary integral under the recorded force, for comparison, as
     `impact/history`; flagged where the contact shrinks and the integral no longer holds."""
+
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
 
     model: Literal["kelvin_voigt", "maxwell", "standard_solid"] = choice(
         "model with the complex modulus of the sample at the frequency of the impact", default="kelvin_voigt"
@@ -115,6 +131,8 @@ class GaugeNoise(Section):
     """Noise of the gauges: relative errors of the measured values in `impact/events`, normal, from
     the scene's seed.
     """
+
+    fixed: ClassVar[str] = "an impact is solved as a whole from its release on"
 
     speed: float = number(0.0, 0.5, "", "standard deviation", default=0.01)
     duration: float = number(0.0, 0.5, "", "standard deviation", default=0.01)

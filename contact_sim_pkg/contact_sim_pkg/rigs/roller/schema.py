@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, ClassVar, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -31,6 +31,8 @@ def _radii(of: str) -> list[float] | None:
 class RollerProgramme(Section):
     """Loads and radii over time; before the first time and behind the last they stay."""
 
+    fixed: ClassVar[str] = "the roller runs by its programme, on the track that it has worn"
+
     time: list[Instant] = numbers(
         "s", "time of each row, increasing", f"2 to {MOST_ROWS} numbers, each 0 to 3600 s", shortest=2, longest=MOST_ROWS,
         example=[0.0, 1.0],
@@ -54,6 +56,8 @@ class RollerRig(Section):
     """Roller in its suspension, on a shaft. x along the shaft, y along rolling, z from the roller
     into the shaft.
     """
+
+    fixed: ClassVar[str] = "the roller runs by its programme, on the track that it has worn"
 
     load: float = number(0.0, 1e7, "N", "normal load F_N", default=100.0, above=True)
     speed: float = number(0.0, 10000.0, "1/s", "turns of the roller per second", default=50.0)
@@ -93,6 +97,8 @@ class RollerRig(Section):
 class RollerElastic(Section):
     """Contact of an ellipse that follows load, curvatures and yaw."""
 
+    fixed: ClassVar[str] = "the roller runs by its programme, on the track that it has worn"
+
     ellipse: Literal["exact", "polynomial"] = choice(
         "shape of the ellipse by elliptic integrals, or by the polynomial of eq 10, valid up to Omega 0.85; "
         "exact beyond it, and in the moments",
@@ -107,9 +113,13 @@ class RollerElastic(Section):
 class TiltYawSection(Section):
     """The roller tilts and yaws; without it both angles are fixed."""
 
+    fixed: ClassVar[str] = "the roller runs by its programme, on the track that it has worn"
+
 
 class Gyroscope(Section):
     """Moments of the spinning roller."""
+
+    fixed: ClassVar[str] = "the roller runs by its programme, on the track that it has worn"
 
     inertia_spin: float = number(0.0, 1e6, "kg m^2", "i about the spin axis", default=3.5e-5)
 
@@ -117,11 +127,15 @@ class Gyroscope(Section):
 class RollingFrictionSection(Section):
     """Rolling friction turns a tilted roller."""
 
+    fixed: ClassVar[str] = "the roller runs by its programme, on the track that it has worn"
+
     coefficient: float = number(-1.0, 1.0, "", "rolling resistance f_r; its sign is that of the rolling", default=0.01)
 
 
 class ShaftBending(Section):
     """The shaft is bent: compliance of the contact, friction of the stretched surface, stress."""
+
+    fixed: ClassVar[str] = "the roller runs by its programme, on the track that it has worn"
 
     load: float = number(-1e7, 1e7, "N", "load Q of the shaft", default=225.0)
     contact_distance: float = number(0.0, 100.0, "m", "A, from the clamped end to the contact", default=0.060)
@@ -133,6 +147,8 @@ class TrackWaves(Section):
     """The roller rides over the heights of the track: heave, load that changes, separation and
     impact.
     """
+
+    fixed: ClassVar[str] = "the roller runs by its programme, on the track that it has worn"
 
     track: Literal["shaft", "roller", "both"] = choice("body with the heights and the wear", default="shaft")
     damping_ratio: float = number(0.0, 10.0, "", "damping ratio ζ of the heave", default=0.05)
@@ -152,6 +168,8 @@ class TrackWaves(Section):
 
 class Subsurface(Section):
     """Stress below the surface, and the volumes where it passes a limit."""
+
+    fixed: ClassVar[str] = "the roller runs by its programme, on the track that it has worn"
 
     normal_limit: float = number(1.0, 1e13, "Pa", "limit of normal stresses", default=2.6e8)
     shear_limit: float = number(1.0, 1e13, "Pa", "limit of shear stresses", default=1.5e8)
@@ -186,6 +204,8 @@ def _hardness(of: str) -> list[float]:
 
 class Damage(Section):
     """The track wears where its dangerous volume is large; waves may grow."""
+
+    fixed: ClassVar[str] = "the roller runs by its programme, on the track that it has worn"
 
     gain: float = number(0.0, 1000.0, "", "wear factor γ", default=0.05)
     table_rows: int = number(2, 1000, "", "loads of the table of dangerous volumes", default=16)

@@ -5,6 +5,7 @@ the simulator node.
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 
 import numpy
 
@@ -26,7 +27,7 @@ from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
 from contact_sim_pkg.rigs.vehicle.tire.edges import edge_cautions
 from contact_sim_pkg.rigs.vehicle.tire.static_stiffness import stiffness_cautions
 from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
-from contact_sim_pkg.run.outputs import BlockStamps, largest
+from contact_sim_pkg.run.outputs import BlockStamps, largest, open_energy
 from contact_sim_pkg.run.sources import make_travel
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -97,6 +98,18 @@ class Simulation:
             )
         self.advance(0, inputs)
         self.reset()
+
+    def take_over(self, before: Simulation, block: int, inputs: Mapping[str, RoadPatch | VibrationBlock]) -> None:
+        """See `Steerable`: bodies, bristles and memory go on; the fields are solved where they are, by the laws of now."""
+        road, vibration = inputs.get(ROAD), inputs.get(VIBRATION)
+        drive = block_drive(before.model, before._travel, block, road, vibration)
+        then = open_energy(before._coupling.energies(float(drive.smooth[0])))
+        self._first_block, self._next_block = before._first_block, before._next_block
+        # The smooth height has the weights of another footprint
+        drive = block_drive(self.model, self._travel, block, road, vibration)
+        self._coupling.take_over(before._coupling, drive, block)
+        self._coupling.bodies.supply(then - open_energy(self._coupling.energies(float(drive.smooth[0]))))
+        self._start_energy, self._response = before._start_energy, before._response
 
     def begin_at(self, block: int) -> None:
         """Begin the run with a later block, standing on the road there. After `prepare`."""

@@ -37,6 +37,8 @@ class Entry:
         low, high: bounds of a number; `above` if low itself is not allowed.
         words: allowed words of a choice, or beside a number; the names of the kinds.
         keys: keys of a section.
+        live: what it acts on where it may change between two blocks of a run; empty: it holds for the whole run.
+        fixed: why it does, where its section or it says so.
     """
 
     location: Location
@@ -52,6 +54,8 @@ class Entry:
     words: tuple[str, ...] = ()
     keys: tuple[str, ...] = ()
     allowed_text: str = ""
+    live: str = ""
+    fixed: str = ""
 
     @property
     def allowed(self) -> str:
@@ -135,17 +139,17 @@ def _entries(model: type[BaseModel], prefix: Location) -> Iterator[Entry]:
         members = _models_of(annotation)
         if len(members) > 1:
             kinds = {_kind_of(member): member for member in members}
-            yield _entry(location, "kinds", info, words=tuple(kinds))
+            yield _entry(location, "kinds", info, "", words=tuple(kinds))
             for kind, member in kinds.items():
                 yield from _entries(member, (*location, kind))
         elif members:
-            yield _entry(location, "section", info, keys=tuple(members[0].model_fields))
+            yield _entry(location, "section", info, "", keys=tuple(members[0].model_fields))
             yield from _entries(members[0], location)
         else:
-            yield _leaf(location, annotation, info)
+            yield _leaf(location, annotation, info, getattr(model, "fixed", ""))
 
 
-def _entry(location: Location, kind: Kind, info: FieldInfo, **more: Any) -> Entry:
+def _entry(location: Location, kind: Kind, info: FieldInfo, fixed: str, **more: Any) -> Entry:
     extra = info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}
     default = None if info.is_required() else info.get_default(call_default_factory=True)
     return Entry(
@@ -157,11 +161,13 @@ def _entry(location: Location, kind: Kind, info: FieldInfo, **more: Any) -> Entr
         default,
         extra.get("example"),
         allowed_text=str(extra.get("allowed", "")),
+        live=str(extra.get("live", "")),
+        fixed=str(extra.get("fixed", "")) or fixed,
         **more,
     )
 
 
-def _leaf(location: Location, annotation: Any, info: FieldInfo) -> Entry:
+def _leaf(location: Location, annotation: Any, info: FieldInfo, fixed: str) -> Entry:
     metadata, words, kind = [*info.metadata], [], "text"
     for part in _parts(annotation):
         if isinstance(part, FieldInfo):
@@ -174,7 +180,7 @@ def _leaf(location: Location, annotation: Any, info: FieldInfo) -> Entry:
         elif get_origin(part) is list:
             kind = "list"
     low, high, above = _bounds(metadata) if kind in ("number", "integer") else (None, None, False)
-    return _entry(location, kind, info, low=low, high=high, above=above, words=tuple(words))  # type: ignore[arg-type]
+    return _entry(location, kind, info, fixed, low=low, high=high, above=above, words=tuple(words))  # type: ignore[arg-type]
 
 
 def _bounds(metadata: list[Any]) -> tuple[float | None, float | None, bool]:

@@ -31,6 +31,8 @@ class FoamCurveSection(Section):
     gives the share of foam_hysteresis where that has none of its own.
     """
 
+    fixed: ClassVar[str] = "foam is one curve as a whole"
+
     largest_file: ClassVar[int] = 16 << 20
     """[bytes]"""
 

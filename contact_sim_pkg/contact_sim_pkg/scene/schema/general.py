@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
 from contact_sim_pkg.memory import LIMIT
 from contact_sim_pkg.records.fields import Section, choice, number
@@ -19,6 +19,8 @@ class Outputs(Section):
     block.
     """
 
+    fixed: ClassVar[str] = "the messages of a topic have one rate in a run"
+
     force_rate: float = number(1.0, 1e6, "Hz", "forces and motions, one message a block", default=1000.0)
     display_rate: float = number(1.0, 1e4, "Hz", "wrenches and scalars for plotters", default=100.0)
     field_rate: float = number(1.0, 1e4, "Hz", "pressure fields", default=100.0)
@@ -33,6 +35,8 @@ class Outputs(Section):
 
 class Integrator(Section):
     """Time integration."""
+
+    fixed: ClassVar[str] = "the error of a run is that of one tolerance"
 
     relative_tolerance: float | None = number(
         1e-13, 1e-2, "", "local error of a step relative to the state; taken from accuracy when absent", default=None
@@ -58,6 +62,8 @@ class Integrator(Section):
 class Expect(Section):
     """What the scene is there to show; a run says at its end whether it did."""
 
+    fixed: ClassVar[str] = "what a scene is there to show is judged over the whole run"
+
     regime: RegimeName = choice("what happens in the run: a regime of the rig", example=regime_names()[0])
     at_least: float | None = number(
         -1e12,
@@ -74,6 +80,8 @@ class Expect(Section):
 
 class Limits(Section):
     """Caps that a scene may raise for itself."""
+
+    fixed: ClassVar[str] = "it is checked before the run"
 
     memory: float = number(
         0.001, 1024.0, "GiB", "most memory that grids, roads and signals may need together", default=LIMIT

@@ -33,6 +33,8 @@ USUAL_REVERSAL = 1.0
 class PowerLaw(Section):
     """Elastic force: coefficient · approach^exponent."""
 
+    fixed: ClassVar[str] = "another exponent is another law"
+
     coefficient: float = number(1.0, 1e12, "N/m^exponent", "A")
     exponent: float = number(1.0, 3.0, "", "n; 1 is linear, 1.5 is Hertz", default=1.5)
 
@@ -41,6 +43,8 @@ class HuntCrossley(Section):
     """Hunt-Crossley dissipation: elastic force · (1 + damping · approach rate), never pulling; or
     `restitution` at a speed.
     """
+
+    fixed: ClassVar[str] = "damping is what follows from it, once, at the start"
 
     usual_damping: ClassVar[float]
     """[s/m] where a scene names neither damping nor restitution."""
@@ -62,6 +66,8 @@ class Foam(Section):
     that of normal_elastic.
     """
 
+    fixed: ClassVar[str] = "foam is one curve as a whole"
+
     area: float = number(1e-3, 10.0, "m^2", "loaded area; under an occupant 0.10 to 0.15", default=0.12)
     thickness: float = number(0.005, 2.0, "m", "thickness of the unloaded block", default=0.08)
     modulus: float = number(
@@ -80,6 +86,8 @@ class CushionSection(Section):
     """Foam layer of finite thickness on a rigid base under a body by percentile: force law and map
     from one table.
     """
+
+    fixed: ClassVar[str] = "the table of a cushion is solved for a run as a whole"
 
     percentile: Literal[5, 50, 95] | None = choice(
         "body that presses into it: a woman of the 5th percentile, a man of the 50th or 95th; that of the occupant, or 50",
@@ -127,6 +135,8 @@ class FoamHysteresisSection(Section):
     1 follows the loading.
     """
 
+    fixed: ClassVar[str] = "the loop that foam has begun is of it"
+
     share: float | None = number(
         0.0, MOST_SHARE, "", "s; a long loading dissipates 2 s/(1 + s); by default that of the cushion's curve, or 0.12: 21 %",
         default=None,
@@ -146,6 +156,10 @@ class GeneralDissipation(Section):
     |rate|^rate_exponent; in place of normal_dissipative. Exponents 0 and 1 are a plain damper, the
     elastic exponent and 1 Hunt-Crossley, 0.5 and 1 Kuwabara-Kono."""
 
+    fixed: ClassVar[str] = (
+        "another exponent is another law, and a restitution is turned into its coefficient at the start"
+    )
+
     usual_coefficient: ClassVar[float] = 2.73e5
     """Where a scene names neither coefficient nor restitution: the elastic one times damping, by
     default.
@@ -153,7 +167,7 @@ class GeneralDissipation(Section):
 
     coefficient: float | None = number(
         0.0, 1e12, "N/m^p/(m/s)^q", "B; 2.73e5 by default: with the default exponents 500 N s/m at 498 N",
-        default=None,
+        default=None, live="law",
     )  # fmt: skip
     approach_exponent: float = number(0.0, 4.0, "", "p, power of the approach", default=1.5)
     rate_exponent: float = number(
@@ -181,6 +195,8 @@ class FrictionSection(Section):
     """Friction at a contact that deforms: a spring and damper that sticks, up to the Coulomb
     limit.
     """
+
+    fixed: ClassVar[str] = "while it sticks, its spring holds what was allowed before"
 
     coefficient_static: float = number(0.0, 5.0, "", "static friction; cloth 0.3 to 0.6", above=True, default=0.4)
     coefficient_kinetic: float = number(

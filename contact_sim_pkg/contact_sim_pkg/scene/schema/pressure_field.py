@@ -47,6 +47,8 @@ class GridSection(NamedTuple):
 class PressureFieldSection(Section):
     """Pressure field of a contact on a half-space; it is the contact, its integral is the force."""
 
+    fixed: ClassVar[str] = "the cells of the field carry its state"
+
     levels: ClassVar[tuple[GridSection, ...]]
     """One grid for each of `accuracy.LEVELS`."""
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import reduce
 from operator import or_
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, TypeAlias, TypeVar
 
 from pydantic import Field, PrivateAttr, create_model
 
@@ -39,6 +39,8 @@ Pace: TypeAlias = Annotated[float, Field(ge=0.001, le=1000.0)] | Literal["realti
 
 class _Scene(Section):
     """Keys of every scene up to the excitation, and what a scene answers."""
+
+    fixed: ClassVar[str] = "it is of the whole run"
 
     name: str = text(
         "name of the scene and of its bags; the name of the file by default",

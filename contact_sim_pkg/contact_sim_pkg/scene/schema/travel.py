@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+from typing import Annotated, ClassVar, TypeAlias
 
 from pydantic import Field
 
@@ -17,7 +17,9 @@ class TravelSection(Section):
     two.
     """
 
-    speed: float | None = number(0.0, 100.0, "m/s", "constant speed", default=None)
+    fixed: ClassVar[str] = "the points of a programme hold from the start"
+
+    speed: float | None = number(0.0, 100.0, "m/s", "constant speed", default=None, live="excitation")
     points: list[SpeedPoint] | None = numbers(
         "s, m/s",
         "speed over time, straight between the points, constant after the last",
@@ -32,6 +34,8 @@ class Slip(Section):
     """Slip of the rolling tire over time, for the effect `brush`: constant values, or `points`
     straight between them.
     """
+
+    fixed: ClassVar[str] = "the slip of a run is a programme from its start"
 
     longitudinal: float | None = number(
         -1.0,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from contact_sim_pkg.run.integrator_work import Link
 from contact_sim_pkg.scene.schema.fields import Section, number
 
@@ -10,6 +12,8 @@ __all__ = ["StopKeys"]
 
 class StopKeys(Section):
     """Two stops of one law: stop_force · (depth / stop_depth)^stop_exponent, times 1 + stop_damping · rate, never pulling."""
+
+    fixed: ClassVar[str] = "a stop is built in once"
 
     stop_force: float = number(1.0, 1e6, "N", "of a stop at stop_depth", default=2000.0)
     stop_depth: float = number(1e-3, 0.2, "m", "pressed into a stop under stop_force", default=0.01)

@@ -51,6 +51,7 @@ from contact_sim_pkg.rigs.vehicle.seat.cushion_field import CushionField
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear, TireStep
 from contact_sim_pkg.rigs.vehicle.tire.road_field import RoadField
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.saved_state import carry_state
 
 SHRINK, GROW = 0.25, 2.0  # least and largest ratio of a coupling step to the one before
 AGAIN = 0.7  # largest ratio of a coupling step that is repeated
@@ -137,6 +138,17 @@ class Coupling:
             self.shear.start(found.pressure, origin, found.travel, self.tire.slope_force(load))
         self.seat.begin(self._solve_seat(0))
         bodies.start(first, self._corrections())
+
+    def take_over(self, before: Coupling, drive: BlockDrive, block: int) -> None:
+        """Go on from the bodies, bristles and memory of another coupling at the start of a ``block``, with the fields
+        that this model has there; steps begin as at the start of a run. Raises StateError where they do not fit.
+        """
+        carry_state(before, self, "the vehicle")
+        self.bodies.restore(before.bodies.save())
+        first = drive.part(0, 1)
+        self.tire.begin(self._solve_tire(first, 0, block, is_published=True))
+        self._slope = self.tire.effective_slope()
+        self.seat.begin(self._solve_seat(block))
 
     def energies(self, smooth: float) -> Vector:
         """Energies [J] at the present instant over a ``smooth`` height [m], as `entries.energies`

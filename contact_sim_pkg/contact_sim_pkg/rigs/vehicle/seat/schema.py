@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -48,6 +48,8 @@ class OccupantSection(Section):
     of the model.
     """
 
+    fixed: ClassVar[str] = "an occupant is one model as a whole"
+
     model: ModelName = choice(
         f"occupant of the literature, or {OWN}: masses, stiffness and damping are given", default="wei_griffin_2"
     )
@@ -61,7 +63,12 @@ class OccupantSection(Section):
         0.25, 4.0, "", "factor on the springs, damping ratios kept; erect or tense 1.1 to 1.25", default=1.0
     )
     frame_mass: float | None = number(
-        0.0, 1000.0, "kg", "mass in contact with the cushion, 0: massless; that of the model by default", default=None
+        0.0,
+        1000.0,
+        "kg",
+        "mass in contact with the cushion, 0: massless; that of the model by default",
+        default=None,
+        live="law",
     )
     masses: list[Mass] | None = numbers(
         "kg",
@@ -155,6 +162,8 @@ class Body(Section):
     them (thighs).
     """
 
+    fixed: ClassVar[str] = "the form of a body is that of its cells"
+
     buttock_spacing: float = number(0.02, 0.5, "m", "distance between the two lowest points", default=0.13)
     buttock_radius: float = number(0.02, 0.5, "m", "radius of each sphere", default=0.12)
     thigh_radius: float = number(0.02, 0.5, "m", "radius of each cylinder", default=0.09)
@@ -168,6 +177,8 @@ class Body(Section):
 
 class SeatSection(Section):
     """Occupant on a cushion that stands on the floor."""
+
+    fixed: ClassVar[str] = "the seat is built once"
 
     occupant: OccupantSection = Field(default_factory=OccupantSection, description="masses on the cushion")
     body: Body = Field(default_factory=Body, description="shape of the body; acts in half_space_field")
@@ -213,11 +224,7 @@ class PowerElastic(PowerLaw):
     """
 
     coefficient: float = number(
-        1.0,
-        1e12,
-        "N/m^exponent",
-        "A; by default 50 kN/m under 50.8 kg: 498 N at 14.95 mm",
-        default=2.73e5,
+        1.0, 1e12, "N/m^exponent", "A; by default 50 kN/m under 50.8 kg: 498 N at 14.95 mm", default=2.73e5, live="law"
     )
 
 
@@ -228,7 +235,7 @@ class SeatLoss(HuntCrossley):
 
     usual_damping = 1.0
 
-    damping: float | None = number(0.0, 100.0, "s/m", "λ; 1.0 by default: 500 N s/m at 498 N", default=None)
+    damping: float | None = number(0.0, 100.0, "s/m", "λ; 1.0 by default: 500 N s/m at 498 N", default=None, live="law")
 
 
 class SeatCushion(CushionSection):
@@ -279,6 +286,8 @@ class CushionMap(Section):
     same with and without it.
     """
 
+    fixed: ClassVar[str] = "its cells are those of the run's maps"
+
 
 class HalfSpaceField(PressureFieldSection):
     """Pressure field of the cushion as a half-space; it is the contact, its integral carries the
@@ -297,6 +306,8 @@ class SofteningSection(Section):
     """Links of the occupant that soften with vibration: stiffness by r^(-2 exponent), damping by
     r^(-exponent), r the running rms of the seat's vertical acceleration over 1 m/s².
     """
+
+    fixed: ClassVar[str] = "the links have softened by it so far"
 
     exponent: float = number(
         0.0, 0.5, "", "0.195: apparent-mass peak from 6 Hz at 0.25 to 4 Hz at 2 m/s² rms; 0.11: from 5.4 to 4.2 Hz",

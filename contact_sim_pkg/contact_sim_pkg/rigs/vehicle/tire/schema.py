@@ -33,18 +33,24 @@ TorquePoint: TypeAlias = Annotated[list[float], Field(min_length=3, max_length=3
 class TireSection(Section):
     """Quarter car on a tire. The static load follows from the masses: 3335 N with the defaults."""
 
-    wheel_mass: float = number(0.1, 2000.0, "kg", "wheel, brake and share of the axle; medium car", default=40.0)
+    wheel_mass: float = number(
+        0.1, 2000.0, "kg", "wheel, brake and share of the axle; medium car", default=40.0, live="law"
+    )
     body_mass: float = number(
-        1.0, 20000.0, "kg", "body above the suspension, without the occupant; medium car", default=300.0
+        1.0, 20000.0, "kg", "body above the suspension, without the occupant; medium car", default=300.0, live="law"
     )
     suspension_stiffness: float = number(
-        100.0, 1e7, "N/m", "spring between wheel and body; medium car", default=20000.0
+        100.0, 1e7, "N/m", "spring between wheel and body; medium car", default=20000.0, live="law"
     )
-    suspension_damping: float = number(0.0, 1e6, "N s/m", "damper between wheel and body; medium car", default=1500.0)
+    suspension_damping: float = number(
+        0.0, 1e6, "N s/m", "damper between wheel and body; medium car", default=1500.0, live="law"
+    )
 
 
 class HertzElastic(Section):
     """The tire of the paper: a half-space of rubber with two radii; elliptic Hertz contact."""
+
+    fixed: ClassVar[str] = "form and rubber of a tire are made once"
 
     radius_rolling: float = number(0.02, 3.0, "m", "radius in the plane of the wheel", default=0.30)
     radius_lateral: float = number(0.02, 30.0, "m", "radius of the crown across the tread", default=1.0)
@@ -66,12 +72,14 @@ class Inflation(Section):
     Stiffness and footprint follow from size, inflation and load.
     """
 
+    fixed: ClassVar[str] = "size and structure of a tire are made once"
+
     size: str = text(
         "size on the sidewall: width in mm, height in per cent, rim in inches", default="205/55 R16", pattern=PATTERN
     )
     radius: float | None = number(0.15, 0.8, "m", "free radius; that of the size by default", default=None)
     pressure: float = number(
-        1e5, 4e5, "Pa", "inflation above the air outside; the model is for 120 to 300 kPa", default=220e3
+        1e5, 4e5, "Pa", "inflation above the air outside; the model is for 120 to 300 kPa", default=220e3, live="law"
     )
     sidewall_angle: float = number(
         0.6, 1.57, "rad", "half angle of the inflated sidewall's arc; 0.79 to 0.94 of car tires (fitted)", default=0.863
@@ -111,7 +119,7 @@ class TireLoss(HuntCrossley):
     usual_damping = 0.015
 
     damping: float | None = number(
-        0.0, 100.0, "s/m", "λ; 0.015 by default: 50 N s/m at 3335 N, ζ about 1 %", default=None
+        0.0, 100.0, "s/m", "λ; 0.015 by default: 50 N s/m at 3335 N, ζ about 1 %", default=None, live="law"
     )
 
 
@@ -144,16 +152,18 @@ class TireField(PressureFieldSection):
 class RigidRingSection(Section):
     """Sidewalls and a rigid belt ring: spring and damper in series with the tread's contact."""
 
+    fixed: ClassVar[str] = "the belt is part of the wheel from the start"
+
     stiffness: float | None = number(
         1e3, 1e9, "N/m", "stiffness of the sidewalls; that of the inflation by default, 3.1e5 with normal_elastic",
-        default=None,
-    )  # fmt: skip
+        default=None, live="law")  # fmt: skip
     damping: float | None = number(
         0.0,
         1e6,
         "N s/m",
         "damping of the sidewalls; 4.5 % of critical by default, 300 with normal_elastic",
         default=None,
+        live="law",
     )
     belt_mass: float = number(0.1, 1000.0, "kg", "belt and tread, a part of tire.wheel_mass", default=7.0)
 
@@ -172,6 +182,8 @@ class Envelopment(Section):
     bends over obstacles.
     """
 
+    fixed: ClassVar[str] = "the belt's influence on the cells is made once"
+
     tension: float = number(
         1.0, 1e6, "N", "tension of the belt over its width; 220 kPa on 0.3 m by 0.15 m give 9900 N", default=9900.0
     )
@@ -182,6 +194,8 @@ class Envelopment(Section):
 
 class _Rubber(Section):
     """Memory of the tread rubber, and of that in belt and sidewalls of an inflated tire."""
+
+    fixed: ClassVar[str] = "the rubber's memory is kept branch by branch"
 
     retardation_time: float = number(
         0.0, 10.0, "s", "viscosity over the long-time modulus (Kelvin-Voigt); 0: none", default=0.0
@@ -223,18 +237,37 @@ class BrushSection(Section):
     aligning moment.
     """
 
+    fixed: ClassVar[str] = "the bristles hold their deflection by it"
+
     stiffness_x: float = number(
         1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (fitted)", default=9.6e7
     )
     stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; less work where equal", default=9.6e7)
     coefficient_static: float = number(
-        0.0, 5.0, "", "static friction; the peak of a dry road, 0.9 to 1.1, lies below it", above=True, default=1.15
+        0.0,
+        5.0,
+        "",
+        "static friction; the peak of a dry road, 0.9 to 1.1, lies below it",
+        above=True,
+        default=1.15,
+        live="law",
     )
     coefficient_kinetic: float = number(
-        0.0, 5.0, "", "sliding fast, at most coefficient_static; dry asphalt 0.7 to 0.8", above=True, default=0.8
+        0.0,
+        5.0,
+        "",
+        "sliding fast, at most coefficient_static; dry asphalt 0.7 to 0.8",
+        above=True,
+        default=0.8,
+        live="law",
     )
     sliding_speed: float = number(
-        0.0, 1e3, "m/s", "of the fall from static to kinetic, exp(-v / sliding_speed); 0: at once", default=4.0
+        0.0,
+        1e3,
+        "m/s",
+        "of the fall from static to kinetic, exp(-v / sliding_speed); 0: at once",
+        default=4.0,
+        live="law",
     )
     nominal_load: float = number(
         1.0, 1e6, "N", "load at which the coefficients hold; heavier loaded tires have less friction", default=4000.0
@@ -255,6 +288,8 @@ class SidewallComplianceSection(Section):
     """Belt that yields on the sidewalls along, across, in rotation and in yaw: relaxation of the slip
     forces, force over a cleat with its modes at 33 and 80 Hz.
     """
+
+    fixed: ClassVar[str] = "the belt holds its deflection by it, and tire/work books its energy part by part"
 
     longitudinal: float | None = number(
         1e3, 1e9, "N/m", "belt against rim along the road; that of rigid_ring by default", default=None
@@ -293,9 +328,15 @@ class WheelSpinSection(Section):
     as `points` straight between them.
     """
 
+    fixed: ClassVar[str] = "the energy of the rotation is booked with it in tire/work"
+
     inertia: float = number(1e-3, 1e4, "kg m^2", "rim, hub and what turns with them; 0.4 to 0.9", default=0.5)
-    drive: float | None = number(-1e5, 1e5, "N m", "moment that drives the rim forward; 0 if absent", default=None)
-    brake: float | None = number(0.0, 1e5, "N m", "moment against its rotation; 0 if absent", default=None)
+    drive: float | None = number(
+        -1e5, 1e5, "N m", "moment that drives the rim forward; 0 if absent", default=None, live="excitation"
+    )
+    brake: float | None = number(
+        0.0, 1e5, "N m", "moment against its rotation; 0 if absent", default=None, live="excitation"
+    )
     points: list[TorquePoint] | None = numbers(
         "s, N m, N m",
         "drive and brake over time, constant after the last point",
@@ -310,6 +351,8 @@ class AsperityImpulsesSection(Section):
     """Push of the road's asperities on the rolling tire, site by site; they act while the tire is
     in contact.
     """
+
+    fixed: ClassVar[str] = "the asperities under the tire were given their push by it"
 
     spacing: float = number(1e-4, 10.0, "m", "distance of two asperities along the road", default=0.02)
     share: float = number(
