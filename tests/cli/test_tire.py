@@ -77,7 +77,7 @@ def test_a_tire_that_cannot_be_met_ends_with_1_and_the_three_figures(tmp_path, c
     said = capsys.readouterr()
     assert "effects:" not in said.out
     sentence = said.err.splitlines()[-1]
-    assert "no scene, as the nearest tire is not within 10 % of the file" in sentence
+    assert "no scene, as the nearest tire is not within 6 % of the file" in sentence
     for figure in ("radius 0.316 m, fitted 0.31", "stiffness 1e+06 N/m, fitted ", "deflection 0.004 m, fitted "):
         assert figure in sentence
     assert sentence.count("(ratio ") == 3

@@ -21,12 +21,14 @@ from contact_sim_pkg.rigs.roller.ride import TrackRide
 from contact_sim_pkg.rigs.vehicle.run.bodies import Bodies
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import RollingShear
 from contact_sim_pkg.rigs.vehicle.tire.road_field import RoadField
+from contact_sim_pkg.rigs.vehicle.tire.rolling_formula import RollingFormula
 from contact_sim_pkg.run.observers import _Observed
 from contact_sim_pkg.run.saved_state import MAGIC, StateError
 
 ROOT = Path(__file__).parents[2]
 SCENES = [
-    ("tire_bump", 8), ("tire_braking", 6), ("tire_texture", 4), ("seat_ride", 30), ("seat_drop", 12), ("seat_ride_full", 10),
+    ("tire_bump", 8), ("tire_braking", 6), ("tire_magic_formula", 20),
+    ("tire_texture", 4), ("seat_ride", 30), ("seat_drop", 12), ("seat_ride_full", 10),
     ("seat_slap", 30), ("block_fall", 25), ("block_zeno", 20), ("box_3d_tumble", 20), ("impact_rubber_drop", 12),
     ("roller_flutter", 12), ("roller_corrugation", 8),
 ]  # fmt: skip
@@ -152,6 +154,7 @@ FORGOTTEN = [
     ("seat_ride", 30, Bodies, "state"),
     ("tire_cleat", 80, RoadField, "_solved"),
     ("tire_braking", 6, RollingShear, "_bristles"),
+    ("tire_magic_formula", 20, RollingFormula, "_slip"),
 ]
 
 

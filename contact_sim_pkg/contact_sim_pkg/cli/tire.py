@@ -52,7 +52,7 @@ def file_command(file: Path, size: str | None, radius: float | None, as_json: bo
 
     Shows the keys that are read, in SI units, and what becomes of them; the fitted tire beside the
     file over its loads and inflations; and a part of a scene, ready for its `effects`, where radius, stiffness and deflection of
-    the fitted tire are within 10 % of the file's. Ends with 1 where they are not.
+    the fitted tire are within 6 % of the file's. Ends with 1 where they are not.
     """
     from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import read_property_file
     from contact_sim_pkg.rigs.vehicle.tire.property_file.scene_keys import measured_tire, scene_tire

@@ -4,10 +4,12 @@ content.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import ClassVar, NamedTuple, Protocol
+from typing import ClassVar, NamedTuple, Protocol, cast
 
 from contact_sim_pkg.excitation.kinds import Kind
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.schema.foam_curve import curves_of
 from contact_sim_pkg.scene.schema.places import candidates, find_file
 from contact_sim_pkg.scene.schema.scene import Scene
@@ -44,8 +46,16 @@ def excitations(scene: Scene) -> dict[str, Kind]:
     return {name: kind for name, kind in (("road", scene.road), ("vibration", scene.vibration)) if kind is not None}
 
 
+def _effects(scene: Scene) -> Iterator[tuple[str, FileReader]]:
+    """Dotted path and section of each effect that has a file of its own."""
+    for contact in rigs()[scene.rig].contacts:
+        for name, effect in scene.effects_at(contact):
+            if hasattr(effect, "input_file"):
+                yield f"effects.{contact.name}.{name}", cast(FileReader, effect)
+
+
 def input_files(scene: Scene) -> list[InputFile]:
     """The files that a scene names."""
-    readers: list[tuple[str, FileReader]] = [*excitations(scene).items(), *curves_of(scene)]
+    readers: list[tuple[str, FileReader]] = [*excitations(scene).items(), *curves_of(scene), *_effects(scene)]
     found = ((f"{where}.file", reader.input_file(), reader) for where, reader in readers)
     return [InputFile(where, *file, reader) for where, file, reader in found if file is not None]

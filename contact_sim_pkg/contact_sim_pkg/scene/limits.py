@@ -13,7 +13,6 @@ from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.files import InputFile, candidates, excitations, find_file, input_files
 from contact_sim_pkg.scene.resolved_scene import sha256_of
-from contact_sim_pkg.scene.schema.foam_curve import FoamCurveSection
 from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 from contact_sim_pkg.scene.schema.scene import Scene
 
@@ -63,8 +62,9 @@ def file_breaches(scene: Scene) -> Iterator[Breach]:
     """
     for file in input_files(scene):
         sentence = _file_fault(file, Path(scene.file).parent)
-        if not sentence and isinstance(file.reader, FoamCurveSection):  # a part of the scene, so it is read with it
-            sentence = file.reader.file_fault(scene)
+        content = getattr(file.reader, "file_fault", None)
+        if not sentence and content is not None:  # a part of the scene, so it is read with it
+            sentence = content(scene)
         if sentence:
             yield Breach(file.where, sentence)
 

@@ -18,11 +18,13 @@ TIED_TO_FILE = {"road": ("start", "sha256", "header_line"), "vibration": ("start
 """Keys that say something about one file and go when another file takes its place."""
 FILE = "file"
 """Key of an input file, in whatever section."""
-CURVE, READ_FROM_FILE = (
-    "curve",
-    {"file": ("points", "sha256"), **dict.fromkeys(("area", "thickness", "header_line"), ("points",))},
-)
-"""Section of a measured foam, and what of it was read from its file: another one is read anew."""
+READ_FROM_FILE: dict[str, dict[str, tuple[str, ...]]] = {
+    "curve": {"file": ("points", "sha256"), **dict.fromkeys(("area", "thickness", "header_line"), ("points",))},
+    "magic_formula": {"file": ("coefficients", "version", "unused", "sha256")},
+}
+"""Sections of a measured foam and of a tire property file, and what of them was read from the file: another one is read
+anew.
+"""
 REMOVED = "null"
 """Value of `--set` that takes a key out of the scene, an effect for instance."""
 
@@ -119,8 +121,9 @@ def apply(root: MappingNode, overrides: Iterable[Override]) -> list[Fault]:
             sentence = _put(root, override.path, override.node, mark)
         if sentence:
             faults.append(mark.fault(".".join(override.path), sentence))
-        elif override.path[-2:-1] == (CURVE,):
-            _drop(root, override.path[:-1], READ_FROM_FILE.get(override.path[-1], ()))
+        elif len(override.path) > 1:
+            read = READ_FROM_FILE.get(override.path[-2], {})
+            _drop(root, override.path[:-1], read.get(override.path[-1], ()))
     return faults
 
 

@@ -7,6 +7,9 @@ import pytest
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.records.registry import contacts, effects
 
+KEYS = {"magic_formula": {"file": "data/car_205_55R16.tir"}}
+"""Of effects that have no defaults."""
+
 
 def allowed(contact, named):
     """Whether effects may stand together: one carries the load, each has what it needs, none excludes another."""
@@ -30,7 +33,9 @@ def test_pairs_and_triples_of_effects_are_allowed_or_refused_as_their_records_sa
     others = set(effects()) - set(names)
     chosen += [{contact.carriers[0], other} for other in sorted(others)]
     for named in {frozenset(each) for each in chosen}:
-        faults = maker.faults(contact.name, {f"effects.{contact.name}": {name: {} for name in sorted(named)}})
+        faults = maker.faults(
+            contact.name, {f"effects.{contact.name}": {name: KEYS.get(name, {}) for name in sorted(named)}}
+        )
         assert (faults == []) == allowed(contact, named), sorted(named)
 
 

@@ -43,6 +43,7 @@ from contact_sim_pkg.rigs.vehicle.tire.edges import SharpEdge, landing_of, refus
 from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load
 from contact_sim_pkg.rigs.vehicle.tire.model import (
     Asperities,
+    FormulaParts,
     RollingFriction,
     TireGeometry,
     TireParts,
@@ -90,6 +91,7 @@ class Model:
     tire_field: FieldGrids | None
     tread: Tread | None
     rolling_friction: RollingFriction | None
+    magic_formula: FormulaParts | None
     rolling_loss: RollingLoss | None
     asperities: Asperities | None
     tire_standing: TireAtRest | None
@@ -174,6 +176,7 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
         tire_field=tire_field,
         tread=None if tire is None else tire.tread,
         rolling_friction=None if tire is None else tire.rolling_friction,
+        magic_formula=None if tire is None else tire.magic_formula,
         rolling_loss=None if tire is None else tire.rolling_loss,
         asperities=None if tire is None else tire.asperities,
         tire_standing=None if tire is None else tire.standing,

@@ -27,6 +27,7 @@ from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.motion import columns
 from contact_sim_pkg.rigs.vehicle.motion.spring import spring_force
 from contact_sim_pkg.rigs.vehicle.tire.brush.rolling_shear import Sheared, Works
+from contact_sim_pkg.rigs.vehicle.tire.rolling_formula import Followed
 from contact_sim_pkg.rigs.vehicle.tire.standing import TireAtRest
 from contact_sim_pkg.run.contact_patch import contact_patch
 from contact_sim_pkg.run.outputs import BlockStamps, Estimate, contact_outputs, energy_ledger, largest_of, solver_cost
@@ -56,6 +57,7 @@ class BlockRecord:
     shears: list[tuple[int, FieldRecord, Sheared]] = field(
         default_factory=list
     )  # sample, field of the tire, shear under it
+    followed: list[tuple[int, Followed]] = field(default_factory=list)  # sample, the Magic Formula there
     works: Works | None = None  # of a belt on its sidewalls, at the block's start
     standing: TireAtRest | None = None  # in the first block of a run
     seat_maps: list[tuple[int, Array]] = field(default_factory=list)  # sample, pressure [Pa] of the seat's map
@@ -122,6 +124,7 @@ def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[O
         outputs += contact_outputs("tire", stamps, force, patches, lateral=shear[:, 1:])
         outputs.append(Output("tire/axle", stamps.start, _axle_force(model, stamps, record)))
         outputs += _shears(stamps, model.tire_field, record)
+        outputs += _shears_of_formula(stamps, record)
         if record.works is not None:
             outputs.append(Output("tire/work", stamps.start, TireWork(block=record.block, **record.works._asdict())))
         if record.standing is not None:
@@ -177,7 +180,7 @@ def _axle_force(model: Model, stamps: BlockStamps, record: BlockRecord) -> AxleF
     if sidewalls is not None:
         vertical = spring_force(sidewalls, record.states.T)
     on_axle = {"longitudinal": -forces[:, columns.TIRE_SLOPE] * forces[:, columns.TIRE_NORMAL]}
-    if model.rolling_friction is not None:
+    if model.rolling_friction is not None or model.magic_formula is not None:
         names = ("longitudinal", "lateral", "moment_y", "moment_z", "spin")
         on_axle = dict(zip(names, forces[:, columns.TIRE_SHEAR + 3 :].T, strict=True))
     return AxleForce(block=record.block, sample_period=stamps.period, vertical=vertical, **on_axle)
@@ -213,6 +216,18 @@ def _shears(stamps: BlockStamps, grids: FieldGrids | None, record: BlockRecord) 
             slip=rolled.slip, slip_angle=rolled.slip_angle, force_x=result.force_x, force_y=result.force_y,
             moment_z=result.moment_z, sliding_share=result.sliding_share, dissipated=result.dissipated + result.released,
             shear_x=rolled.shear_x.astype(numpy.float32), shear_y=rolled.shear_y.astype(numpy.float32), state=rolled.state,
+        )  # fmt: skip
+        yield Output("tire/shear", stamps.at(sample), shear)
+
+
+def _shears_of_formula(stamps: BlockStamps, record: BlockRecord) -> Iterator[Output]:
+    """The forces of the Magic Formula, which knows no cells."""
+    none, state = numpy.zeros((0, 0), dtype=numpy.float32), numpy.zeros((0, 0), dtype=numpy.uint8)
+    for sample, found in record.followed:
+        shear = ContactShear(
+            block=stamps.block, cell_x=0.0, cell_y=0.0, origin_x=0.0, origin_y=0.0, slip=found.slip,
+            slip_angle=found.slip_angle, force_x=found.force_x, force_y=found.force_y, moment_z=found.moment_z,
+            sliding_share=0.0, dissipated=found.dissipated, shear_x=none, shear_y=none, state=state,
         )  # fmt: skip
         yield Output("tire/shear", stamps.at(sample), shear)
 

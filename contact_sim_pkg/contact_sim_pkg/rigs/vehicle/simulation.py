@@ -5,7 +5,7 @@ the simulator node.
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy
 
@@ -25,9 +25,12 @@ from contact_sim_pkg.rigs.vehicle.seat.biodynamics import ringing_cautions
 from contact_sim_pkg.rigs.vehicle.seat.response import RunningResponse
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
 from contact_sim_pkg.rigs.vehicle.tire.edges import edge_cautions
+from contact_sim_pkg.rigs.vehicle.tire.magic_formula.section import MagicFormulaSection
+from contact_sim_pkg.rigs.vehicle.tire.rolling_formula import Followed, RollingFormula, formula_cautions
 from contact_sim_pkg.rigs.vehicle.tire.static_stiffness import stiffness_cautions
 from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
 from contact_sim_pkg.run.outputs import BlockStamps, largest, open_energy
+from contact_sim_pkg.run.saved_state import carry_state
 from contact_sim_pkg.run.sources import make_travel
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -37,7 +40,7 @@ class Simulation:
     from 0.
     """
 
-    STATE = State(("_first_block", "_next_block", "_start_energy", "_coupling"), ("_response",))
+    STATE = State(("_first_block", "_next_block", "_start_energy", "_coupling", "_formula"), ("_response",))
 
     def __init__(self, scene: ResolvedScene, model: Model | None = None) -> None:
         """Build the parameters of a resolved scene, unless its ``model`` is given."""
@@ -50,6 +53,7 @@ class Simulation:
         self.inputs = tuple(inputs)
         self._travel = make_travel(scene) if self.model.tire_geometry is not None else None
         self._coupling = Coupling(self.model)
+        self._formula = None if self.model.magic_formula is None else RollingFormula(self.model.magic_formula)
         self.cautions = self._cautions()
         self._begin()
 
@@ -62,15 +66,26 @@ class Simulation:
         standing = self.model.tire_standing
         return (
             *ringing,
+            *self._formula_cautions(),
             *(() if standing is None else stiffness_cautions(standing.stiffness, standing.load)),
             *edge_cautions(self.scene, None if grids is None else grids.usual.settings),
             *request_cautions(self.scene, self.model.coupling, grids),
         )
 
+    def _formula_cautions(self) -> Iterator[str]:
+        """See `formula_cautions`."""
+        parts, keys, standing = (
+            self.model.magic_formula, self.scene.effect("tire", MagicFormulaSection), self.model.tire_standing
+        )  # fmt: skip
+        if parts is not None and keys is not None and standing is not None:
+            yield from formula_cautions(parts, standing.load, keys.unused or "")
+
     def reset(self) -> None:
         """Before the first block."""
         self._begin()
         self._coupling.reset()
+        if self._formula is not None:
+            self._formula.reset()
 
     def _begin(self) -> None:
         self._first_block = self._next_block = 0
@@ -109,6 +124,8 @@ class Simulation:
         drive = block_drive(self.model, self._travel, block, road, vibration)
         self._coupling.take_over(before._coupling, drive, block)
         self._coupling.bodies.supply(then - open_energy(self._coupling.energies(float(drive.smooth[0]))))
+        if self._formula is not None and before._formula is not None:
+            carry_state(before._formula, self._formula, "the Magic Formula")
         self._start_energy, self._response = before._start_energy, before._response
 
     def begin_at(self, block: int) -> None:
@@ -186,6 +203,9 @@ class Simulation:
         if interval == 0 and shear is not None and shear.has_belt:
             record.works = shear.works()
         self._coupling.advance(block, interval, whole, record)
+        followed = self._follow(block * self.model.timing.intervals + interval, drive)
+        if followed is not None:
+            energy = energy + followed.entries
         accelerations = drive.acceleration_x, drive.acceleration_z
         first = record.store_samples(
             interval, self._coupling.bodies.sampled, energy, self._start_energy, *accelerations
@@ -193,6 +213,24 @@ class Simulation:
         self._publish(first, fields, record)
         if rolled is not None:
             record.shears.append((first, record.tire_fields[-1][1], rolled))
+        if followed is not None:
+            record.followed.append((first, followed))
+
+    def _follow(self, interval: int, drive: BlockDrive) -> Followed | None:
+        """The Magic Formula over the samples of an interval, counted from the start of the run; None where it does not
+        act.
+        """
+        if self._formula is None:
+            return None
+        timing, forces = self.model.timing, self._coupling.bodies.sampled[2]
+        every, segment = timing.sample_every, timing.segment_length
+        first = float(interval * timing.segments)
+        times = (first + every * numpy.arange(len(forces), dtype=numpy.float64)) * segment
+        speed = numpy.diff(drive.travel)[::every] / segment
+        return self._formula.follow(
+            times, drive.travel[:-1:every], speed, forces[:, columns.TIRE_NORMAL], forces[:, columns.TIRE_APPROACH],
+            forces[:, columns.TIRE_SLOPE], forces[:, columns.TIRE_SHEAR :],
+        )  # fmt: skip
 
     def _publish(self, sample: int, fields: tuple[FieldRecord | None, FieldRecord | None], record: BlockRecord) -> None:
         """Take the elastic fields of an instant with the loss of their contacts."""

@@ -4,10 +4,12 @@ their records.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from itertools import combinations
 
 from contact_sim_pkg.records.contact import Contact
+from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.registry import contacts, effects, rigs
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.scene import Scene
@@ -44,13 +46,33 @@ def _between(where: str, contact: Contact, named: list[str]) -> Iterator[Breach]
                 f"{effect.name} needs {needed}, which the scene does not name; add it or remove {effect.name}",
                 tuple(f"{where}.{each}" for each in contact.enough(needed)),
             )
-    for one, other in combinations(records, 2):
-        if other.name in one.excludes or one.name in other.excludes:
+    yield from _excluding(where, records)
+
+
+def _excluding(where: str, records: list[Effect]) -> Iterator[Breach]:
+    """Effects that exclude each other: one sentence for all that one of them stands in place of."""
+    pairs = [
+        (one.name, other.name)
+        for one, other in combinations(records, 2)
+        if other.name in one.excludes or one.name in other.excludes
+    ]
+    often, replaced = Counter(name for pair in pairs for name in pair), dict[str, list[str]]()
+    for one, other in pairs:
+        first, second = (other, one) if often[other] > often[one] else (one, other)
+        replaced.setdefault(first, []).append(second)
+    for name, others in replaced.items():
+        if len(others) == 1:
             yield Breach(
-                f"{where}.{other.name}",
-                f"{one.name} and {other.name} exclude each other; remove one of them",
-                (f"{where}.{one.name}",),
+                f"{where}.{others[0]}",
+                f"{name} and {others[0]} exclude each other; remove one of them",
+                (f"{where}.{name}",),
             )
+        else:
+            named = f"{', '.join(others[:-1])} and {others[-1]}"
+            yield Breach(
+                f"{where}.{name}", f"{name} stands in place of {named}; remove it or these",
+                tuple(f"{where}.{each}" for each in others),
+            )  # fmt: skip
 
 
 def unavailable_effect(path: tuple[str | int, ...]) -> str:

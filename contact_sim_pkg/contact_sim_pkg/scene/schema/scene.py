@@ -77,7 +77,9 @@ class _Scene(Section):
         default=None,
         example={"kind": "flat"},
     )
-    slip: Slip | None = choice("slip programme of the tire, for the effect brush (rigs tire and car)", default=None)
+    slip: Slip | None = choice(
+        "slip programme of the tire, for the effects brush and magic_formula (rigs tire and car)", default=None
+    )
     vibration: Vibration | None = choice(
         "acceleration of the floor (rig seat), of the seat back (backrest), or added to the floor of the car (car)",
         default=None,

@@ -31,7 +31,7 @@ class TravelSection(Section):
 
 
 class Slip(Section):
-    """Slip of the rolling tire over time, for the effect `brush`: constant values, or `points`
+    """Slip of the rolling tire over time, for the effects `brush` and `magic_formula`: constant values, or `points`
     straight between them.
     """
 

@@ -63,6 +63,8 @@ def _short(scene: ResolvedScene, limit: float, lengths: str) -> str:
 
 
 def _brush(scene: ResolvedScene) -> str:
+    if scene.data["effects"]["tire"].get("magic_formula") is not None:
+        return ""
     if scene.data["effects"]["tire"].get("wheel_spin") is not None:
         return "the bristles hold a wheel that spins"
     slip = scene.slip
@@ -123,6 +125,13 @@ TIRE_EFFECTS = (
     Effect(
         name="wheel_spin", section=f"{_SCHEMA}:WheelSpinSection", help="rotation of the wheel under drive and brake",
         source="Pacejka, Tire and Vehicle Dynamics, 9", needs=("sidewall_compliance",), feeds=("shear", "force", "wrench"),
+    ),
+    Effect(
+        name="magic_formula", section=f"{__package__}.magic_formula.section:MagicFormulaSection",
+        help="forces of a tire property file by the Magic Formula, with relaxation",
+        source="Pacejka, Tire and Vehicle Dynamics, 4.3", needs=("normal_elastic",),
+        excludes=("brush", "sidewall_compliance", "wheel_spin", "rigid_ring", "tread_viscoelasticity", "rolling_loss"),
+        publishes="shear", feeds=("shear", "force", "wrench"), inputs=("slip",),
     ),
     Effect(
         name="asperity_impulses", section=f"{_SCHEMA}:AsperityImpulsesSection", help="impulses of road asperities",

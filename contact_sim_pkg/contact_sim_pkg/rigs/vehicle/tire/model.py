@@ -27,6 +27,8 @@ from contact_sim_pkg.rigs.vehicle.tire.body import TireBody, TireForm, body_of
 from contact_sim_pkg.rigs.vehicle.tire.footprint import hertz_weights
 from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load, tire_lattice
+from contact_sim_pkg.rigs.vehicle.tire.magic_formula.coefficients import MagicFormula
+from contact_sim_pkg.rigs.vehicle.tire.magic_formula.section import MagicFormulaSection
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, LoadFriction, Sidewalls, TreadViscoelasticity, WheelSpin
 from contact_sim_pkg.rigs.vehicle.tire.quarter_car import QuarterCar, quarter_car
 from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss, rolling_loss
@@ -125,6 +127,16 @@ class RollingFriction:
 
 
 @dataclass(frozen=True)
+class FormulaParts:
+    """Magic Formula of the tire, where it acts, and what turns and steers the wheel."""
+
+    formula: MagicFormula
+    inflation: float  # [Pa]
+    unloaded: float  # [m] radius
+    slips: Programme  # longitudinal slip and slip angle [rad]
+
+
+@dataclass(frozen=True)
 class TireParts:
     """The tire of a rig, its contact and the effects in it."""
 
@@ -134,6 +146,7 @@ class TireParts:
     field: FieldGrids | None
     tread: Tread | None
     rolling_friction: RollingFriction | None
+    magic_formula: FormulaParts | None
     rolling_loss: RollingLoss | None
     asperities: Asperities | None
     standing: TireAtRest | None  # under its standing load; None where no static solution carries that
@@ -164,6 +177,7 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None, solver: t
         field=field,
         tread=tread,
         rolling_friction=_rolling_friction(scene, deflection, body.form.radius_rolling, geometry),
+        magic_formula=_magic_formula(scene, body.form.radius_rolling),
         rolling_loss=_rolling_loss(scene, body),
         asperities=asperities,
         standing=_standing(scene, body, table, sidewalls, load, solver),
@@ -246,10 +260,9 @@ def _rolling_friction(
     scene: ResolvedScene, deflection: float, unloaded: float, geometry: TireGeometry
 ) -> RollingFriction | None:
     """``deflection`` [m] at the axle of the standing load; ``unloaded`` radius [m]."""
-    law, slip = scene.effect("tire", schema.BrushSection), scene.slip
+    law = scene.effect("tire", schema.BrushSection)
     if law is None:
         return None
-    slips = [[0.0, 0.0, 0.0]] if slip is None else slip.points or [[0.0, slip.longitudinal or 0.0, slip.angle or 0.0]]
     spin = scene.effect("tire", schema.WheelSpinSection)
     torques = [[0.0, 0.0, 0.0]] if spin is None else spin.points or [[0.0, spin.drive or 0.0, spin.brake or 0.0]]
     brush = Brush(
@@ -265,9 +278,27 @@ def _rolling_friction(
     by_load = None
     if law.load_exponent > 0.0 or law.load_exponent_across > 0.0:
         by_load = LoadFriction(law.nominal_load, law.load_exponent, law.load_exponent_across)
-    return RollingFriction(
-        brush, by_load, unloaded, deflection, Programme.of(slips), sidewalls, Programme.of(torques), step
-    )
+    return RollingFriction(brush, by_load, unloaded, deflection, _slips(scene), sidewalls, Programme.of(torques), step)
+
+
+def _slips(scene: ResolvedScene) -> Programme:
+    """Longitudinal slip and slip angle [rad] over time; 0 where the scene gives none."""
+    slip = scene.slip
+    if slip is None:
+        return Programme.of([[0.0, 0.0, 0.0]])
+    return Programme.of(slip.points or [[0.0, slip.longitudinal or 0.0, slip.angle or 0.0]])
+
+
+def _magic_formula(scene: ResolvedScene, unloaded: float) -> FormulaParts | None:
+    """``unloaded`` [m] radius. The inflation is that of the scene's tire, of a half-space that of the file."""
+    keys, tire = scene.effect("tire", MagicFormulaSection), scene.effect("tire", schema.Inflation)
+    if keys is None:
+        return None
+    formula = keys.formula()
+    inflation = formula.inflation if tire is None else tire.pressure
+    if not formula.inflation:  # the coefficients count at every one
+        inflation = formula.keys["NOMPRES"]
+    return FormulaParts(formula, inflation, unloaded, _slips(scene))
 
 
 def fastest(sidewalls: Sidewalls, brush: Brush, radius: float, area: float) -> float:

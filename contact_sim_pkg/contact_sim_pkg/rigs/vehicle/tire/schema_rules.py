@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from itertools import pairwise
 
+from contact_sim_pkg.rigs.vehicle.tire.magic_formula.section import MagicFormulaSection
 from contact_sim_pkg.rigs.vehicle.tire.schema import (
     BrushSection,
     Inflation,
@@ -33,8 +34,9 @@ def slip_breaches(scene: Scene) -> Iterator[Breach]:
     slip = scene.slip
     if slip is None:
         return
-    if scene.effect("tire", BrushSection) is None:
-        yield Breach("slip", "acts through the effect brush, which the scene does not name; add effects.tire.brush: {}")
+    if scene.effect("tire", BrushSection) is None and scene.effect("tire", MagicFormulaSection) is None:
+        sentence = "acts through the effect brush or magic_formula, neither of which the scene names; add effects.tire.brush: {}"
+        yield Breach("slip", sentence)
     spins = scene.effect("tire", WheelSpinSection) is not None
     turned = slip.longitudinal is not None or any(point[1] != 0.0 for point in slip.points or ())
     if spins and turned:

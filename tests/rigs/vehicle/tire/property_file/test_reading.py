@@ -252,7 +252,7 @@ def test_a_broken_file_is_read_or_refused_in_one_sentence(tmp_path, monkeypatch)
     """Up to the keys of the scene; the fit alone, which costs a second, is left out."""
     monkeypatch.setattr(scene_keys, "fitted", lambda inflation, aim, ring: inflation)
     standing = Target(220e3, 4000.0, 2e5, 0.02, 0.13, 0.14), Lines(1e-3, 2e-5, 0.0166)
-    monkeypatch.setattr(scene_keys, "found_at", lambda inflation, targets: [standing] * len(targets))
+    monkeypatch.setattr(scene_keys, "found_where", lambda inflation, targets: [standing] * len(targets))
     refused = 0
     for seed in range(600):
         file = write(tmp_path, broken(random.Random(seed)))

@@ -5,13 +5,21 @@ out, and which keys of the file nothing uses.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Literal, NamedTuple
 
 from contact_sim_pkg.rigs.vehicle.tire.property_file.errors import PropertyFileError
 from contact_sim_pkg.rigs.vehicle.tire.property_file.keys import IP_FIRST, KEYS, NOMINAL, OPERATING, UNITS
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
 
-__all__ = ["COEFFICIENTS", "MagicFormula", "has_formula", "magic_formula"]
+__all__ = [
+    "COEFFICIENTS", "EARLIER", "KNOWN", "LATER", "NEEDED", "MagicFormula", "Version", "formula_of", "has_formula",
+    "magic_formula", "stated_coefficients",
+]  # fmt: skip
+
+Version = Literal["6.1 and later", "5.2 and PAC2002"]
+LATER: Version = "6.1 and later"
+EARLIER: Version = "5.2 and PAC2002"
 
 NEEDED = ("FNOMIN", "UNLOADED_RADIUS", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1", "PKY2")
 SCALING = "LFZO LCX LMUX LEX LKX LHX LVX LCY LMUY LEY LKY LHY LVY LTR LRES LXAL LYKA LVYKA LS LKYC LKZC LVMX LMX LMY LSGKP LSGAL"
@@ -35,6 +43,16 @@ COEFFICIENTS: dict[str, float] = {
 STANDING = ("WIDTH", "VERTICAL_STIFFNESS", "LCZ", "Q_FZ1", "Q_FZ2", "PFZ1", "Q_RA1", "Q_RA2", "Q_RB1", "Q_RB2")
 """Of the vertical law and the contact, `property_file/magic_formula.py`."""
 FIRST_WITH_INFLATION = 60  # FITTYP
+CARCASS = ("LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS")
+"""[N/m] of the carcass along and across, for the relaxation."""
+RANGES = {
+    "FZMIN": "FORCE", "FZMAX": "FORCE", "KPUMIN": "", "KPUMAX": "", "ALPMIN": "ANGLE", "ALPMAX": "ANGLE",
+    "PRESMIN": "PRESSURE", "PRESMAX": "PRESSURE",
+}  # fmt: skip
+"""Ends of what was measured, and the quantity of their unit: load, slip, slip angle, inflation."""
+KNOWN = frozenset((*COEFFICIENTS, "INFLPRES", "NOMPRES", *CARCASS, *RANGES))
+"""Names that the coefficients of a scene may have."""
+LEAST_PASCAL = 1e4  # a pressure without a unit from there on is in Pa
 NOT_MODELLED = {"LMUV": 0.0, "LGAX": 1.0, "LGAY": 1.0, "LGAZ": 1.0}
 """Scalings of what is not here (camber of 5.2, friction over slip speed), with the value that has no effect."""
 
@@ -44,12 +62,13 @@ class MagicFormula(NamedTuple):
 
     file: str
     keys: dict[str, float]  # `COEFFICIENTS` and those below, in SI
-    version: str  # `6.1 and later` or `5.2 and PAC2002`
+    version: Version
     used: tuple[str, ...]  # keys of the file
     ignored: tuple[str, ...]  # its other keys, named
     inflation: float  # [Pa] of the file
     stiffness: tuple[float, float] | None  # [N/m] along and across of the carcass, for the relaxation; None: PTX, PTY
     notes: tuple[str, ...]
+    ranges: dict[str, float]  # `RANGES` that the file states, in SI
 
 
 def has_formula(tire: PropertyFile) -> bool:
@@ -62,35 +81,53 @@ def magic_formula(tire: PropertyFile) -> MagicFormula:
 
     Raises PropertyFileError where a needed one is missing, or a nominal value is not positive.
     """
-    missing = [key for key in NEEDED if _number(tire, key) is None]
+    stated = stated_coefficients(tire)
+    formula = formula_of(stated, LATER if _is_later(tire) else EARLIER, tire.file)
+    words = (*OPERATING, *NOMINAL, "FITTYP")
+    used = [key for key in (*tire.values, *tire.further) if key in stated or key in words]
+    ignored = [key for key in (*tire.values, *tire.unread) if key not in used and not _without_effect(tire, key)]
+    return formula._replace(used=tuple(used), ignored=tuple(ignored))
+
+
+def stated_coefficients(tire: PropertyFile) -> dict[str, float]:
+    """What a file states of `KNOWN`, in SI, inflations under the names of MF-Tyre."""
+    stated = {key: value for key in COEFFICIENTS if (value := _number(tire, key)) is not None}
+    pressures = {
+        "INFLPRES": _pressure(tire, OPERATING, "IP"), "NOMPRES": _pressure(tire, NOMINAL, "IP_NOM"),
+    }  # fmt: skip
+    stated |= {key: value for key, value in pressures.items() if value is not None}
+    carcass = {key: value for key in CARCASS if (value := tire.get(key))}
+    if len(carcass) == len(CARCASS) and not stated.get("PTY1"):
+        stated |= carcass
+    return stated | {key: value for key in RANGES if (value := _end(tire, key)) is not None}
+
+
+def formula_of(stated: Mapping[str, float], version: Version, file: str) -> MagicFormula:
+    """The formula of coefficients ``stated`` in SI under names of `KNOWN`; ``file`` is named where they are none.
+
+    Raises PropertyFileError where a needed one is missing, or a nominal value is not positive.
+    """
+    missing = [key for key in NEEDED if key not in stated]
     if missing:
-        raise PropertyFileError(
-            f"{tire.file}: the Magic Formula needs {', '.join(missing)}, which the file does not give"
-        )
-    keys = {key: _given(tire, key, usual) for key, usual in COEFFICIENTS.items()}
+        raise PropertyFileError(f"{file}: the Magic Formula needs {', '.join(missing)}, which the file does not give")
+    keys = {key: stated.get(key, usual) for key, usual in COEFFICIENTS.items()}
     if not (keys["FNOMIN"] > 0.0 and keys["UNLOADED_RADIUS"] > 0.0 and keys["LONGVL"] > 0.0 and keys["PKY2"] != 0.0):
         raise PropertyFileError(
-            f"{tire.file}: FNOMIN, UNLOADED_RADIUS and LONGVL above 0 and a PKY2 other than 0 are allowed"
+            f"{file}: FNOMIN, UNLOADED_RADIUS and LONGVL above 0 and a PKY2 other than 0 are allowed"
         )
-    later, notes = _is_later(tire), []
-    operating, nominal = _pressure(tire, OPERATING, "IP"), _pressure(tire, NOMINAL, "IP_NOM")
-    inflation = operating or nominal or 0.0
+    notes = []
+    inflation = stated.get("INFLPRES") or stated.get("NOMPRES") or 0.0
     if not inflation:
         notes.append("no inflation in the file: the coefficients count at every inflation")
-    keys["NOMPRES"] = nominal or operating or 1.0
+    keys["NOMPRES"] = stated.get("NOMPRES") or inflation or 1.0
     if keys["PKY1"] > 0.0:
         notes.append("PKY1 is above 0: a file of the adapted SAE axes, turned over to the bench's")
-    keys |= {"BY_TANGENT": 1.0 if later else 0.0, "CAMBER_FORCE": 1.0 if later else 0.0}
-    along, across = tire.get("LONGITUDINAL_STIFFNESS"), tire.get("LATERAL_STIFFNESS")
-    used = [
-        key for key in (*tire.values, *tire.further) if key in COEFFICIENTS or key in (*OPERATING, *NOMINAL, "FITTYP")
-    ]
+    later = 1.0 if version == LATER else 0.0
+    keys |= {"BY_TANGENT": later, "CAMBER_FORCE": later}
+    along, across = (stated.get(key) for key in CARCASS)
     stiffness = (along, across) if along and across and not keys["PTY1"] else None
-    if stiffness is not None:
-        used += ["LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS"]
-    ignored = [key for key in (*tire.values, *tire.unread) if key not in used and not _without_effect(tire, key)]
-    version = "6.1 and later" if later else "5.2 and PAC2002"
-    return MagicFormula(tire.file, keys, version, tuple(used), tuple(ignored), inflation, stiffness, tuple(notes))
+    ranges = {key: stated[key] for key in RANGES if key in stated}
+    return MagicFormula(file, keys, version, (), (), inflation, stiffness, tuple(notes), ranges)
 
 
 def _is_later(tire: PropertyFile) -> bool:
@@ -112,9 +149,14 @@ def _number(tire: PropertyFile, key: str) -> float | None:
     return factor * found.value
 
 
-def _given(tire: PropertyFile, key: str, usual: float) -> float:
-    value = _number(tire, key)
-    return usual if value is None else value
+def _end(tire: PropertyFile, key: str) -> float | None:
+    """An end of a range in SI; None where the file has none, or one in a unit that nobody names."""
+    found, quantity = tire.further.get(key), RANGES[key]
+    if found is None:
+        return None
+    if quantity == "PRESSURE" and quantity not in tire.units:
+        return found.value if found.value >= LEAST_PASCAL else None
+    return found.value * (UNITS[quantity][tire.units[quantity]] if quantity else 1.0)
 
 
 def _pressure(tire: PropertyFile, words: tuple[str, ...], own: str) -> float | None:

@@ -14,6 +14,11 @@ from contact_sim_pkg.rigs.vehicle.tire.magic_formula.formulas import AtLoad
 
 __all__ = ["relaxation_lengths"]
 
+LEAST = 0.1
+"""Of the carcass stiffness under the nominal load at the nominal inflation: the parabola of PCFX and PCFY may fall below 0
+far from there.
+"""
+
 
 def relaxation_lengths(tire: MagicFormula, at: AtLoad, inflation: float) -> tuple[float, float]:
     """Along and across [m] under the load of ``at`` at an ``inflation`` [Pa]; 0 where the file gives none."""
@@ -26,7 +31,8 @@ def relaxation_lengths(tire: MagicFormula, at: AtLoad, inflation: float) -> tupl
         return max(along, 0.0) * keys["LSGKP"], max(across, 0.0) * keys["LSGAL"]
     dp = (inflation - keys["NOMPRES"]) / keys["NOMPRES"]
     stiff_x, stiff_y = (
-        stiffness * (1.0 + keys[f"PCF{axis}1"] * df + keys[f"PCF{axis}2"] * df**2) * (1.0 + keys[f"PCF{axis}3"] * dp)
+        stiffness
+        * max((1.0 + keys[f"PCF{axis}1"] * df + keys[f"PCF{axis}2"] * df**2) * (1.0 + keys[f"PCF{axis}3"] * dp), LEAST)
         for stiffness, axis in zip(tire.stiffness, "XY", strict=True)
     )
     return abs(at.k_x) / stiff_x, abs(at.k_y) / stiff_y

@@ -43,6 +43,8 @@ __all__ = [
     "fitted",
     "fitted_slip",
     "found_at",
+    "found_where",
+    "squashed",
     "standing_on_belt",
 ]
 
@@ -50,7 +52,7 @@ Field = NDArray[numpy.float64]
 LOAD_STEP = 0.02  # of the load, either way, for the stiffness
 COARSE = 2  # cells of the force table on each way of one of the fit
 TINY = 1e-3  # [m] extent of a contact that is less than two cells
-FAR = 20.0  # residual of a tire that cannot be solved
+FAR = 1e3  # residual of a tire that cannot be solved: more than one that can has
 STEP = 0.02  # of a logarithm, for a derivative: the contact's edge moves by a part of a cell
 FROM = 10.0  # where the logarithms are counted from: the steps go with them, and none comes to 0
 STANDING = ("stiffness", "deflection", "length", "width")
@@ -140,12 +142,12 @@ def fitted(inflation: Inflation, targets: Sequence[Target], ring: bool) -> Infla
 
     def missed(values: Field) -> Field:
         try:
-            found = found_at(tire(values), targets, COARSE)
-        except (FieldError, ValueError):  # sidewalls that carry all
+            found = found_where(tire(values), targets, COARSE)
+        except ValueError:  # sidewalls that carry all
             return numpy.full(len(targets) * len(STANDING), FAR)
         return numpy.concatenate([
-            [_missed(target, have, name) * target.weight for name in STANDING]
-            for target, (have, _lines) in zip(targets, found, strict=True)
+            [FAR if have is None else _missed(target, have[0], name) * target.weight for name in STANDING]
+            for target, have in zip(targets, found, strict=True)
         ])  # fmt: skip
 
     return tire(nearest(unknowns, usual, missed))
@@ -206,6 +208,16 @@ def standing_on_belt(inflation: Inflation, load: float) -> StandingTire:
     return StandingTire(*(getattr(have, name) for name in StandingTire._fields))
 
 
+def squashed(inflation: Inflation, deflection: float) -> tuple[float, float]:
+    """Load [N] and stiffness [N/m] of the inflated tire of a scene's section at a ``deflection`` [m] on a level road.
+
+    Raises FieldError where no grid holds its contact.
+    """
+    field, gap = _field_of(inflation, COARSE)
+    below, above = (field.solve(gap, deflection * (1.0 + step)) for step in (-LOAD_STEP, LOAD_STEP))
+    return 0.5 * (below + above), (above - below) / (2.0 * LOAD_STEP * deflection)
+
+
 def found_at(inflation: Inflation, targets: Sequence[Target], coarse: int = 1) -> list[tuple[Target, Lines]]:
     """What the tire has, standing, under the load and at the inflation of each target, and the lines of its contact; on
     cells ``coarse`` times those of the force table.
@@ -213,14 +225,26 @@ def found_at(inflation: Inflation, targets: Sequence[Target], coarse: int = 1) -
     Stiffness, deflection and contact: of the loads 2 % below and above. Raises FieldError where a load is more than the
     tire carries.
     """
-    found: list[tuple[Target, Lines]] = [(target, Lines(0.0, 0.0, 0.0)) for target in targets]
+    found = found_where(inflation, targets, coarse)
+    for target, have in zip(targets, found, strict=True):
+        if have is None:
+            raise FieldError(f"tire: it does not carry {target.load:g} N at {target.pressure:g} Pa")
+    return [have for have in found if have is not None]
+
+
+def found_where(inflation: Inflation, targets: Sequence[Target], coarse: int = 1) -> list[tuple[Target, Lines] | None]:
+    """The same, None where a load is more than the tire carries."""
+    found: list[tuple[Target, Lines] | None] = [None] * len(targets)
     by_pressure: dict[float, list[int]] = defaultdict(list)
     for number in sorted(range(len(targets)), key=lambda number: targets[number].load):
         by_pressure[targets[number].pressure].append(number)
     for pressure, numbers in by_pressure.items():
         field, gap = _field_of(inflation.model_copy(update={"pressure": pressure}), coarse)
         for number in numbers:
-            found[number] = _under(field, gap, pressure, targets[number].load)
+            try:
+                found[number] = _under(field, gap, pressure, targets[number].load)
+            except FieldError:  # so are those that are heavier
+                break
     return found
 
 

@@ -8,9 +8,18 @@ from contact_sim_pkg.rigs.vehicle.tire.property_file.keys import IP_FIRST, NOMIN
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile, Value
 from contact_sim_pkg.rigs.vehicle.tire.schema import Inflation
 
-__all__ = ["stated_inflation"]
+__all__ = ["BeyondInflationError", "stated_inflation"]
 
 SAME = 0.01  # relative: two statements of one inflation
+
+
+class BeyondInflationError(PropertyFileError):
+    """An inflation that no scene takes."""
+
+    def __init__(self, sentence: str, nearest: float, stated: float, nominal: float) -> None:
+        """With the ``nearest`` that a scene takes, the ``stated`` one and that at which the coefficients hold [Pa]."""
+        super().__init__(sentence)
+        self.nearest, self.stated, self.nominal = nearest, stated, nominal
 
 
 def stated_inflation(tire: PropertyFile, notes: list[str]) -> tuple[float, float]:
@@ -19,7 +28,7 @@ def stated_inflation(tire: PropertyFile, notes: list[str]) -> tuple[float, float
     The first counts of: a word for the operating inflation, one for the nominal, a comment, the usual
     inflation, with a note for all but the first.
 
-    Raises PropertyFileError, with its line, for one that a scene does not take.
+    Raises BeyondInflationError, with its line, for one that a scene does not take.
     """
     operating, nominal = _stated(tire, OPERATING, "IP", notes), _stated(tire, NOMINAL, "IP_NOM", notes)
     if operating is not None and nominal is not None and not _same(operating[1], nominal[1]):
@@ -36,13 +45,15 @@ def stated_inflation(tire: PropertyFile, notes: list[str]) -> tuple[float, float
         return usual, usual
     pressure, factor = chosen[1].value, tire.get("LIP") or 1.0
     low, high = allowed("pressure")
+    holds = pressure if nominal is None else nominal[1].value
     if not low <= factor * pressure <= high:
         times = "" if factor == 1.0 else f" times LIP {factor:g}"
-        raise PropertyFileError(
+        raise BeyondInflationError(
             f"{tire.file}, line {chosen[1].line}: the inflation of {chosen[0]} is {pressure:g} Pa{times}; the inflated tire "
-            f"of a scene takes {low:g} to {high:g} Pa, so give a file of this tire at such an inflation"
-        )
-    return factor * pressure, pressure if nominal is None else nominal[1].value
+            f"of a scene takes {low:g} to {high:g} Pa, so give a file of this tire at such an inflation",
+            min(max(factor * pressure, low), high), factor * pressure, holds,
+        )  # fmt: skip
+    return factor * pressure, holds
 
 
 def _stated(tire: PropertyFile, words: tuple[str, ...], own: str, notes: list[str]) -> tuple[str, Value] | None:

@@ -19,9 +19,10 @@ from contact_sim_pkg.rigs.vehicle.tire.property_file.fit import (
     allowed,
     angles,
     fitted,
-    found_at,
+    found_where,
+    squashed,
 )
-from contact_sim_pkg.rigs.vehicle.tire.property_file.inflation import stated_inflation
+from contact_sim_pkg.rigs.vehicle.tire.property_file.inflation import BeyondInflationError, stated_inflation
 from contact_sim_pkg.rigs.vehicle.tire.property_file.magic_formula import contradiction, law_tire, standing_tire
 from contact_sim_pkg.rigs.vehicle.tire.property_file.reading import PropertyFile
 from contact_sim_pkg.rigs.vehicle.tire.property_file.slip_keys import slip_keys
@@ -40,7 +41,7 @@ __all__ = ["Comparison", "SceneTire", "measured_tire", "scene_tire"]
 USUAL = Inflation()
 DIGITS = 6
 USUAL_RANGE = (1.2e5, 3e5, 0.04)  # inflations [Pa] and deflection [m] that the belt is valid for
-USABLE = 0.1  # relative difference of radius, stiffness and deflection up to which a scene stands for the file
+USABLE = 0.06  # relative difference of radius, stiffness and deflection up to which a scene stands for the file
 SQUASHED = 0.15  # of the section height: deflection of the fit where the file has no nominal load
 WRITTEN = ("size", "radius", "pressure", "ring_stiffness")
 JUDGED = ("radius", "stiffness", "deflection")
@@ -80,7 +81,7 @@ class SceneTire(NamedTuple):
 
     @property
     def usable(self) -> bool:
-        """Whether these meet the file within 10 %."""
+        """Whether these meet the file within 6 %."""
         return bool(self.judged) and all(abs(each.difference) <= USABLE for each in self.judged)
 
 
@@ -96,7 +97,10 @@ def scene_tire(tire: PropertyFile) -> SceneTire:
     """
     notes: list[str] = []
     size, radius = _size(tire, notes)
-    pressure, nominal = stated_inflation(tire, notes)
+    try:
+        pressure, nominal = stated_inflation(tire, notes)
+    except BeyondInflationError as error:
+        raise PropertyFileError(f"{error}{_figures_beyond(tire, error, size, radius)}") from None
     ring = _ring(tire, nominal)
     inflation = Inflation(size=size, radius=radius, pressure=pressure, ring_stiffness=ring or USUAL.ring_stiffness)
     form = read_size(size, radius)
@@ -166,7 +170,9 @@ def _scene(
     written = WRITTEN if not comparisons else (*WRITTEN, "sidewall_angle", *(each.key for each in UNKNOWNS))
     given = inflation.model_dump(include=set(written), exclude_none=True)
     effects = {"inflation": {key: _rounded(value) for key, value in given.items()}, **_rigid_ring(tire, inflation)}
-    lines = [lines for _have, lines in found_at(inflation, rolling)] if rolling else []
+    carried = found_where(inflation, rolling)
+    lines = [have[1] for have in carried if have is not None]
+    rolling = [target for target, have in zip(rolling, carried, strict=True) if have is not None]
     slip = slip_keys(tire, rolling, lines, notes)
     if slip.brush:
         rounded = [{key: _rounded(value) for key, value in keys.items()} for keys in (slip.brush, slip.compliance)]
@@ -182,6 +188,35 @@ def _beside(target: Target, have: Target, names: Sequence[str], where: str = "")
         Comparison(f"{NAMES[name][0]}{where}", NAMES[name][1], getattr(target, name), getattr(have, name))
         for name in names
         if not math.isnan(getattr(target, name))
+    )
+
+
+def _figures_beyond(tire: PropertyFile, beyond: BeyondInflationError, size: str, radius: float | None) -> str:
+    """What the inflated tire of a ``size`` misses of the file at the nearest inflation that a scene takes; empty where the
+    file states no stiffness.
+    """
+    form, inflation = read_size(size, radius), Inflation(size=size, radius=radius, pressure=beyond.nearest)
+    stated = standing_tire(tire, form.radius, beyond.stated, beyond.nominal, _load(tire, form, []))
+    if stated is None:
+        return ""
+    return _figures(inflation, Target(beyond.stated, stated.load, stated.stiffness, stated.deflection))
+
+
+def _figures(inflation: Inflation, stated: Target) -> str:
+    """What an inflated tire misses of a ``stated`` one at its deflection."""
+    low, _high = angles(inflation)
+    inflation = inflation.model_copy(update={"sidewall_angle": max(inflation.sidewall_angle, low)})
+    at = (
+        f"; at {inflation.pressure:g} Pa and the file's deflection of {1e3 * stated.deflection:.3g} mm the usual tire "
+        f"{inflation.size} "
+    )
+    try:
+        load, stiffness = squashed(inflation, stated.deflection)
+    except (FieldError, ValueError):  # sidewalls that carry all
+        return f"{at}carries nothing that its grid holds"
+    return (
+        f"{at}carries {load:.4g} of {stated.load:.4g} N (ratio {load / stated.load:.2g}) with {stiffness:.4g} of "
+        f"{stated.stiffness:.4g} N/m (ratio {stiffness / stated.stiffness:.2g})"
     )
 
 
@@ -295,24 +330,31 @@ def _fit(
     stated, first = inflation.ring_stiffness, targets[0]
     try:
         inflation = fitted(inflation, [*(chosen or targets), *usual], ring)
-        found = [have for have, _lines in found_at(inflation, targets)]
+        carried = found_where(inflation, targets)
+        if carried[0] is None:
+            raise FieldError(f"tire: it does not carry {first.load:g} N")
     except FieldError:
+        known = not (math.isnan(first.stiffness) or math.isnan(first.deflection))
+        figures = _figures(inflation, first) if known else ""
         raise PropertyFileError(
             f"{tire.file}{_lines(tire, 'FNOMIN')}: no inflated tire {inflation.size} at {inflation.pressure:g} Pa carries "
-            f"{'FNOMIN' if tire.get('FNOMIN') else 'its loads,'} {first.load:g} N"
+            f"{'FNOMIN' if tire.get('FNOMIN') else 'its loads,'} {first.load:g} N{figures}"
         ) from None
     radius = read_size(inflation.size, inflation.radius).radius
     rows = [
-        Comparison("radius", "m", tire.get("UNLOADED_RADIUS") or radius, radius), *_beside(first, found[0], STANDING),
+        Comparison("radius", "m", tire.get("UNLOADED_RADIUS") or radius, radius), *_beside(first, carried[0][0], STANDING),
     ]  # fmt: skip
     if not ring:
         rows.append(Comparison("ring stiffness", "N/m", stated, inflation.ring_stiffness))
-    for target, have in zip(targets[1:], found[1:], strict=True):
-        rows += _beside(target, have, STANDING, f", {target.load:.0f} N, {1e-3 * target.pressure:.0f} kPa")
+    for target, have in zip(targets[1:], carried[1:], strict=True):
+        if have is None:
+            notes.append(f"the fitted tire does not carry {target.load:.4g} N at {1e-3 * target.pressure:.4g} kPa")
+            continue
+        rows += _beside(target, have[0], STANDING, f", {target.load:.0f} N, {1e-3 * target.pressure:.0f} kPa")
     if min(abs(inflation.sidewall_angle - end) for end in angles(inflation)) < 1e-3:
         notes.append("sidewall_angle is at the end of its range: no tire of this kind is nearer to the file")
     low, high, deepest = USUAL_RANGE
-    sunk = found[0].deflection
+    sunk = carried[0][0].deflection
     if not (low <= inflation.pressure <= high and sunk <= deepest):
         notes.append(
             f"inflation {inflation.pressure:g} Pa and deflection {sunk:.3g} m: the tire is valid for "

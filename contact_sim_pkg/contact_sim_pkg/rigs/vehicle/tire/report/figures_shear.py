@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.records.messages import ContactShear
 from contact_sim_pkg.report.drawing import ACCENT, MUTED, SHEAR_COLOURS, WIDTH, WITH_BARS, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.maps import Window, draw_map, loaded_window, set_window
-from contact_sim_pkg.report.series import FieldSeries, FloatArray, PressureMap
+from contact_sim_pkg.report.series import FloatArray, PressureMap
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import ShearMap, ShearSeries
 
@@ -49,21 +49,27 @@ def friction_over_time(key: str, name: str, shear: ShearSeries) -> Picture:
     caption = (
         f"Friction of the {name} on its tread: {_largest(shear, 'force_x', 'Fx', 'N')}, {_largest(shear, 'force_y', 'Fy', 'N')}, "
         f"{_largest(shear, 'moment_z', 'Mz', 'N m')}, about the point below the wheel's centre. Slip κ = (ωR − v)/v, negative "
-        "when braking; a positive slip angle makes Fy negative (ISO 8855). Slipping: share of the cells in contact. "
-        f"Friction and bristles that leave the contact dissipated {shear.dissipated.sum():.5g} J."
+        f"when braking; a positive slip angle makes Fy negative (ISO 8855). {_lost(shear)}"
     )
     return picture(f"{key}-time", figure, f"Friction of the {name} over time", caption)
 
 
-def friction_over_slip(key: str, name: str, shear: ShearSeries, field: FieldSeries | None) -> Picture | None:
+def _lost(shear: ShearSeries) -> str:
+    lost = f"{shear.dissipated.sum():.5g} J"
+    if not shear.largest[0].state.size:
+        return f"Forces of the Magic Formula at slips that relax; {lost} were lost at the road."
+    return f"Slipping: share of the cells in contact. Friction and bristles that leave the contact dissipated {lost}."
+
+
+def friction_over_slip(key: str, name: str, shear: ShearSeries, time: FloatArray, normal: FloatArray) -> Picture | None:
     """Force over load against slip, and side force and moment against slip angle; None where slip
-    does not vary.
+    does not vary. The load is ``normal`` [N] at times ``time`` [s], [instants] each.
     """
     along, across = float(np.ptp(shear.slip)) > LEAST_SPREAD, float(np.ptp(shear.slip_angle)) > LEAST_SPREAD
-    if field is None or not (along or across):
+    if not (along or across):
         return None
     # Ratios to a load near zero mean nothing: they are left out.
-    load = np.interp(shear.time, field.time, field.load)
+    load = np.interp(shear.time, time, normal)
     touching = load > 0.05 * max(float(load.max()), 1e-9)
     share_x, share_y = (_over(force, load, touching) for force in (shear.force_x, shear.force_y))
     curves = [("slip κ, %", 100.0 * shear.slip, share_x, "Fx / Fz")] * along
@@ -103,11 +109,13 @@ def _wide_slip_axis(axes: Axes, slip: FloatArray) -> None:
     axes.minorticks_off()
 
 
-def shear_maps(key: str, name: str, shear: ShearSeries) -> Picture:
+def shear_maps(key: str, name: str, shear: ShearSeries) -> Picture | None:
     """Shear with arrows, and which cells stick and slip, where the forces along and across are
-    largest.
+    largest; None of forces without cells.
     """
     shown = shear.largest
+    if not shown[0].state.size:
+        return None
     windows = [loaded_window(_loaded(each)) for each in shown]
     height = float(np.clip(windows[0].aspect * 0.36 * WIDTH, 1.2, 3.2)) + 0.75
     figure, axes = new_figure(height * len(shown) + 0.2, len(shown), 2, WITH_BARS)

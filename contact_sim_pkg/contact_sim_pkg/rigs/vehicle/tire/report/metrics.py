@@ -265,7 +265,8 @@ def _along(ride: _Ride) -> Iterator[Metric]:
         slip = math.hypot(shear.slip[place], math.tan(shear.slip_angle[place]))
         yield ride.make("friction", "largest friction over load", ratio[place], "", quantity="tire_friction", topic=f"{TIRE}/shear",
                         count=shear.time.size, basis=EVENT, remark=f"at a slip of {slip:.3g}")  # fmt: skip
-    ringing = None if axle is None or ride.rough else ringing_of(axle)
+    by_formula = ((ride.recording.scene.get("effects") or {}).get(TIRE) or {}).get("magic_formula") is not None
+    ringing = None if axle is None or ride.rough or by_formula else ringing_of(axle)  # that has no belt
     if ringing is not None:
         yield ride.make("ringing", "force along rings at", ringing, "Hz", quantity="tire_ringing", topic=topic, basis=EVENT,
                         error=0.5 / RINGING_TIME)  # fmt: skip

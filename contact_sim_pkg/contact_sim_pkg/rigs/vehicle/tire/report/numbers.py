@@ -34,11 +34,11 @@ OUTSIDE = {
 
 
 def ledger_scope(recording: Recording) -> LedgerScope | None:
-    """The ledger of a tire whose belt moves on its sidewalls is of the whole rig: None. Another is that of the
-    vertical motion; what the scene's effects turn over beside it, the work of friction with its figure.
+    """The ledger of a tire whose belt moves on its sidewalls, or by the Magic Formula, is of the whole rig: None.
+    Another is that of the vertical motion; what the scene's effects turn over beside it, the work of friction with its figure.
     """
     effects = (recording.scene.get("effects") or {}).get(TIRE) or {}
-    if effects.get("sidewall_compliance") is not None:
+    if any(effects.get(name) is not None for name in ("sidewall_compliance", "magic_formula")):
         return None
     outside = {name: text for name, text in OUTSIDE.items() if effects.get(name) is not None}
     shear = shear_of(recording)

@@ -79,9 +79,11 @@ def _friction_pictures(recording: Recording) -> list[Picture]:
     shear = shear_of(recording)
     if shear is None:
         return []
+    field, contact = recording.fields.get(TIRE), recording.contacts[TIRE]
+    time, load = (contact.time, contact.normal) if field is None else (field.time, field.load)
     found = [
         friction_over_time(FRICTION_KEY, TIRE, shear),
-        friction_over_slip(FRICTION_KEY, TIRE, shear, recording.fields.get(TIRE)),
+        friction_over_slip(FRICTION_KEY, TIRE, shear, time, load),
         shear_maps(FRICTION_KEY, TIRE, shear),
     ]
     return [each for each in found if each is not None]
