@@ -47,6 +47,7 @@ CASES = [
     ("tire_braking", (), 6, 6, {"effects.tire.brush.coefficient_static": 0.95, "effects.tire.brush.sliding_speed": 2.0}),
     ("tire_braking", (), 6, 6, {"effects.tire.brush.coefficient_kinetic": 0.6}),
     ("tire_irregular_road", (), 6, 6, {"road.rms": 1e-3}),
+    ("tire_magic_formula", (), 10, 6, {INFLATION: 200e3, "tire.suspension_damping": 500.0}),
     ("seat_ride", (LOSS,), 30, 20, {"effects.seat.normal_elastic.coefficient": 3e5}),
     ("seat_ride", (LOSS,), 30, 20, {"effects.seat.normal_dissipative.damping": 0.4}),
     ("seat_ride", (GENERAL,), 30, 20, {"effects.seat.general_dissipative.coefficient": 2e5}),
@@ -151,6 +152,20 @@ def test_a_stiffer_spring_is_supplied_the_energy_that_it_holds():
     assert energy > 1.0
     assert ledger(steered).stored - ledger(plain).stored == pytest.approx(energy, rel=1e-6)
     assert ledger(steered).supplied - ledger(plain).supplied == pytest.approx(energy, rel=1e-6)
+
+
+def test_the_slips_of_a_formula_go_on():
+    """On level ground another damper changes no force of the tire, which a slip that began anew would."""
+    scene = ("tire_magic_formula", "road={kind: flat}")
+    forces: list[list[tuple[float, float]]] = [[], []]
+    for made, values in zip(forces, (None, {"tire.suspension_damping": 500.0}), strict=True):
+        bench = ContactBench(*scene)
+        for count in range(12):
+            outputs = bench.step(parameters=values if count == 6 else None).outputs
+            made += [(each.record.force_x, each.record.force_y) for each in outputs if each.topic == "tire/shear"]
+    plain, steered = numpy.array(forces[0]), numpy.array(forces[1])
+    assert abs(plain[-1]).max() > 100.0
+    assert steered == pytest.approx(plain, rel=1e-6, abs=1e-3)
 
 
 def test_a_heavier_body_is_supplied_its_motion_and_its_height():

@@ -40,6 +40,8 @@ class MagicFormulaSection(Section):
     of bristles, belt and their losses. Load and deflection stay those of the scene's tire.
     """
 
+    fixed: ClassVar[str] = "the coefficients of a file are one fit"
+
     largest_file: ClassVar[int] = LARGEST_FILE
     """[bytes]"""
 
