@@ -53,7 +53,7 @@ class Followed(NamedTuple):
 class RollingFormula:
     """Slips and works of one tire; ``follow`` from interval to interval, in order."""
 
-    STATE = State(("_at", "_slip", "_force", "_works", "_told"))
+    STATE = State(("_at", "_slip", "_force", "_works", "_published"))
 
     def __init__(self, parts: FormulaParts) -> None:
         """Before a run."""
@@ -62,13 +62,12 @@ class RollingFormula:
 
     def reset(self) -> None:
         """An unstrained tire."""
-        self._at: Samples = numpy.full(
-            3, math.nan
-        )  # travel [m], slip and tan(alpha) of the wheel, of the sample before
+        # Of the sample before: travel [m], slip and tan(alpha) of the wheel
+        self._at: Samples = numpy.full(3, math.nan)
         self._slip: Samples = numpy.zeros(2)  # relaxed: kappa', tan(alpha')
         self._force: Samples = numpy.zeros(3)  # F_x, F_y [N], M_y [N m]
         self._works: Samples = numpy.zeros(3)  # [J] supplied by the slips, lost at the road, rolling
-        self._told = 0.0  # [J] lost at the road up to the last instant that was followed
+        self._published = 0.0  # [J] lost at the road up to the last instant that was followed
 
     def follow(
         self, times: Samples, travel: Samples, speed: Samples, load: Samples, approach: Samples, slope: Samples, out: Samples
@@ -91,16 +90,14 @@ class RollingFormula:
                 supplied, lost, rolled = self._works.tolist()
                 entries = (0.0, 0.0, supplied - lost, supplied + rolled, lost + rolled)
                 first = Followed(
-                    slip, angle, forces.longitudinal, forces.lateral, forces.aligning, lost - self._told, entries
+                    slip, angle, forces.longitudinal, forces.lateral, forces.aligning, lost - self._published, entries
                 )
-                self._told = lost
+                self._published = lost
         assert first is not None
         assert out.shape[1] == BELT_SAMPLES
         return first
 
-    def _step(
-        self, place: float, wheel: tuple[float, float], load: float, speed: float, radius: float
-    ) -> Forces:  # fmt: skip
+    def _step(self, place: float, wheel: tuple[float, float], load: float, speed: float, radius: float) -> Forces:
         """Forces at a sample, at a ``place`` [m] of the travel and slips of the ``wheel``, kappa and tan(alpha)."""
         before, slips, force = self._at.tolist(), self._slip.tolist(), self._force.tolist()
         way = 0.0 if math.isnan(before[0]) else place - before[0]
