@@ -16,10 +16,11 @@ import sys, time
 sys.path[:] = {path!r}
 import numpy
 from pathlib import Path
-from contact_sim_pkg.compiled import linking
+from contact_sim_pkg.compiled import claims, linking
 from contact_sim_pkg.compiled.jit import compiled_kernels
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch
 linking.make_at_once()
+claims.LONGEST = {limit}
 Path(sys.argv[1]).touch()
 while not Path(sys.argv[2]).exists():
     time.sleep(0.001)
@@ -43,7 +44,7 @@ def compiled_by(folder, count):
     folder.mkdir()
     begin = folder / "begin"
     environment = dict(os.environ, CONTACT_BENCH_CACHE=str(folder / "cache"))
-    program = PROGRAM.format(path=sys.path)
+    program = PROGRAM.format(path=sys.path, limit=LIMIT)
     running = [
         subprocess.Popen(
             [sys.executable, "-c", program, str(folder / f"ready{number}"), str(begin)],
