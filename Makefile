@@ -18,7 +18,7 @@ PARALLEL = -p xdist -n auto --maxprocesses 4
 # Ends a recipe: prints how long it took and hands the status on.
 REPORT_TIME = status=$$?; echo "make $@: $$SECONDS s in all"; exit $$status
 
-.PHONY: help setup run check test lint lower-bounds bench hard bounds mutants measures pictures compare-field compare-dynamics clean
+.PHONY: help setup run check test lint lower-bounds bench hard bounds mutants measures profile-start pictures compare-field compare-dynamics clean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -68,6 +68,9 @@ mutants:  ## change lines one at a time on a copy, list the changes that no test
 
 measures:  ## measure the shape of the package: folders, circles, tables of effects, shared files of an addition, calls, docstrings
 	@$(ENTER) && python -m tests.house $(MEASURE)
+
+profile-start:  ## where the processor time of a first start goes, kernel by kernel, of all its processes (SCENE=name)
+	@SECONDS=0; $(ENTER) && python -m contact_sim_lab.goals.start_profile $(SCENE); $(REPORT_TIME)
 
 pictures:  ## draw the gallery of the README anew, by runs of its scenes
 	@SECONDS=0; $(ENTER) && python -m contact_sim_lab.pages.gallery docs/images; $(REPORT_TIME)
