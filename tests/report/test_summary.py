@@ -17,7 +17,7 @@ from contact_sim_pkg.report.energy import relative_residual
 from contact_sim_pkg.report.metrics.listing import all_metrics, metrics_of
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.series import LedgerSeries
-from contact_sim_pkg.report.summary import summarise
+from contact_sim_pkg.report.summary import longest_block_sentence, solver_numbers, summarise
 
 
 @pytest.fixture(scope="module")
@@ -94,8 +94,26 @@ def test_solver_counts_are_sums_over_the_blocks(summary):
         "blocks": 1000, "steps": 12_000, "rejected_steps": 1000, "events": 2000, "field_iterations": 30_000,
         "field_residual_max": 1e-7, "field_jump_max_N": 2.5, "coupling_steps": 4000,
         "coupling_steps_repeated": 1000, "coupling_error_max": 2e-3, "physics_wall_s": pytest.approx(2.0),
-        "physics_real_time_factor": pytest.approx(5.0),
+        "physics_real_time_factor": pytest.approx(5.0), "overruns": 0,
+        "longest_block": {"at_s": 0.0, "wall_s": pytest.approx(2e-3), "of": "coupling steps", "steps": 4, "median_steps": 4.0},
     }  # fmt: skip
+
+
+def test_the_longest_block_is_named_with_its_steps_and_the_late_ones_are_counted():
+    blocks = 5
+    cost = {name: np.zeros(blocks) for name in (
+        "rejected_steps", "events", "field_iterations", "field_residual", "field_jump", "coupling_error", "coupling_steps_repeated",
+    )}  # fmt: skip
+    cost |= {
+        "time": 0.01 * np.arange(blocks), "wall_time": np.array([2e-3, 3e-3, 12e-3, 11e-3, 2e-3]),
+        "steps": np.array([4.0, 4.0, 5.0, 40.0, 4.0]), "coupling_steps": np.zeros(blocks),
+    }  # fmt: skip
+    cost["real_time_factor"] = 0.01 / cost["wall_time"]
+    numbers = solver_numbers(cost)
+    assert numbers["overruns"] == 2
+    assert longest_block_sentence(numbers) == "the longest, at 0.02 s, 12 ms (5 steps, median 4)"
+    cost["coupling_steps"] = np.array([3.0, 3.0, 14.0, 3.0, 2.0])
+    assert longest_block_sentence(solver_numbers(cost)) == "the longest, at 0.02 s, 12 ms (14 coupling steps, median 3)"
 
 
 def test_messages_are_counted_by_topic(summary):

@@ -65,14 +65,18 @@ def latency(seconds: float = LATENCY_SECONDS) -> list[Measured]:
             python_command(module, SCENE, str(seconds)),
             cwd=folder, capture_output=True, text=True, timeout=LONGEST + seconds, check=False,
         )  # fmt: skip
-    found: dict[str, float] = json.loads(done.stdout) if done.returncode == 0 else {}
+    found: dict[str, Any] = json.loads(done.stdout) if done.returncode == 0 else {}
     note = "" if found else (done.stderr.strip().splitlines() or ["no reason given"])[-1]
 
-    def row(what: str, key: str, most: float | None = None) -> Measured:
-        value = 1e3 * found[key] if found else None
-        return Measured(f"{SCENE} at real time, block in to force out: {what}", value, "ms", most=most, note=note)
+    def row(what: str, key: str, scale: float, unit: str, most: float | None = None, note: str = note) -> Measured:
+        value = scale * found[key] if found else None
+        return Measured(f"{SCENE} at real time, block in to force out: {what}", value, unit, most=most, note=note)
 
-    return [row("p50", "p50"), row("p99", "p99", most=5.0), row("largest", "largest")]
+    return [
+        row("p50", "p50", 1e3, "ms"), row("p99", "p99", 1e3, "ms", most=5.0),
+        row("largest", "largest", 1e3, "ms", note=found.get("cause") or note),
+        row("later than a block lasts", "overruns", 1.0, f"of {found.get('blocks', 0)}"),
+    ]  # fmt: skip
 
 
 def offline() -> list[Measured]:

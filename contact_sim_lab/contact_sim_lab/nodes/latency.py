@@ -10,15 +10,19 @@ of the middleware on this machine; the waiting of the subscriber's own Python do
 from __future__ import annotations
 
 import json
+import statistics
 import sys
 from typing import Any
 
 import numpy
 
 from contact_sim_lab.nodes.outside import follow_run
-from contact_sim_pkg.bag.messages import stamp_of
+from contact_sim_pkg.bag.messages import decode, stamp_of
+from contact_sim_pkg.records.messages import SolverCost
 from contact_sim_pkg.run.bag_content import input_names, result_names
 from contact_sim_pkg.scene.resolve import load_resolved
+
+COST = "bench/cost"
 
 
 class Latencies:
@@ -29,6 +33,12 @@ class Latencies:
         self._block_length_ns, self._forces = block_length_ns, forces
         self._sent: dict[int, int] = {}
         self._arrived: dict[int, list[int]] = {}
+        self._cost: dict[int, SolverCost] = {}
+
+    def on_cost(self, data: bytes, info: dict[str, Any]) -> None:
+        """What a block cost."""
+        cost = decode(SolverCost, data)
+        self._cost[cost.block] = cost
 
     def on_input(self, data: bytes, info: dict[str, Any]) -> None:
         """A block of excitation."""
@@ -40,8 +50,9 @@ class Latencies:
         block = stamp_of(data) // self._block_length_ns
         self._arrived.setdefault(block, []).append(info["received_timestamp"])
 
-    def figures(self) -> dict[str, float]:
-        """Number of blocks; median, 99th percentile and maximum of their latency, [s].
+    def figures(self) -> dict[str, Any]:
+        """Number of blocks; median, 99th percentile and maximum of their latency, [s]; the block of the maximum with its cause;
+        number of overruns: blocks whose forces arrived later behind their excitation than a block lasts.
 
         ValueError where no block is there whole.
         """
@@ -50,15 +61,30 @@ class Latencies:
             raise ValueError("no block came with its excitation and its forces")
         found = numpy.array([max(self._arrived[block]) - self._sent[block] for block in whole]) * 1e-9
         p50, p99 = numpy.percentile(found, (50.0, 99.0))
-        return {"blocks": len(whole), "p50": float(p50), "p99": float(p99), "largest": float(found.max())}
+        cause = self._cause(whole[int(found.argmax())], float(found.max()))
+        return {
+            "blocks": len(whole), "p50": float(p50), "p99": float(p99), "largest": float(found.max()), "cause": cause,
+            "overruns": int((found > 1e-9 * self._block_length_ns).sum()),
+        }  # fmt: skip
+
+    def _cause(self, block: int, latency: float) -> str:
+        """What the block of the longest latency, [s], spent it on; empty where its cost has not come."""
+        cost = self._cost.get(block)
+        if cost is None:
+            return ""
+        steps = statistics.median(each.coupling_steps for each in self._cost.values())
+        where = "computed" if cost.wall_time > 0.5 * latency else "waited for a processor, a message or the logger"
+        physics = f"{1e3 * cost.wall_time:.3g} ms of physics, {cost.coupling_steps} coupling steps"
+        return f"block {block}: {where}; {physics} (median {steps:g})"
 
 
-def measure(name: str, seconds: float) -> dict[str, float]:
+def measure(name: str, seconds: float) -> dict[str, Any]:
     """Figures of a run of the scene over this simulated time, [s]; ValueError where it fails."""
     scene = load_resolved(name)
     forces = [topic for topic in result_names(scene) if topic.endswith("/force")]
     latencies = Latencies(scene.block_length_ns, len(forces))
     callbacks = dict.fromkeys(input_names(scene), latencies.on_input) | dict.fromkeys(forces, latencies.on_force)
+    callbacks[COST] = latencies.on_cost
     follow_run(name, scene, ("--duration", str(seconds), "--pace", "realtime"), callbacks)
     return latencies.figures()
 

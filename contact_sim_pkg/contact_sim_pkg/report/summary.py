@@ -7,6 +7,7 @@ loaded there.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -78,8 +79,8 @@ def _scope(recording: Recording) -> dict[str, Any]:
 
 
 def solver_numbers(cost: CostSeries) -> dict[str, Any]:
-    """Steps, events and iterations over the run; wall time of the physics; largest field residual
-    and jump.
+    """Steps, events and iterations over the run; wall time of the physics, blocks that took longer than they last, and the
+    one that took longest; largest field residual and jump.
     """
     wall = float(cost["wall_time"].sum())
     # Real-time factor of the whole run, not the mean of its blocks
@@ -97,7 +98,28 @@ def solver_numbers(cost: CostSeries) -> dict[str, Any]:
         "coupling_error_max": float(cost["coupling_error"].max()),
         "physics_wall_s": wall,
         "physics_real_time_factor": simulated / wall if wall > 0.0 else math.nan,
+        "overruns": int((cost["real_time_factor"] < 1.0).sum()),
+        "longest_block": _longest(cost),
     }
+
+
+def _longest(cost: CostSeries) -> dict[str, Any]:
+    """The block whose physics took longest: its time [s] and wall time [s], and its steps beside those of the median block."""
+    place = int(cost["wall_time"].argmax())
+    kind = "coupling_steps" if cost["coupling_steps"].any() else "steps"
+    return {
+        "at_s": float(cost["time"][place]), "wall_s": float(cost["wall_time"][place]),
+        "of": kind.replace("_", " "), "steps": int(cost[kind][place]), "median_steps": float(np.median(cost[kind])),
+    }  # fmt: skip
+
+
+def longest_block_sentence(numbers: Mapping[str, Any]) -> str:
+    """Which block of `solver_numbers` took longest; its steps say whether the physics or the machine was the cause."""
+    longest = numbers["longest_block"]
+    return (
+        f"the longest, at {longest['at_s']:.5g} s, {1e3 * longest['wall_s']:.3g} ms "
+        f"({longest['steps']} {longest['of']}, median {longest['median_steps']:g})"
+    )
 
 
 def _without_nan(value: Any) -> Any:

@@ -10,7 +10,7 @@ from contact_sim_pkg.records.metric import SELF_CHECK, Metric
 from contact_sim_pkg.records.table import number_of
 from contact_sim_pkg.report.metrics.views import value_text, verdict_text
 from contact_sim_pkg.report.series import Recording
-from contact_sim_pkg.report.summary import solver_numbers
+from contact_sim_pkg.report.summary import longest_block_sentence, solver_numbers
 from contact_sim_pkg.report.tables import Table
 
 if TYPE_CHECKING:
@@ -96,5 +96,6 @@ def _cost(recording: Recording) -> str:
     numbers = solver_numbers(recording.cost)
     return (
         f"{numbers['blocks']} blocks took {numbers['physics_wall_s']:.3g} s, {numbers['physics_real_time_factor']:.3g} times as "
-        f"fast as the clock: {numbers['steps']} time steps, {numbers['rejected_steps']} rejected, {numbers['events']} events."
+        f"fast as the clock: {numbers['steps']} time steps, {numbers['rejected_steps']} rejected, {numbers['events']} events. "
+        f"{numbers['overruns']} took longer than they last; {longest_block_sentence(numbers)}."
     )

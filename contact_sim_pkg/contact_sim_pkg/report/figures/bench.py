@@ -19,7 +19,7 @@ from contact_sim_pkg.report.drawing import (
 from contact_sim_pkg.report.energy import AT_REST, relative_residual, residual_scale, throughput
 from contact_sim_pkg.report.series import CostSeries, LedgerSeries
 from contact_sim_pkg.report.signal.decimate import envelope
-from contact_sim_pkg.report.summary import solver_numbers
+from contact_sim_pkg.report.summary import longest_block_sentence, solver_numbers
 
 
 def energy_balance(ledger: LedgerSeries, scope: LedgerScope | None = None) -> Picture:
@@ -82,11 +82,10 @@ def real_time_factor(cost: CostSeries) -> Picture:
 def _cost_caption(cost: CostSeries) -> str:
     numbers = solver_numbers(cost)
     milliseconds = cost["wall_time"] * 1e3
-    slow = float((cost["real_time_factor"] < 1.0).mean())
     text = (
         f"{numbers['blocks']} blocks took {numbers['physics_wall_s']:.3g} s of wall time for the physics: "
         f"{numbers['physics_real_time_factor']:.3g} times as fast as the clock. Median "
-        f"{np.median(milliseconds):.3g} ms a block, slowest {milliseconds.max():.3g} ms; {slow:.1%} of the blocks were "
+        f"{np.median(milliseconds):.3g} ms a block, {longest_block_sentence(numbers)}; {numbers['overruns']} blocks were "
         "slower than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times differ "
         f"from run to run. {numbers['steps']} time steps, {numbers['rejected_steps']} rejected, "
         f"{numbers['events']} events."
