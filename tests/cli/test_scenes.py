@@ -89,6 +89,9 @@ def test_a_new_scene_begins_with_the_nearest_name_and_overwrites_nothing(tmp_pat
     monkeypatch.chdir(tmp_path)
     assert main(["new", "my_cleat.yaml"]) == 0
     assert "made from tire_cleat" in capsys.readouterr().out
+    for name, made_from in (("seat", "seat_ride"), ("my_roller", "roller_flutter"), ("seat_shock_2", "seat_shock")):
+        assert main(["new", name]) == 0
+        assert f"made from {made_from}" in capsys.readouterr().out
     before = (tmp_path / "my_cleat.yaml").read_text()
     assert main(["new", "my_cleat"]) == 2
     assert "exists already and is never overwritten" in capsys.readouterr().err

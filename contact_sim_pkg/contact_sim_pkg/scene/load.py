@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
-from contact_sim_pkg.records.registry import shipped_scenes
+from contact_sim_pkg.records.registry import rigs, shipped_scenes
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.limits import file_breaches, limit_breaches
 from contact_sim_pkg.scene.overrides import Override, apply
@@ -66,9 +66,14 @@ def shipped_names() -> list[str]:
 
 
 def nearest_name(wanted: str) -> str | None:
-    """The shipped scene nearest to a ``wanted`` name, among those that share a word with it; None where none does."""
+    """The shipped scene nearest to a ``wanted`` name, among those that share a word with it; None where none does. Where that
+    is the name of a rig and nothing else, the first scene of the rig.
+    """
     words = set(wanted.lower().split("_"))
     sharing = [each for each in shipped_names() if words & set(each.split("_"))]
+    named = words & rigs().keys()
+    if named and not any((words - named) & set(each.split("_")) for each in sharing):
+        return next(iter(rigs()[min(named)].scenes))
     return next(iter(difflib.get_close_matches(wanted.lower(), sharing, n=1, cutoff=0.0)), None)
 
 
