@@ -19,6 +19,8 @@ from contact_sim_pkg.scene.schema.accuracy import requested
 __all__ = ["MOTION", "Above", "above", "above_request", "accuracy_lines", "accuracy_numbers"]
 
 MOTION = "motion"
+FAR = 10.0
+"""times what was requested: who requests so much less than a model can does not know its error"""
 WORDS = {"force": "force", "motion": "motion", "peak": "peak pressure", "area": "area"}
 
 
@@ -138,8 +140,8 @@ class Above(NamedTuple):
     text: str = ""
     """``estimated above the requested 1e-2: tire force 1.4e-2``; empty where nothing does"""
     is_doubtful: bool = False
-    """whether a run can be more accurate, by a smaller request or without a limit on its steps; not where the model of
-    an effect errs by so much at any request"""
+    """whether a run can be more accurate, by a smaller request or without a limit on its steps; where the model of an effect
+    errs by so much at any request, whether that is ten times the request"""
 
 
 def above_request(numbers: Mapping[str, Any]) -> Above:
@@ -149,7 +151,7 @@ def above_request(numbers: Mapping[str, Any]) -> Above:
         return Above()
     asked = numbers["requested"]
     floors = {
-        (place, kind)
+        (place, kind): least[0]
         for place, kinds in numbers["not_below"].items()
         for kind, least in kinds.items()
         if least[0] > asked
@@ -158,7 +160,8 @@ def above_request(numbers: Mapping[str, Any]) -> Above:
         (place, kind) for place, kinds in numbers["estimated"].items() for kind, error in kinds.items()
         if error is not None and error > asked
     }  # fmt: skip
-    return Above(f"estimated above the requested {number_of(asked)}: {', '.join(named)}", bool(beyond - floors))
+    is_doubtful = bool(beyond - floors.keys()) or max(floors.values(), default=0.0) >= FAR * asked
+    return Above(f"estimated above the requested {number_of(asked)}: {', '.join(named)}", is_doubtful)
 
 
 def accuracy_lines(numbers: dict[str, Any]) -> list[str]:

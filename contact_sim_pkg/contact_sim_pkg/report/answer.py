@@ -80,10 +80,13 @@ def _verdict(recording: Recording, metrics: Sequence[Metric], above: Above) -> t
         return "doubtful", "Doubtful", ", ".join(broken)
     if above.is_doubtful:
         return "doubtful", "Doubtful", above.text
-    judged = [each.verdict for each in metrics if each.verdict in (GOOD, USUAL, MET)]
+    judged = [each.verdict for each in metrics]
     if GOOD in judged:
         return "good", "Good", "nothing outside its band"
-    return ("usual", "As usual", "nothing outside its band") if judged else ("usual", "Measured", "no band applies")
+    if USUAL in judged:
+        return "usual", "As usual", "nothing outside its band"
+    met = judged.count(MET)  # a run that agrees with a closed form is computed well, and may be good or bad
+    return "usual", "Measured", "no band applies" + (f", {met} self-checks met" if met else "")
 
 
 def _filled(phrase: str, report: ContactReport, metrics: dict[str, Metric]) -> str:

@@ -97,3 +97,21 @@ def test_a_scene_of_one_shock_shows_no_figure_of_a_ride(recording):
     ride = by_key(seat_metrics(recording._replace(scene={"vibration": {"kind": "sine", "frequency": 4.0}})))
     assert "lift_off" in ride
     assert "off_the_seat" not in ride
+
+
+def test_a_record_that_is_repeated_makes_no_number_more_certain():
+    rate, once = 200.0, 20.0
+    random = np.random.default_rng(5)
+    floor = random.normal(size=round(once * rate))
+    seat = np.convolve(floor, [0.2, 0.5, 0.2], "same") + 0.3 * random.normal(size=floor.size)
+    single, thrice = (
+        by_key(vibration_metrics(
+            RideSignals(np.arange(times * floor.size) / rate, rate, np.tile(floor, times), np.tile(seat, times)), distinct=once
+        ))
+        for times in (1, 3)
+    )  # fmt: skip
+    for key in ("factor", "a_w"):
+        # three times as long would be 1.7 times as certain; the filter of the weighting begins at rest once
+        assert thrice[key].spread == pytest.approx(single[key].spread, rel=1e-3)
+        assert "too short: 20 s over and over, 34 s needed" in thrice[key].broken
+        assert "too short: 20 s, 34 s needed" in single[key].broken

@@ -57,6 +57,8 @@ def exposure_metrics(
     rate: float,
     doubts: tuple[str, ...],
     axis: Exposed = VERTICAL,
+    *,
+    once: int | None = None,
 ) -> list[Metric]:
     """Of one axis.
 
@@ -67,10 +69,11 @@ def exposure_metrics(
         rate: [Hz].
         doubts: assumptions that do not hold for any of them.
         axis: what it is to the person.
+        once: samples after which the excitation repeats itself, which say how sure a mean is; None: all.
     """  # fmt: skip
     count, duration = metrics.weighted.size, metrics.weighted.size / rate
     peaky = (*doubts, *confidence.peaky(metrics.crest_factor))
-    spread = confidence.spread_of_rms(metrics.weighted, rate)
+    spread = confidence.spread_of_rms(metrics.weighted[:once], rate)
     a_w, mtvv = metrics.weighted_rms, metrics.largest_running_rms
     comfort = "weighted_rms" if axis.weighting in COMFORT else ""
     found = [

@@ -66,11 +66,12 @@ def _parts(values: NDArray[np.float64], sample_rate: float) -> NDArray[np.float6
     return found
 
 
-def short(samples: int, sample_rate: float) -> tuple[str, ...]:
-    """That a record of so many ``samples`` at a rate [Hz] is too short; empty where it is not."""
+def short(samples: int, sample_rate: float, *, repeated: bool = False) -> tuple[str, ...]:
+    """That a record of so many ``samples`` at a rate [Hz], ``repeated`` or not, is too short; empty where it is not."""
     caution = shortage_of_record(samples, sample_rate)
     needed = caution.partition("; a ride of ")[2].partition(" s or more")[0]
-    return (f"too short: {samples / sample_rate:.3g} s, {needed} s needed",) if caution else ()
+    length = f"{samples / sample_rate:.3g} s{' over and over' if repeated else ''}"
+    return (f"too short: {length}, {needed} s needed",) if caution else ()
 
 
 def slow(sample_rate: float) -> tuple[str, ...]:

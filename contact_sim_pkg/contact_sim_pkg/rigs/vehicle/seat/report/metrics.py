@@ -46,7 +46,7 @@ def seat_metrics(recording: Recording) -> list[Metric]:
     if signals is not None and shock:
         found = shock_metrics(signals, errors.largest("motion", "motion"))
     elif signals is not None:
-        found = vibration_metrics(signals, recorded_faults(recording), errors)
+        found = vibration_metrics(signals, recorded_faults(recording), errors, distinct_time(recording))
     found[1:1] = travel_metrics(seat_travel(recording))
     if contact is None:
         return found
@@ -111,17 +111,21 @@ def shock_metrics(signals: RideSignals, error: float = math.nan) -> list[Metric]
     return found
 
 
-def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = (), errors: Errors | None = None) -> list[Metric]:
+def vibration_metrics(
+    signals: RideSignals, faults: tuple[str, ...] = (), errors: Errors | None = None, distinct: float = math.inf
+) -> list[Metric]:
     """SEAT, exposure and the peak of the way from floor to seat; ``faults`` of the recording that drives the
-    floor hold for all of them; ``errors``: numerical ones of the run."""
+    floor hold for all of them; ``errors``: numerical ones of the run; ``distinct``: [s] after which the floor repeats
+    itself, which makes no number more certain."""
     rate, length = signals.sample_rate, signals.time.size
+    once = min(length, round(min(distinct, length / rate) * rate))
     floor, seat = (ride_metrics(each, rate) for each in (signals.floor, signals.seat))
     window = float(signals.time[0]), float(signals.time[0]) + length / rate
     make = Maker(SEAT, "bench/motion", window).make
-    doubts = (*confidence.short(length, rate), *confidence.slow(rate), *faults)
+    doubts = (*confidence.short(once, rate, repeated=once < length), *confidence.slow(rate), *faults)
     peaky = (*doubts, *confidence.peaky(seat.crest_factor))
     factor = seat_factor(seat.weighted_rms, floor.weighted_rms)
-    spread = 100.0 * confidence.spread_of_ratio(seat.weighted, floor.weighted, rate)
+    spread = 100.0 * confidence.spread_of_ratio(seat.weighted[:once], floor.weighted[:once], rate)
     # Over the rms, of which the largest value is crest factor times as much.
     of_rms = math.nan if errors is None else errors.of_mean("motion", "motion", 1.0, seat.crest_factor)
     found = [
@@ -129,7 +133,7 @@ def vibration_metrics(signals: RideSignals, faults: tuple[str, ...] = (), errors
              error=of_rms * factor, remark=f"floor {floor.weighted_rms:.3g} m/s²"),
     ]  # fmt: skip
     found += _way_to_seat(make, signals, doubts)
-    for each in exposure_metrics(make, seat, signals.seat, rate, doubts):
+    for each in exposure_metrics(make, seat, signals.seat, rate, doubts, once=once):
         power = (
             0.0
             if each.key.endswith((".crest", ".spine_risk"))
@@ -149,17 +153,24 @@ def weighted_metrics(recording: Recording, weighting: Weighting) -> list[Metric]
     if signals is None:
         return []
     rate, length = signals.sample_rate, signals.time.size
+    once = min(length, round(min(distinct_time(recording), length / rate) * rate))
     floor, seat = (ride_metrics(each, rate, weighting) for each in (signals.floor, signals.seat))
     window = float(signals.time[0]), float(signals.time[0]) + length / rate
     make = Maker(SEAT, "bench/motion", window).make
-    broken = (*confidence.short(length, rate), *confidence.slow(rate), *recorded_faults(recording))
+    broken = (
+        *confidence.short(once, rate, repeated=once < length),
+        *confidence.slow(rate),
+        *recorded_faults(recording),
+    )
     factor = seat_factor(seat.weighted_rms, floor.weighted_rms)
-    spread = 100.0 * confidence.spread_of_ratio(seat.weighted, floor.weighted, rate)
+    spread = 100.0 * confidence.spread_of_ratio(seat.weighted[:once], floor.weighted[:once], rate)
     vertical = weighting.name == WK.name
     return [
         make("factor", f"SEAT, {weighting.name}", factor, "%", broken=broken, spread=spread, count=length,
              remark=f"floor {floor.weighted_rms:.3g} m/s²"),
-        *exposure_metrics(make, seat, signals.seat, rate, broken, Exposed(weighting.name, vertical=vertical, decides=vertical)),
+        *exposure_metrics(
+            make, seat, signals.seat, rate, broken, Exposed(weighting.name, vertical=vertical, decides=vertical), once=once
+        ),
     ]  # fmt: skip
 
 
@@ -274,8 +285,21 @@ def largest_of_map(field: FieldSeries, maker: Maker, errors: Errors) -> list[Met
 
 def recorded_faults(recording: Recording) -> tuple[str, ...]:
     """What is wrong with the recording that drives the floor: samples at full scale, a low rate."""
-    described = excitation_of_text(recording.metadata.get(EXCITATION_KEY), f"excitation of {recording.name}")
-    return tuple(fault for values in described.values() for fault in faults_of(values))
+    return tuple(fault for values in _described(recording).values() for fault in faults_of(values))
+
+
+def distinct_time(recording: Recording) -> float:
+    """Time after which the recording that drives the floor repeats itself, [s]; infinite where it does not, and where
+    something else drives the floor too.
+    """
+    described = _described(recording)
+    once = [values.get("duration_s") for values in described.values() if values.get("beyond_the_recording") == "repeat"]
+    lasts = [float(each) for each in once if isinstance(each, int | float) and each > 0.0]
+    return max(lasts) if lasts and len(lasts) == len(described) else math.inf
+
+
+def _described(recording: Recording) -> dict[str, dict[str, Any]]:
+    return excitation_of_text(recording.metadata.get(EXCITATION_KEY), f"excitation of {recording.name}")
 
 
 def faults_of(described: Mapping[str, Any]) -> tuple[str, ...]:
