@@ -35,13 +35,28 @@ if TYPE_CHECKING:
 __all__ = ["Bag", "Series", "compare", "fit", "load_scene", "open_bag", "run", "series", "sweep"]
 
 
-def load_scene(name: str | Path, *values: str) -> ResolvedScene:
-    """A scene by the name of a shipped one or the path of a file, with ``values`` such as
-    ``"duration=0.5"`` set, resolved: nothing is left open.
+def load_scene(name: str | Path, *values: str, within: Mapping[str, float] | None = None) -> ResolvedScene:
+    """A scene by the name of a shipped one or the path of a file, resolved: nothing is left open.
 
-    Raises SceneError with every fault.
+    Args:
+        name: of the scene, or its path.
+        values: such as ``"duration=0.5"``.
+        within: relative numerical error that metrics may have, ``{"seat.factor": 0.005}``, in place of one ``accuracy``: steps
+            and cells are then as loose as they allow, found by short runs where these pay.
+
+    Raises:
+        SceneError: with every fault.
+        BagError, RunError: of ``within``: the scene has no such metric, or a short run ends early.
     """
-    return resolve(load_checked(str(name), [set_value(each, "the value ") for each in values]))
+
+    def made(*more: str) -> ResolvedScene:
+        return resolve(load_checked(str(name), [set_value(each, "the value ") for each in (*values, *more)]))
+
+    if not within:
+        return made()
+    from contact_sim_pkg.studies.accuracy.by_metric import choose
+
+    return choose(lambda accuracy: made(f"accuracy={accuracy:g}"), within, doing).scene
 
 
 def open_bag(path: str | Path, *, skip_bad: bool = False) -> Bag:

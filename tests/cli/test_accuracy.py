@@ -9,6 +9,7 @@ from contact_sim_lab.accuracy import rig_study, scene_study, work_precision
 from contact_sim_lab.cases import RigStudies, rig_studies
 from contact_sim_lab.records.work_precision import WorkPrecision
 from contact_sim_lab.rigs.vehicle.work_precision import road as work_precision_road
+from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.cli.accuracy import command
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.records.table import number_of
@@ -83,6 +84,8 @@ def test_a_scene_of_a_rig_that_is_not_measured_is_refused_with_the_way_out(monke
         (["tire_bump", "--deep", "--parts"], "--parts has tables of its own"),
         (["tire", "tire_bump"], "several names are scenes at first look; give tire alone"),
         (["nowhere/bag.mcap"], "cannot be opened"),
+        (["BAG", "--within", "SEAT=1%"], "--within is for one scene"),
+        (["tire_bump", "--within", "SEAT"], "'SEAT' is no request: write METRIC=0.5%"),
     ],
 )
 def test_an_option_without_a_meaning_is_refused_before_the_work(capsys, tmp_path, arguments, said):
@@ -94,6 +97,21 @@ def test_an_option_without_a_meaning_is_refused_before_the_work(capsys, tmp_path
 def test_a_check_needs_a_recording(capsys):
     assert main(["run", "block_slope", "--offline", "--no-record", "--check"]) == 2
     assert "--check compares the bag with a finer run" in capsys.readouterr().err
+
+
+def test_requests_of_metrics_stand_in_place_of_an_accuracy(capsys):
+    assert main(["run", "block_slope", "--offline", "--no-record", "--within", "x=1%", "--set", "accuracy=1e-3"]) == 2
+    assert "--within finds an accuracy, and --set accuracy gives one" in capsys.readouterr().err
+
+
+def test_a_run_has_the_dials_that_its_metrics_need(capsys, tmp_path):
+    bag = tmp_path / "bag"
+    arguments = ["run", "block_slope", "--offline", "--duration", "0.05", "--out", str(bag)]
+    assert main([*arguments, "--within", "block.speed=2%", "--within", "block.slip=4e-4"]) == 0
+    assert "accuracy 0.0004 for the steps" in capsys.readouterr().err
+    text = open_bag(bag).scene
+    assert text is not None
+    assert "accuracy: 0.0004" in text
 
 
 def test_a_run_and_its_bag_are_checked_alike(capsys, tmp_path):

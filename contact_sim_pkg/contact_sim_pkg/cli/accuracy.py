@@ -27,12 +27,17 @@ from contact_sim_pkg.cli.output.tables import (
 )
 @click.option("--deep", is_flag=True, help="Of a scene: 1e-4 as well, against 3e-5.")
 @click.option("--parts", is_flag=True, help="Of a scene: tables of each tolerance, grid and level instead.")
+@click.option(
+    "--within", multiple=True, metavar="METRIC=0.5%",
+    help="Of a scene: the dials that give metrics these errors, and what they cost.",
+)  # fmt: skip
 @click.option("--whole", is_flag=True, help="Of a bag: the whole run in place of windows of 0.2 s.")
 @overwrite_option
 @json_option
 def command(
-    names: tuple[str, ...], plot: Path | None, deep: bool, parts: bool, whole: bool, overwrite: bool, as_json: bool
-) -> None:
+    names: tuple[str, ...], plot: Path | None, deep: bool, parts: bool, within: tuple[str, ...], whole: bool, overwrite: bool,
+    as_json: bool,
+) -> None:  # fmt: skip
     """What accuracy costs in time, and what was delivered.
 
     SCENE, a name or a path, or several: the scene at 1e-1, 1e-2, 1e-3 against one finer run. BAG, the directory
@@ -45,6 +50,11 @@ def command(
     what, rig = names[0], names[0] in rig_names()
     bag = _is_bag(what) and not rig
     _refuse_options(deep=deep, parts=parts, whole=whole, plot=plot, bag=bag, rig=rig)
+    if within:
+        if bag or rig or len(names) > 1 or deep or parts or plot is not None:
+            raise click.UsageError("--within is for one scene, without other options")
+        _choose(what, within, as_json=as_json)
+        return
     if len(names) > 1 and (rig or bag or parts):
         raise click.UsageError(f"several names are scenes at first look; give {what} alone")
     if plot is not None:
@@ -77,6 +87,18 @@ def _refuse_options(*, deep: bool, parts: bool, whole: bool, plot: Path | None, 
         raise click.UsageError("--parts has tables of its own; leave --deep out")
     if plot is not None and bag:
         raise click.UsageError("a bag has one accuracy and no picture of several; leave --plot out")
+
+
+def _choose(name: str, within: tuple[str, ...], *, as_json: bool) -> None:
+    """Dials of a scene for the accuracy of metrics."""
+    from contact_sim_pkg.scene.resolve import load_resolved
+    from contact_sim_pkg.studies.accuracy.by_metric import choose, parsed, rows_of, sections
+
+    choice = choose(lambda accuracy: load_resolved(name, f"accuracy={accuracy:g}"), parsed(within), announce)
+    if as_json:
+        print_json_rows(rows_of(choice))
+    else:
+        show_sections(sections(choice))
 
 
 def _check(path: Path, *, whole: bool, as_json: bool) -> None:

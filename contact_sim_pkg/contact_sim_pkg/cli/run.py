@@ -25,6 +25,10 @@ from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
     show_default=True,
     help="Simulated time on /clock, unless another node publishes it.",
 )
+@click.option(
+    "--within", multiple=True, metavar="METRIC=0.5%",
+    help="Numerical error that a metric may have: steps and cells as loose as it allows, found by short runs.",
+)  # fmt: skip
 @click.option("--allow-long", is_flag=True, help="Run even if the estimate is above 10 min of computing.")
 @click.option(
     "--strict",
@@ -43,6 +47,7 @@ def command(
     out: Path | None,
     from_bag: Path | None,
     clock: bool,
+    within: tuple[str, ...],
     allow_long: bool,
     strict: bool,
     no_record: bool,
@@ -59,6 +64,7 @@ def command(
         out=out,
         from_bag=from_bag,
         clock=clock,
+        within=within,
         record=not no_record,
         check=check,
         as_json=as_json,

@@ -121,14 +121,15 @@ class PreparedRun(NamedTuple):
 
 
 def prepare(
-    options: SceneOptions, *, out: Path | None, from_bag: Path | None, record: bool, allow_long: bool
-) -> PreparedRun:
+    options: SceneOptions, *, out: Path | None, from_bag: Path | None, record: bool, allow_long: bool,
+    within: tuple[str, ...] = (),
+) -> PreparedRun:  # fmt: skip
     """Resolve the scene and refuse whatever can be refused, before the first process or file.
 
     Raises:
         SceneError, BagError, ExcitationError: refused.
     """
-    scene = options.resolve(from_bag)
+    scene = options.within(within, from_bag) if within else options.resolve(from_bag)
     if from_bag is not None:
         from contact_sim_pkg.run.from_bag import cautions, refuse_other_scene
 
@@ -153,6 +154,7 @@ def run_scene(
     as_json: bool,
     allow_long: bool,
     strict: bool = False,
+    within: tuple[str, ...] = (),
 ) -> int:
     """Run a scene; returns the exit status. Ends the process where an abandoned computation
     still runs in it.
@@ -164,7 +166,9 @@ def run_scene(
         from contact_sim_pkg.run.from_bag import STEERED, refuse_steered
 
         refuse_steered(from_bag, STEERED)
-    scene, directory, forecast = prepare(options, out=out, from_bag=from_bag, record=record, allow_long=allow_long)
+    scene, directory, forecast = prepare(
+        options, out=out, from_bag=from_bag, record=record, allow_long=allow_long, within=within
+    )
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
     signals = OtherSignals()
     with _signals_call(signals):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -43,13 +43,16 @@ class SceneOptions:
         chosen = [make(value) for value, make in made if value is not None]
         return chosen + [overrides.set_value(assignment) for assignment in self.assignments]
 
-    def resolve(self, bag: Path | None = None) -> ResolvedScene:
-        """The resolved scene: the one that was named, or that of the bag where none was.
+    def resolve(self, bag: Path | None = None, accuracy: float | None = None) -> ResolvedScene:
+        """The resolved scene: the one that was named, or that of the bag where none was; at an ``accuracy`` of the
+        caller's, if any.
 
         Raises:
             SceneError: faults of the scene or of the options. BagError: the bag cannot be read or
             holds no scene.
         """
+        if accuracy is not None:
+            return replace(self, assignments=(*self.assignments, f"accuracy={accuracy:g}")).resolve(bag)
         if self.scene is not None:
             from contact_sim_pkg.scene.load import load_scene
             from contact_sim_pkg.scene.resolve import resolve
@@ -58,6 +61,22 @@ class SceneOptions:
         if bag is None:
             raise click.UsageError("Missing argument 'SCENE' (or --from-bag BAG, whose scene is taken).")
         return _scene_of_bag(bag, self.overrides())
+
+    def within(self, requests: tuple[str, ...], bag: Path | None = None) -> ResolvedScene:
+        """The scene with dials for the accuracy of metrics, found by short runs where they pay; says what was chosen.
+
+        Raises:
+            As `resolve`; BagError also for a request that is none. RunError: a short run ends early.
+        """
+        from contact_sim_pkg.cli.output.say import announce, say
+        from contact_sim_pkg.studies.accuracy.by_metric import choose, lines_of, parsed
+
+        if any(each.partition("=")[0].strip() == "accuracy" for each in self.assignments):
+            raise click.UsageError("--within finds an accuracy, and --set accuracy gives one; leave one of them out")
+        choice = choose(lambda accuracy: self.resolve(bag, accuracy), parsed(requests), announce)
+        for line in lines_of(choice):
+            say(line, err=True)
+        return choice.scene
 
 
 def _scene_of_bag(path: Path, overrides: list[Override]) -> ResolvedScene:

@@ -25,7 +25,7 @@ from contact_sim_pkg.scene.resolve import read_explicit
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.pressure_field import MOST_CELLS_A_SIDE
 
-__all__ = ["Companion", "companion_of", "dials_of", "factor_of", "finer_than", "halved"]
+__all__ = ["Companion", "cells_of", "companion_of", "dials_of", "factor_of", "finer_than", "halved", "with_values"]
 
 INTEGRATION, COUPLING, LENGTH, CELLS, SOLVER = 0.01, 0.25, 0.5, 1.5, 0.1
 SAMPLES = 4.0
@@ -58,7 +58,7 @@ def companion_of(scene: ResolvedScene, *, grid: bool = True) -> Companion:
     """
     values = dict(_dials(scene.data, grid=grid))
     cells = any(key.endswith((".rows", ".cell")) for key in values)
-    return Companion(_with(scene, values), tuple(values), cells)
+    return Companion(with_values(scene, values), tuple(values), cells)
 
 
 def halved(scene: ResolvedScene) -> ResolvedScene:
@@ -71,7 +71,7 @@ def halved(scene: ResolvedScene) -> ResolvedScene:
         values |= _coarser(f"effects.{contact.name}", effects)
         if not any(keys and "cell" in keys for keys in effects.values()):  # a cushion has the cells of its map itself
             values |= _coarser(contact.name, scene.data.get(contact.name) or {})
-    return _with(scene, values)
+    return with_values(scene, values)
 
 
 def _coarser(where: str, keys: Mapping[str, Any]) -> dict[str, Any]:
@@ -99,10 +99,21 @@ def finer_than(scene: ResolvedScene, other: ResolvedScene) -> ResolvedScene:
         for key, value in _dials(scene.data, grid=True)
         if key == f"integrator.{INTEGRATOR}" or shared.get(key) == _value(scene.data, key)
     }
-    return _with(scene, values)
+    return with_values(scene, values)
 
 
-def _with(scene: ResolvedScene, values: Mapping[str, Any]) -> ResolvedScene:
+def cells_of(scene: ResolvedScene) -> dict[str, Any]:
+    """Cells of the fields and cushions of a scene, by dotted key."""
+    return {
+        f"{where}.{side}": keys[side]
+        for where, keys in _effects(scene.data)
+        for side in ("rows", "cols", "cell")
+        if keys.get(side) is not None and (side == "cell" or _is_field(keys))
+    }
+
+
+def with_values(scene: ResolvedScene, values: Mapping[str, Any]) -> ResolvedScene:
+    """A resolved scene with other values, by dotted key; checked again."""
     overrides = [set_value(f"{key}={value}") for key, value in values.items()]
     return ResolvedScene(read_explicit(scene.to_yaml(), f"{scene.name}, finer", overrides), scene.files)
 
@@ -142,15 +153,25 @@ def _dials(data: dict[str, Any], *, grid: bool) -> Iterator[tuple[str, Any]]:
                 yield f"integrator.{key}", finer
     if integrator.get("coupling_tolerance") is not None:
         yield "outputs.force_rate", SAMPLES * data["outputs"]["force_rate"]
+    for where, keys in _effects(data):
+        yield from _grid_dials(where, keys, grid=grid)
+
+
+def _effects(data: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Dotted key and keys of each effect of a resolved scene."""
     for contact in rigs()[data["rig"]].contacts:
         for effect, keys in (data["effects"].get(contact.name) or {}).items():
             if keys is not None:
-                yield from _grid_dials(f"effects.{contact.name}.{effect}", keys, grid=grid)
+                yield f"effects.{contact.name}.{effect}", keys
+
+
+def _is_field(keys: Mapping[str, Any]) -> bool:
+    return "rows" in keys and "corrector_passes" in keys
 
 
 def _grid_dials(where: str, keys: dict[str, Any], *, grid: bool) -> Iterator[tuple[str, Any]]:
     """Dials of an effect that is a pressure field or a cushion with a map."""
-    is_field = "rows" in keys and "corrector_passes" in keys
+    is_field = _is_field(keys)
     if is_field and keys["tolerance"] > LEAST["tolerance"]:
         yield f"{where}.tolerance", max(LEAST["tolerance"], SOLVER * keys["tolerance"])
     if grid and is_field:
