@@ -31,7 +31,7 @@ Kind = TypeVar("Kind", bound="Section")
 
 MAY_BE_LEFT_OUT = frozenset({
     "angle", "at_least", "at_most", "belt_width", "cols", "corrector_passes", "coupling_length", "coupling_tolerance",
-    "longitudinal", "points", "radius", "relative_tolerance", "rows", "sidewall_chord", "speed", "tolerance",
+    "load", "longitudinal", "mount", "points", "radius", "relative_tolerance", "rows", "sidewall_chord", "speed", "tolerance",
 })  # fmt: skip
 """Keys without a value of their own in sections outside the effects, of a pressure field and of an inflated tire."""
 
