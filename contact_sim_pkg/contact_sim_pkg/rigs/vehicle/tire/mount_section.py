@@ -42,7 +42,7 @@ class MountSection(Section):
         "default that of the load", default=None,
     )  # fmt: skip
     radius: float | None = number(
-        0.1, 100.0, "m", f"of the drum, {DRUM:g} by default", default=None,
+        0.1, 1e4, "m", f"of the drum, {DRUM:g} by default", default=None,
     )  # fmt: skip
     damping: float | None = number(
         0.0, 1e6, "N s/m", "of the slide that a loaded axle moves on; 2000 by default", default=None

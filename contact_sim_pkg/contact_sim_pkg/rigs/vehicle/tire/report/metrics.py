@@ -216,7 +216,7 @@ def _hop(ride: _Ride, stiffness: float) -> Iterator[Metric]:
     """The frequency at which the wheel hops on an uneven road, beside that on the ``stiffness`` [N/m] of its tire."""
     tire, motion = ride.recording.scene["tire"], ride.recording.motion
     wheel = None if motion is None else motion.acceleration.get("wheel_z")
-    if motion is None or wheel is None or not ride.rough:
+    if motion is None or wheel is None or not ride.rough or "body_z" not in motion.acceleration:
         return
     masses = np.array([float(tire["wheel_mass"]), float(tire["body_mass"])])
     spring = float(tire["suspension_stiffness"])
