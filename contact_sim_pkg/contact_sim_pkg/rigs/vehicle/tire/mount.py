@@ -7,10 +7,14 @@ from dataclasses import dataclass
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.rigs.vehicle.motion.spring import Spring
+from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable
 from contact_sim_pkg.rigs.vehicle.tire.mount_section import MountSection
 from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
+from contact_sim_pkg.scene.errors import Fault, SceneError
+from contact_sim_pkg.scene.schema.catalog import show_below
 
-__all__ = ["Mounted", "mounted"]
+__all__ = ["Mounted", "mounted", "refuse_beyond_law"]
 
 
 @dataclass(frozen=True)
@@ -70,3 +74,24 @@ def mounted(tire: TireSection) -> Mounted | None:
     kept = numpy.array([mount.load] if load is None else load, dtype=numpy.float64)
     assert mount.damping is not None
     return Mounted(numpy.array(times, dtype=numpy.float64), kept, None, float(kept[0]), mount.damping)
+
+
+def refuse_beyond_law(machine: Mounted, tire: TireSection, table: TireTable, sidewalls: Spring | None) -> None:
+    """SceneError where a machine runs an inflated tire beyond its force ``table``, by the first row that does."""
+    force = float(table.force[-1])
+    deepest = (len(table.force) - 1) * table.spacing + (0.0 if sidewalls is None else force / sidewalls.stiffness)
+    for name, values, most, unit in (("load", machine.load, force, "N"), ("deflection", machine.deflection, deepest, "m")):
+        if values is None or not (beyond := numpy.flatnonzero(values > most)).size:
+            continue
+        programme, row = tire.programme, int(beyond[0])
+        by_programme = programme is not None and getattr(programme, name) is not None
+        where = f"tire.programme.{name}.{row}" if by_programme else f"tire.mount.{name}"
+        when = f" at {machine.times[row]:g} s" if by_programme else ""
+        sentence = (
+            f"{values[row]:g} {unit}{when} is beyond the law, which ends at {show_below(most, 3)} {unit} with this inflation; take "
+            "less, or more effects.tire.inflation.pressure"
+        )
+        raise SceneError([Fault("scene", 0, 0, where, sentence)])
+    if machine.load is None and machine.deflection is None and machine.start > force:
+        sentence = f"{machine.start:g} N is beyond the law, which ends at {show_below(force, 3)} N with this inflation; take less"
+        raise SceneError([Fault("scene", 0, 0, "tire.mount.load", sentence)])
