@@ -64,6 +64,11 @@ def _programmes(scene: Scene) -> Iterator[tuple[str, FileReader]]:
 
 def input_files(scene: Scene) -> list[InputFile]:
     """The files that a scene names."""
-    readers: list[tuple[str, FileReader]] = [*excitations(scene).items(), *curves_of(scene), *_effects(scene), *_programmes(scene)]
+    readers: list[tuple[str, FileReader]] = [
+        *excitations(scene).items(),
+        *curves_of(scene),
+        *_effects(scene),
+        *_programmes(scene),
+    ]
     found = ((f"{where}.file", reader.input_file(), reader) for where, reader in readers)
     return [InputFile(where, *file, reader) for where, file, reader in found if file is not None]

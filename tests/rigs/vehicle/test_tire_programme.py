@@ -64,7 +64,7 @@ def test_a_file_that_is_no_programme_is_refused_in_one_sentence(said, tmp_path):
 
 
 def test_a_file_that_is_not_there_is_said_once():
-    with pytest.raises(SceneError, match="gone.csv") as error:
+    with pytest.raises(SceneError, match=r"gone\.csv") as error:
         resolved(TRACK, "tire.programme={file: gone.csv}")
     assert len(error.value.faults) == 1
 
@@ -76,7 +76,8 @@ BAD_KEYS = {
     "the programme of the tire gives it too": (TRACK, COLUMNS, "travel={speed: 10}"),
     "has 3 numbers, time has 2": (TRACK, "tire.programme={time: [0, 1], load: [1000, 1100, 1200]}", "travel={speed: 10}"),
     "is missing; give it with the columns, or a file": (TRACK, "tire.programme={load: [1000, 1100]}", "travel={speed: 10}"),
-    "acts through the effect brush or magic_formula": ("tire_drum", "tire.programme={time: [0, 1], slip: [0, -0.1], speed: [5, 5]}"),
+    "acts through the effect brush or magic_formula": ("tire_drum", "tire.programme={time: [0, 1], slip: [0, -0.1]}",
+                                                       "travel={speed: 10}"),
     "the rim turns by effects.tire.wheel_spin": ("tire_cleat", "tire.programme={time: [0, 1], slip: [0, -0.1]}"),
 }  # fmt: skip
 

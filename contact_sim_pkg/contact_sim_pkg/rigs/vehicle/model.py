@@ -31,8 +31,8 @@ from contact_sim_pkg.rigs.vehicle.field.settings import field_settings
 from contact_sim_pkg.rigs.vehicle.motion.ends import Floor, Pan, base_of
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Leaning, MasslessNode, Seat, Seated, Softening, Vehicle
-from contact_sim_pkg.rigs.vehicle.motion.spring import Spring
 from contact_sim_pkg.rigs.vehicle.motion.scales import POSITION_SCALE, VELOCITY_SCALE, contact_scale
+from contact_sim_pkg.rigs.vehicle.motion.spring import Spring
 from contact_sim_pkg.rigs.vehicle.rest import settle
 from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
 from contact_sim_pkg.rigs.vehicle.seat.cushion import SeatMap, build_pan_cushion, build_seat_map

@@ -91,7 +91,11 @@ def specimen_of_file(tire: PropertyFile) -> Specimen:
 
 
 def scene_on(
-    effects: Effects, conditions: Mapping[str, float], needs: Sequence[str], mount: dict[str, Any] | None = None, **parts: Any
+    effects: Effects,
+    conditions: Mapping[str, float],
+    needs: Sequence[str],
+    mount: dict[str, Any] | None = None,
+    **parts: Any,
 ) -> ResolvedScene:
     """The tire under the `load` [N] and at the `inflation` [Pa] of the conditions, with the effects that a machine
     ``needs``, each with the tire's keys, else the usual ones; on a ``mount`` (None: the quarter car), ``parts`` of the

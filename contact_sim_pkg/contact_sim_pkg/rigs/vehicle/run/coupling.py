@@ -397,7 +397,11 @@ class Coupling:
             return 0.0
         self.tire.place(drive.road, float(drive.travel[point]))
         solve = self.tire.solve_published if is_published else self.tire.solve_between
-        return solve(self.bodies.tire_approach(drive.table_at(point)), self.bodies.tire_approach(float(drive.smooth[point])), block)
+        return solve(
+            self.bodies.tire_approach(drive.table_at(point)),
+            self.bodies.tire_approach(float(drive.smooth[point])),
+            block,
+        )
 
     def _solve_seat(self, block: int) -> float:
         """Solve the seat's field at the present state; returns its correction [m], 0 without a

@@ -49,9 +49,7 @@ class Mounted:
         """Height [m] of the table at ``times`` [s], and its rate [m/s] over a ``step`` [s] to both sides."""
         if self.deflection is None:
             return numpy.zeros(len(times)), numpy.zeros(len(times))
-        before, here, behind = (
-            numpy.interp(times + side, self.times, self.deflection) for side in (-step, 0.0, step)
-        )
+        before, here, behind = (numpy.interp(times + side, self.times, self.deflection) for side in (-step, 0.0, step))
         return here, (behind - before) / (2.0 * step)
 
 
@@ -80,7 +78,10 @@ def refuse_beyond_law(machine: Mounted, tire: TireSection, table: TireTable, sid
     """SceneError where a machine runs an inflated tire beyond its force ``table``, by the first row that does."""
     force = float(table.force[-1])
     deepest = (len(table.force) - 1) * table.spacing + (0.0 if sidewalls is None else force / sidewalls.stiffness)
-    for name, values, most, unit in (("load", machine.load, force, "N"), ("deflection", machine.deflection, deepest, "m")):
+    for name, values, most, unit in (
+        ("load", machine.load, force, "N"),
+        ("deflection", machine.deflection, deepest, "m"),
+    ):
         if values is None or not (beyond := numpy.flatnonzero(values > most)).size:
             continue
         programme, row = tire.programme, int(beyond[0])
@@ -88,10 +89,10 @@ def refuse_beyond_law(machine: Mounted, tire: TireSection, table: TireTable, sid
         where = f"tire.programme.{name}.{row}" if by_programme else f"tire.mount.{name}"
         when = f" at {machine.times[row]:g} s" if by_programme else ""
         sentence = (
-            f"{values[row]:g} {unit}{when} is beyond the law, which ends at {show_below(most, 3)} {unit} with this inflation; take "
+            f"{values[row]:g} {unit}{when} is beyond the law, which ends at {show_below(most, 5)} {unit} with this inflation; take "
             "less, or more effects.tire.inflation.pressure"
         )
         raise SceneError([Fault("scene", 0, 0, where, sentence)])
     if machine.load is None and machine.deflection is None and machine.start > force:
-        sentence = f"{machine.start:g} N is beyond the law, which ends at {show_below(force, 3)} N with this inflation; take less"
+        sentence = f"{machine.start:g} N is beyond the law, which ends at {show_below(force, 5)} N with this inflation; take less"
         raise SceneError([Fault("scene", 0, 0, "tire.mount.load", sentence)])

@@ -56,7 +56,11 @@ class MountSection(Section):
         tire, control = scene.section(TireSection), self.control
         programme = {} if tire.programme is None else tire.programme.columns(scene)
         if control is None:
-            control = "load" if "load" in programme or (self.kind in LOADED and not self._keeps_height(programme)) else "height"
+            control = (
+                "load"
+                if "load" in programme or (self.kind in LOADED and not self._keeps_height(programme))
+                else "height"
+            )
         load = max(programme["load"]) if "load" in programme else (tire.wheel_mass + tire.body_mass) * GRAVITY
         found: dict[str, Any] = {"control": control, "load": load}
         if self.kind == "drum":
@@ -78,26 +82,40 @@ def mount_breaches(scene: Scene) -> Iterator[Breach]:
     if mount is None or mount.kind == "quarter_car":
         for name in () if mount is None else ("control", "load", "deflection", "radius", "damping"):
             if getattr(mount, name) is not None:
-                yield Breach(f"{where}.{name}", "is none of a quarter_car; take another kind, or leave it out", (f"{where}.kind",))
+                yield Breach(
+                    f"{where}.{name}",
+                    "is none of a quarter_car; take another kind, or leave it out",
+                    (f"{where}.kind",),
+                )
         return
     control = mount.open_values(scene)["control"] if mount.control is None else mount.control
     if scene.rig != "tire":
         yield Breach(f"{where}.kind", f"{mount.kind} carries no car; take the rig tire, or quarter_car", ("rig",))
     if mount.radius is not None and mount.kind != "drum":
-        yield Breach(f"{where}.radius", f"is that of a drum, the mount is {mount.kind}; leave it out", (f"{where}.kind",))
+        yield Breach(
+            f"{where}.radius", f"is that of a drum, the mount is {mount.kind}; leave it out", (f"{where}.kind",)
+        )
     if mount.kind == "drum" and scene.effect("tire", Inflation) is None:
-        sentence = "a drum takes an inflated tire, whose force table knows its curvature; add effects.tire.inflation: {}"
+        sentence = (
+            "a drum takes an inflated tire, whose force table knows its curvature; add effects.tire.inflation: {}"
+        )
         yield Breach(f"{where}.kind", sentence, ("effects.tire",))
     if mount.deflection is not None and control == "load":
         sentence = "the load is kept, the deflection follows from it; leave it out, or take control: height"
         yield Breach(f"{where}.deflection", sentence, (f"{where}.control",))
     if mount.damping is not None and control == "height":
         yield Breach(f"{where}.damping", "an axle held in height does not slide; leave it out", (f"{where}.control",))
-    speeds = [0.0] if scene.travel is None else [scene.travel.speed or 0.0, *(each[1] for each in scene.travel.points or ())]
+    speeds = (
+        [0.0] if scene.travel is None else [scene.travel.speed or 0.0, *(each[1] for each in scene.travel.points or ())]
+    )
     if mount.kind == "plate" and max(speeds) > 0.0:
         sentence = f"a plate stands, the tire does not roll at {show(max(speeds))} m/s; take 0, or the mount flat_track"
-        yield Breach("travel.points" if scene.travel and scene.travel.points else "travel.speed", sentence, (f"{where}.kind",))
+        yield Breach(
+            "travel.points" if scene.travel and scene.travel.points else "travel.speed", sentence, (f"{where}.kind",)
+        )
     for effect in rigs()[scene.rig].contacts[0].effects:
         if effect.elements and getattr(scene.effects.tire, effect.name, None) is not None:  # type: ignore[attr-defined]
-            sentence = f"acts between wheel and body, {mount.kind} has none; leave it out, or take the mount quarter_car"
+            sentence = (
+                f"acts between wheel and body, {mount.kind} has none; leave it out, or take the mount quarter_car"
+            )
             yield Breach(f"effects.tire.{effect.name}", sentence, (f"{where}.kind",))

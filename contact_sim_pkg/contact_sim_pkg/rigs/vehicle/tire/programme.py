@@ -17,6 +17,7 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.schema.places import find_file
 
 if TYPE_CHECKING:
+    from contact_sim_pkg.rigs.vehicle.tire.mount_section import MountSection
     from contact_sim_pkg.scene.schema.scene import Scene
 
 __all__ = ["COLUMNS", "TireProgramme", "programme_breaches"]
@@ -77,7 +78,9 @@ class TireProgramme(Section):
         default=None, longest=500, example="sweep.csv",
     )  # fmt: skip
     sha256: str | None = sha256_key()
-    header_line: int | None = number(1, 10_000, "1", "line of the column names; null: the first that is no comment", default=None)
+    header_line: int | None = number(
+        1, 10_000, "1", "line of the column names; null: the first that is no comment", default=None
+    )
     time: list[Instant] | None = _column(TIME, "time of each row, increasing")
     load: list[Load] | None = _column(COLUMNS["load"], "load of the servo, in place of mount.load")
     deflection: list[Deflection] | None = _column(COLUMNS["deflection"], "of a held axle, in place of mount.deflection")
@@ -169,7 +172,9 @@ def read_programme(path: Path, header_line: int | None) -> dict[str, list[float]
             raise ExcitationError(f"{path}: column '{name}' gives the {quantity} a second time; keep one")
         given = table.units.get(name, "1" if unit == "1" else "")
         if given != unit:
-            raise ExcitationError(f"{path}: column '{name}' has no unit that fits; write it behind the name, as {name} [{unit}]")
+            raise ExcitationError(
+                f"{path}: column '{name}' has no unit that fits; write it behind the name, as {name} [{unit}]"
+            )
         found[quantity] = table.column(name).tolist()
     if len(found) == 1:
         raise ExcitationError(
@@ -183,38 +188,47 @@ def programme_breaches(scene: Scene) -> Iterator[Breach]:
     from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
 
     tire = scene.section(TireSection)
-    programme, mount = tire.programme, tire.mount
+    programme = tire.programme
     if programme is None:
         return
     if programme.file is None and programme.time is None:
         yield Breach(f"{WHERE}.time", "is missing; give it with the columns, or a file", (f"{WHERE}.file",))
         return
     if programme.time is None and (beside := [name for name in COLUMNS if getattr(programme, name) is not None]):
-        yield Breach(f"{WHERE}.{beside[0]}", "has no time; give the column time, or all by the file", (f"{WHERE}.time",))
+        yield Breach(
+            f"{WHERE}.{beside[0]}", "has no time; give the column time, or all by the file", (f"{WHERE}.time",)
+        )
         return
     try:
         found = programme.columns(scene)
     except SceneError:  # said of the file
         return
-    yield from _rows(found)
+    if programme.time is not None:  # of a file it is said with it
+        yield from _rows(found)
     if len(found) == 1:
         yield Breach(f"{WHERE}.time", f"has no quantity beside it; give {', '.join(COLUMNS)}")
+    yield from _kept(found, tire.mount, scene)
+    points = {"travel": programme.pairs(scene, "speed"), "slip": programme.pairs(scene, "slip", "slip_angle")}
+    for section, rows in points.items():
+        given = getattr(scene, section)
+        values = () if given is None else [(key, value) for key, value in given if value is not None]
+        if rows is not None and (stands := [key for key, value in values if value != rows]):
+            yield Breach(f"{section}.{stands[0]}", "the programme of the tire gives it too; keep one of them", (WHERE,))
+
+
+def _kept(columns: dict[str, list[float]], mount: MountSection | None, scene: Scene) -> Iterator[Breach]:
+    """A load or a deflection that the mount does not keep."""
     machine = mount is not None and mount.kind != "quarter_car"
     kept = (mount.control or mount.open_values(scene)["control"]) if mount is not None and machine else ""
     for name, needed in (("load", "load"), ("deflection", "height")):
-        if name not in found:
+        if name not in columns or kept == needed:
             continue
+        where, beside = f"{WHERE}.{name}", ("tire.mount.control",)
         if not machine:
             sentence = "acts on a test machine, the tire carries a quarter car; add tire.mount: {kind: flat_track}"
-            yield Breach(f"{WHERE}.{name}", sentence, ("tire.mount",))
-        elif kept != needed:
-            sentence = f"the mount keeps the {kept}; take control: {needed}, or leave the column out"
-            yield Breach(f"{WHERE}.{name}", sentence, ("tire.mount.control",))
-    for section, points in (("travel", programme.pairs(scene, "speed")), ("slip", programme.pairs(scene, "slip", "slip_angle"))):
-        given = getattr(scene, section)
-        values = () if given is None else [(key, value) for key, value in given if value is not None]
-        if points is not None and (stands := [key for key, value in values if value != points]):
-            yield Breach(f"{section}.{stands[0]}", "the programme of the tire gives it too; keep one of them", (WHERE,))
+            yield Breach(where, sentence, ("tire.mount",))
+        else:
+            yield Breach(where, f"the mount keeps the {kept}; take control: {needed}, or leave the column out", beside)
 
 
 def _rows(columns: dict[str, list[float]]) -> Iterator[Breach]:
@@ -222,7 +236,9 @@ def _rows(columns: dict[str, list[float]]) -> Iterator[Breach]:
     time = columns["time"]
     for index, (before, after) in enumerate(pairwise(time), start=1):
         if not after > before:
-            sentence = f"{show(after)} s does not come after {show(before)} s; times must rise, change it or leave it out"
+            sentence = (
+                f"{show(after)} s does not come after {show(before)} s; times must rise, change it or leave it out"
+            )
             yield Breach(f"{WHERE}.time.{index}", sentence)
     if time[0] != 0.0:
         yield Breach(f"{WHERE}.time.0", f"the first time is {show(time[0])} s; it must be 0")

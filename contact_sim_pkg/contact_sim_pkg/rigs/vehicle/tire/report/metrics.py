@@ -214,7 +214,9 @@ def _standing(ride: _Ride, stands: TireStanding) -> Iterator[Metric]:
         ("mean_pressure", "mean pressure", 1e-3 * stands.mean_pressure, "kPa", ""),
     )
     for key, name, value, unit, of in values:
-        quantity = "" if str(ride.conditions.get("road", "")).startswith("drum") else f"tire_{key}"  # published on a plate
+        quantity = (
+            "" if str(ride.conditions.get("road", "")).startswith("drum") else f"tire_{key}"
+        )  # published on a plate
         remark = ", ".join(filter(None, (of, f"static, under {1e-3 * stands.load:.3g} kN")))
         yield ride.make(key, name, value, unit, quantity=quantity, topic=f"{TIRE}/standing", basis=STATE,
                         remark=remark)  # fmt: skip
