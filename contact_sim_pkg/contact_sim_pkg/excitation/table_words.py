@@ -46,9 +46,9 @@ _SPELLINGS = {
     "gn": "g", "g_n": "g", "g0": "g", "gs": "g", "milli-g": "mg", "m/s/s": "m/s^2", "mps2": "m/s^2", "meter": "m", "meters": "m",
     "metre": "m", "metres": "m", "millimeter": "mm", "millimeters": "mm", "millimetre": "mm", "millimetres": "mm",
     "centimeter": "cm", "centimeters": "cm", "centimetre": "cm", "inch": "in", "inches": "in", "foot": "ft", "feet": "ft",
-    "kilometer": "km", "kilometre": "km", "newton": "n", "°": "deg", "degree": "deg", "degrees": "deg", "kmh": "km/h", "kph": "km/h", "°/s": "deg/s", "dps": "deg/s", "lb": "lbf", "n/cm2": "n/cm^2",
+    "kilometer": "km", "kilometre": "km", "newton": "n", "°/s": "deg/s", "dps": "deg/s", "lb": "lbf", "n/cm2": "n/cm^2",
     "n/mm2": "n/mm^2", "n/m2": "n/m^2", "kg/cm2": "kg/cm^2", "kgf/cm^2": "kg/cm^2", "kgf/cm2": "kg/cm^2", "g/cm2": "g/cm^2",
-    "lb/in^2": "psi", "lb/in2": "psi",
+    "lb/in^2": "psi", "lb/in2": "psi", "°": "deg", "degree": "deg", "degrees": "deg", "kmh": "km/h", "kph": "km/h",
 }  # fmt: skip
 _UNIT = re.compile(r'"?\s*(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\))\s*"?')
 _SUFFIX = re.compile(r"(.+)_(s|ms|us|ns)")
