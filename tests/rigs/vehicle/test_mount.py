@@ -95,7 +95,7 @@ def test_a_load_that_rises_lags_by_the_slide_and_is_there_in_the_end():
     )
     at = int(numpy.argmin(abs(run.time - 0.5)))
     stiffness = numpy.gradient(table.force, table.spacing)[round(run.approach[at] / table.spacing)]
-    damping = run.scene.data["tire"]["mount"]["damping"]
+    damping = run.scene.data["tire"]["mount"]["slide_damping"]
     assert load[at] - run.normal[at] == pytest.approx(damping * 2000.0 / stiffness, rel=0.02)
     assert run.normal[-1] == pytest.approx(4000.0, rel=1e-4)
     assert run.normal[50] == pytest.approx(3000.0, rel=1e-9)
@@ -147,7 +147,7 @@ REFUSED = {
         "tire.mount.deflection=0.01",
         "tire.mount.control=load",
     ),
-    "an axle held in height does not slide": ("tire_plate", "tire.mount.damping=100"),
+    "an axle held in height does not slide": ("tire_plate", "tire.mount.slide_damping=100"),
     "is that of a drum, the mount is flat_track": ("tire_drum", "tire.mount.kind=flat_track"),
     "acts between wheel and body, plate has none": ("tire_plate", "effects.tire.bump_stop={}"),
     "carries no car": ("car_ride", "tire.mount={kind: held}"),

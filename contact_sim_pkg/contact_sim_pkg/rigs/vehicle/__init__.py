@@ -19,8 +19,8 @@ TIRE = Contact(
     effects=TIRE_EFFECTS,
     rules=(
         *(f"{__name__}.tire.schema_rules:{name}" for name in ("slip_breaches", "tire_effect_breaches")),
-        f"{__name__}.tire.mount_section:mount_breaches",
-        f"{__name__}.tire.programme:programme_breaches",
+        f"{__name__}.tire.mount_rules:mount_breaches",
+        f"{__name__}.tire.mount_rules:programme_breaches",
         f"{__name__}.tire.magic_formula.section:magic_formula_breaches",
         f"{__name__}.effects.bump_stop:bump_stop_breaches",
     ),

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeAlias
+from typing import Annotated, Any, ClassVar, TypeAlias
 
 from pydantic import Field
 
 from contact_sim_pkg.records.fields import Section, number, numbers
 from contact_sim_pkg.records.registry import rigs
-
-if TYPE_CHECKING:
-    from contact_sim_pkg.scene.schema.scene import Scene
 
 MOST_POINTS = 10000
 SpeedPoint: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
@@ -34,7 +31,7 @@ class TravelSection(Section):
         longest=MOST_POINTS,
     )
 
-    def open_values(self, scene: Scene) -> dict[str, Any]:
+    def open_values(self, scene: Any) -> dict[str, Any]:
         points = points_of(scene, "speed")
         return {} if points is None else {"points": points}
 
@@ -65,12 +62,12 @@ class Slip(Section):
         longest=MOST_POINTS,
     )
 
-    def open_values(self, scene: Scene) -> dict[str, Any]:
+    def open_values(self, scene: Any) -> dict[str, Any]:
         points = points_of(scene, "slip", "slip_angle")
         return {} if points is None else {"points": points}
 
 
-def points_of(scene: Scene, *quantities: str) -> list[list[float]] | None:
+def points_of(scene: Any, *quantities: str) -> list[list[float]] | None:
     """Rows of time and quantities that a programme of the rig's contacts gives; None where none does."""
     for contact in rigs()[scene.rig].contacts:
         pairs = getattr(getattr(getattr(scene, contact.name), "programme", None), "pairs", None)

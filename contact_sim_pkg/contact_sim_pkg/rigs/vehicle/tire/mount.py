@@ -70,8 +70,8 @@ def mounted(tire: TireSection) -> Mounted | None:
         held = None if deflection is None else numpy.array(deflection, dtype=numpy.float64)
         return Mounted(numpy.array(times, dtype=numpy.float64), None, held, mount.load, 0.0)
     kept = numpy.array([mount.load] if load is None else load, dtype=numpy.float64)
-    assert mount.damping is not None
-    return Mounted(numpy.array(times, dtype=numpy.float64), kept, None, float(kept[0]), mount.damping)
+    assert mount.slide_damping is not None
+    return Mounted(numpy.array(times, dtype=numpy.float64), kept, None, float(kept[0]), mount.slide_damping)
 
 
 def refuse_beyond_law(machine: Mounted, tire: TireSection, table: TireTable, sidewalls: Spring | None) -> None:

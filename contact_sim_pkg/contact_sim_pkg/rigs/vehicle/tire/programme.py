@@ -17,13 +17,12 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.schema.places import find_file
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.rigs.vehicle.tire.mount_section import MountSection
     from contact_sim_pkg.scene.schema.scene import Scene
 
-__all__ = ["COLUMNS", "TireProgramme", "programme_breaches"]
+__all__ = ["COLUMNS", "PROGRAMME", "TireProgramme", "row_breaches"]
 
 MOST_ROWS = 10000
-WHERE = "tire.programme"
+PROGRAMME = "tire.programme"
 
 
 class Quantity(NamedTuple):
@@ -37,11 +36,11 @@ class Quantity(NamedTuple):
 
 TIME = Quantity("s", 0.0, 3600.0)
 COLUMNS = {
-    "load": Quantity("N", 0.0, 1e6, ("load", "fz", "normal_force", "vertical_force")),
+    "load": Quantity("N", 0.0, 1e6, ("load", "fz", "normal_force", "vertical_force", "fzh", "fzw")),
     "deflection": Quantity("m", -0.1, 0.1, ("deflection",)),
-    "slip": Quantity("1", -1.0, 10.0, ("slip", "longitudinal_slip", "kappa")),
-    "slip_angle": Quantity("rad", -1.5, 1.5, ("slip_angle", "alpha", "angle")),
-    "speed": Quantity("m/s", 0.0, 100.0, ("speed", "velocity", "v")),
+    "slip": Quantity("1", -1.0, 10.0, ("slip", "longitudinal_slip", "kappa", "longslip")),
+    "slip_angle": Quantity("rad", -1.5, 1.5, ("slip_angle", "alpha", "angle", "slipangl")),
+    "speed": Quantity("m/s", 0.0, 100.0, ("speed", "velocity", "v", "trajvelw", "trajvelh")),
 }
 
 
@@ -61,6 +60,7 @@ SlipValue: TypeAlias = Annotated[float, _each(COLUMNS["slip"])]
 Angle: TypeAlias = Annotated[float, _each(COLUMNS["slip_angle"])]
 Speed: TypeAlias = Annotated[float, _each(COLUMNS["speed"])]
 
+CAMBER = ("camber", "gamma", "inclination", "inclination_angle", "inclangl")
 NO_CAMBER = "the law has no camber, the tread stands upright on the road; leave the column out"
 
 
@@ -109,11 +109,11 @@ class TireProgramme(Section):
             return {name: getattr(self, name) for name in ("time", *COLUMNS) if getattr(self, name) is not None}
         path = find_file(self.file, Path(scene.file).parent)
         if path is None:
-            raise SceneError([Fault(scene.file, 1, 1, f"{WHERE}.file", f"the file {self.file!r} is not there")])
+            raise SceneError([Fault(scene.file, 1, 1, f"{PROGRAMME}.file", f"the file {self.file!r} is not there")])
         try:
             return read_programme(path, self.header_line)
         except ExcitationError as error:
-            raise SceneError([Fault(scene.file, 1, 1, f"{WHERE}.file", str(error))]) from None
+            raise SceneError([Fault(scene.file, 1, 1, f"{PROGRAMME}.file", str(error))]) from None
 
     def pairs(self, scene: Scene, *names: str) -> list[list[float]] | None:
         """Rows of the time and of quantities, 0 where one is not among them; None without any of them."""
@@ -130,7 +130,7 @@ class TireProgramme(Section):
         except SceneError as error:
             return error.faults[0].sentence
         beyond = next(_beyond(columns), "")
-        return beyond or next((each.sentence for each in _rows(columns)), "")
+        return beyond or next((each.sentence for each in row_breaches(columns)), "")
 
 
 def _beyond(columns: dict[str, list[float]]) -> Iterator[str]:
@@ -156,13 +156,13 @@ def read_programme(path: Path, header_line: int | None) -> dict[str, list[float]
     """
     from contact_sim_pkg.excitation.table_files import read_recording  # numpy and libraries
 
-    table = read_recording(path, header_line, section=WHERE)
+    table = read_recording(path, header_line, section=PROGRAMME)
     time, _said = table.time(None)
     if time is None:
         raise ExcitationError(f"{path}: there is no column time; the header names {', '.join(table.columns)}")
     found = {"time": time.tolist()}
     for name in table.columns:
-        if name in ("camber", "gamma", "inclination", "inclination_angle"):
+        if name in CAMBER and table.column(name).any():
             raise ExcitationError(f"{path}: column '{name}': {NO_CAMBER}")
         quantity = next((each for each, of in COLUMNS.items() if name in of.names), None)
         if quantity is None:
@@ -183,55 +183,7 @@ def read_programme(path: Path, header_line: int | None) -> dict[str, list[float]
     return found
 
 
-def programme_breaches(scene: Scene) -> Iterator[Breach]:
-    """Columns that do not fit each other, the mount, or what the scene gives beside them."""
-    from contact_sim_pkg.rigs.vehicle.tire.schema import TireSection
-
-    tire = scene.section(TireSection)
-    programme = tire.programme
-    if programme is None:
-        return
-    if programme.file is None and programme.time is None:
-        yield Breach(f"{WHERE}.time", "is missing; give it with the columns, or a file", (f"{WHERE}.file",))
-        return
-    if programme.time is None and (beside := [name for name in COLUMNS if getattr(programme, name) is not None]):
-        yield Breach(
-            f"{WHERE}.{beside[0]}", "has no time; give the column time, or all by the file", (f"{WHERE}.time",)
-        )
-        return
-    try:
-        found = programme.columns(scene)
-    except SceneError:  # said of the file
-        return
-    if programme.time is not None:  # of a file it is said with it
-        yield from _rows(found)
-    if len(found) == 1:
-        yield Breach(f"{WHERE}.time", f"has no quantity beside it; give {', '.join(COLUMNS)}")
-    yield from _kept(found, tire.mount, scene)
-    points = {"travel": programme.pairs(scene, "speed"), "slip": programme.pairs(scene, "slip", "slip_angle")}
-    for section, rows in points.items():
-        given = getattr(scene, section)
-        values = () if given is None else [(key, value) for key, value in given if value is not None]
-        if rows is not None and (stands := [key for key, value in values if value != rows]):
-            yield Breach(f"{section}.{stands[0]}", "the programme of the tire gives it too; keep one of them", (WHERE,))
-
-
-def _kept(columns: dict[str, list[float]], mount: MountSection | None, scene: Scene) -> Iterator[Breach]:
-    """A load or a deflection that the mount does not keep."""
-    machine = mount is not None and mount.kind != "quarter_car"
-    kept = (mount.control or mount.open_values(scene)["control"]) if mount is not None and machine else ""
-    for name, needed in (("load", "load"), ("deflection", "height")):
-        if name not in columns or kept == needed:
-            continue
-        where, beside = f"{WHERE}.{name}", ("tire.mount.control",)
-        if not machine:
-            sentence = "acts on a test machine, the tire carries a quarter car; add tire.mount: {kind: flat_track}"
-            yield Breach(where, sentence, ("tire.mount",))
-        else:
-            yield Breach(where, f"the mount keeps the {kept}; take control: {needed}, or leave the column out", beside)
-
-
-def _rows(columns: dict[str, list[float]]) -> Iterator[Breach]:
+def row_breaches(columns: dict[str, list[float]]) -> Iterator[Breach]:
     """Times that do not rise, columns of another length."""
     time = columns["time"]
     for index, (before, after) in enumerate(pairwise(time), start=1):
@@ -239,10 +191,10 @@ def _rows(columns: dict[str, list[float]]) -> Iterator[Breach]:
             sentence = (
                 f"{show(after)} s does not come after {show(before)} s; times must rise, change it or leave it out"
             )
-            yield Breach(f"{WHERE}.time.{index}", sentence)
+            yield Breach(f"{PROGRAMME}.time.{index}", sentence)
     if time[0] != 0.0:
-        yield Breach(f"{WHERE}.time.0", f"the first time is {show(time[0])} s; it must be 0")
+        yield Breach(f"{PROGRAMME}.time.0", f"the first time is {show(time[0])} s; it must be 0")
     for name, column in columns.items():
         if len(column) != len(time):
             sentence = f"has {len(column)} numbers, time has {len(time)}; give one for each time"
-            yield Breach(f"{WHERE}.{name}", sentence, (f"{WHERE}.time",))
+            yield Breach(f"{PROGRAMME}.{name}", sentence, (f"{PROGRAMME}.time",))
