@@ -44,6 +44,9 @@ def test_a_file_is_the_table_in_si_units_and_goes_with_the_scene(tmp_path):
 
 BAD_FILES = {
     r"column 'camber': the law has no camber": ("time [s],camber [deg]\n0,0\n1,2\n"),
+    r"column 'inflation' goes from 180000 to 220000: a run has one inflation": (
+        "time [s],load [kN],inflation [bar]\n0,4,1.8\n1,4,2.2\n"
+    ),
     r"column 'fz' gives the load a second time": ("time [s],load [N],fz [kN]\n0,1,1\n1,2,2\n"),
     r"column 'load' has no unit that fits; write it behind the name, as load \[N\]": ("time [s],load\n0,1\n1,2\n"),
     r"column 'slip_angle' has no unit that fits": ("time [s],slip_angle [m]\n0,0\n1,0.1\n"),

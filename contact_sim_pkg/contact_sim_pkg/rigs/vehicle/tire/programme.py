@@ -17,6 +17,7 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.schema.places import find_file
 
 if TYPE_CHECKING:
+    from contact_sim_pkg.excitation.recorded_csv import RecordedTable
     from contact_sim_pkg.scene.schema.scene import Scene
 
 __all__ = ["COLUMNS", "PROGRAMME", "TireProgramme", "row_breaches"]
@@ -61,6 +62,11 @@ Angle: TypeAlias = Annotated[float, _each(COLUMNS["slip_angle"])]
 Speed: TypeAlias = Annotated[float, _each(COLUMNS["speed"])]
 
 CAMBER = ("camber", "gamma", "inclination", "inclination_angle", "inclangl")
+INFLATION = ("inflation", "inflation_pressure", "pressure", "inflpres")
+STEADY = 0.01  # part of an inflation within which it stays
+ONE_INFLATION = (
+    "a run has one inflation; set effects.tire.inflation.pressure, or change it between blocks by a steered run"
+)
 NO_CAMBER = "the law has no camber, the tread stands upright on the road; leave the column out"
 
 
@@ -152,7 +158,8 @@ def read_programme(path: Path, header_line: int | None) -> dict[str, list[float]
         header_line: number of the line that names the columns; None: the first that is no comment.
 
     Raises:
-        ExcitationError: no time, no quantity, a camber, or a column without a unit that fits, with the cure.
+        ExcitationError: no time, no quantity, a camber, an inflation that changes, or a column without a unit that fits,
+            with the cure.
     """
     from contact_sim_pkg.excitation.table_files import read_recording  # numpy and libraries
 
@@ -162,8 +169,7 @@ def read_programme(path: Path, header_line: int | None) -> dict[str, list[float]
         raise ExcitationError(f"{path}: there is no column time; the header names {', '.join(table.columns)}")
     found = {"time": time.tolist()}
     for name in table.columns:
-        if name in CAMBER and table.column(name).any():
-            raise ExcitationError(f"{path}: column '{name}': {NO_CAMBER}")
+        _refuse_unknown(path, name, table)
         quantity = next((each for each, of in COLUMNS.items() if name in of.names), None)
         if quantity is None:
             continue
@@ -181,6 +187,17 @@ def read_programme(path: Path, header_line: int | None) -> dict[str, list[float]
             f"{path}: there is no column {', '.join(COLUMNS)}; the header names {', '.join(table.columns)}"
         )
     return found
+
+
+def _refuse_unknown(path: Path, name: str, table: RecordedTable) -> None:
+    """A column that asks for what a run does not do; one that stays as it is asks for nothing."""
+    if name in CAMBER and table.column(name).any():
+        raise ExcitationError(f"{path}: column '{name}': {NO_CAMBER}")
+    if name in INFLATION:
+        values = table.column(name)
+        low, high = float(values.min()), float(values.max())
+        if high - low > STEADY * abs(high):
+            raise ExcitationError(f"{path}: column '{name}' goes from {show(low)} to {show(high)}: {ONE_INFLATION}")
 
 
 def row_breaches(columns: dict[str, list[float]]) -> Iterator[Breach]:
