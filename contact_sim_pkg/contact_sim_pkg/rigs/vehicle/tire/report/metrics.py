@@ -256,7 +256,9 @@ def _along(ride: _Ride) -> Iterator[Metric]:
     """Rolling resistance, friction and what rings behind an obstacle."""
     axle, shear = axle_of(ride.recording), shear_of(ride.recording)
     topic = f"{TIRE}/axle"
-    rolls = ride.conditions.get("speed_m_s") != 0.0
+    # A machine that stands, or steers and brakes by a programme, measures no resistance
+    slips = float(ride.conditions["largest_slip"]) >= LARGE_SLIP and _mount_of(ride.recording.scene) is not None
+    rolls = ride.conditions.get("speed_m_s") != 0.0 and not slips
     if axle is not None and rolls and not ride.event:  # a mean over the run, which an obstacle is a part of
         load = float(ride.contact.normal.mean())
         resistance = -float(axle.longitudinal.mean()) / load if load > 0.0 else math.nan
