@@ -125,6 +125,27 @@ def foam(path):
     table(path, "deflection [mm],force [N]", np.concatenate((way, way[::-1])), force)
 
 
+SWEEP = """\
+**HEADER
+RELEASE   Release of TYDEX-Format                 1.3
+**COMMENTS
+! Steered to 6 degrees and back at 4 kN
+**MEASURCHANNELS
+RUNTIME   Running time                  s         1
+FZW       Vertical force                kN        1
+SLIPANGL  Slip angle                    deg       1
+INCLANGL  Inclination angle             deg       1
+TRAJVELW  Trajectory velocity           km/h      1
+**MEASURDATA
+"""
+
+
+def sweep(path):
+    time = np.linspace(0.0, 1.0, 31)
+    rows = [f"{t:8.4f}  4.000 {6.0 * math.sin(math.pi * t) ** 2:8.4f}  0.00  60.00" for t in time.tolist()]
+    path.write_text(SWEEP + "\n".join([*rows, "**END"]) + "\n")
+
+
 def xsensor(path):
     rows = "\n".join(",".join(f"{value / 133.322:.2f}" for value in row) for row in MAT.pressure)
     path.write_text(f"FILE NAME:,drive\nROWS:,40\nCOLUMNS:,40\nFrame:,1\nTime:,10:00:00.000\n{rows}\n")
@@ -208,6 +229,7 @@ SAMPLES_OF: dict[str, Callable[[Path], object]] = {
     ),
     "force.csv": force,
     "foam.csv": foam,
+    "sweep.tdx": sweep,
     "limits.yaml": lambda path: path.write_text(LIMITS),
     "tolerances.yaml": lambda path: path.write_text(TOLERANCES),
 }  # fmt: skip

@@ -79,6 +79,7 @@ SHOWN = {
         "tekscan lies on B: run turned by 2.9°", make=lambda at: run_bag(at / "run")
     ),
     "bench material impacts.csv": Shown("tan_beta"),
+    'bench run tire_flat_track --set "tire.programme={file: sweep.tdx}"': Shown("simulated 0.02 s"),
     'bench run seat_ride --set "effects.seat.cushion.curve={file: foam.csv, area: 0.01, thickness: 0.05}"': Shown(
         "simulated 0.02 s"
     ),
@@ -102,7 +103,7 @@ def test_every_row_is_run():
 
 def test_every_sample_has_a_row():
     assert {path.name for path in FOLDER.iterdir()} == {*SAMPLES_OF}
-    named = {word for command in commands() for word in re.split("[ ,]+", command)}
+    named = {word for command in commands() for word in re.split("[ ,}]+", command)}
     assert set(SAMPLES_OF) <= named
 
 

@@ -9,6 +9,7 @@ from tests.run.scenes import resolved
 
 from contact_sim_pkg.records.fields import Section
 from contact_sim_pkg.rigs.backrest.schema import BackrestSection
+from contact_sim_pkg.rigs.vehicle.tire.mount_section import MountSection
 from contact_sim_pkg.rigs.vehicle.tire.schema import BrushSection, Envelopment, Inflation, TireField, TireSection
 from contact_sim_pkg.scene.resolved_scene import MAY_BE_LEFT_OUT, plain
 from contact_sim_pkg.scene.schema import general, travel
@@ -51,7 +52,14 @@ def test_plain_keys_are_attributes_and_absent_ones_none(scene):
 def test_a_name_that_no_section_may_leave_out_is_refused():
     with pytest.raises(AttributeError, match="no key 'heigth'"):
         assert plain({"height": 1.0}).heigth
-    kinds = [*vars(general).values(), *vars(travel).values(), PressureFieldSection, Inflation]
+    kinds = [
+        *vars(general).values(),
+        *vars(travel).values(),
+        PressureFieldSection,
+        Inflation,
+        TireSection,
+        MountSection,
+    ]
     sections = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, Section)]
     optional = {
         name

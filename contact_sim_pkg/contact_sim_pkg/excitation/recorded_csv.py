@@ -31,7 +31,7 @@ from contact_sim_pkg.files import open_regular_file
 __all__ = ["STANDARD_GRAVITY", "UNITS", "RecordedTable", "fields_of", "line_blocks", "memory_of_text", "read_table"]
 
 LARGEST_FILE = 1 << 28  # [bytes]
-TIME_NAMES = ("time", "t", "time_s", "time_ms", "time_us", "time_ns", "timestamp", "zeit")
+TIME_NAMES = ("time", "t", "time_s", "time_ms", "time_us", "time_ns", "timestamp", "zeit", "runtime")
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 """Unit of a time column -> [s]"""
 EPOCHS = {"s": (5e8, 5e9), "ms": (5e11, 5e12), "us": (5e14, 5e15), "ns": (5e17, 5e18)}

@@ -1,4 +1,4 @@
-"""Recordings in the files of data loggers, as the table that a text file gives: `.mat`, `.wav`, MDF4, TDMS, UFF58, bags.
+"""Recordings in the files of data loggers, as the table that a text file gives: `.mat`, `.wav`, MDF4, TDMS, UFF58, TYDEX, bags.
 
 Their libraries are imported on use; those of MDF4, TDMS, UFF58 and MATLAB 7.3 come with the extra `daq`.
 """
@@ -15,6 +15,7 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.excitation import tydex
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.recorded_csv import LARGEST_FILE, RecordedTable, memory_of_text, read_table
 from contact_sim_pkg.excitation.table_words import factor_of, si_unit, split_unit
@@ -223,6 +224,7 @@ def _bag(path: Path) -> Iterator[Column]:
 
 READERS: dict[str, Callable[[Path], Iterator[Column]]] = {
     ".mat": _mat, ".wav": _wav, ".mf4": _mdf, ".mdf": _mdf, ".tdms": _tdms, ".uff": _uff, ".unv": _uff,
+    ".tdx": tydex.columns,
     **dict.fromkeys(BAG_ENDINGS, _bag),
 }  # fmt: skip
 """By the end of a file's name."""

@@ -32,6 +32,7 @@ _GROUPS: dict[str, dict[str, float]] = {
     },
     "N/m": {"n/m": 1.0, "kn/m": 1e3, "n/mm": 1e3}, "N/rad": {"n/rad": 1.0, "n/deg": 57.29577951308232},
     "m/s": {"m/s": 1.0, "km/h": 1.0 / 3.6, "mm/s": 1e-3},
+    "rad": {"rad": 1.0, "deg": 0.017453292519943295},
     "rad/s": {"rad/s": 1.0, "deg/s": 0.017453292519943295},
     "K": {"k": 1.0},
     "Hz": {"hz": 1.0},
@@ -47,7 +48,7 @@ _SPELLINGS = {
     "centimeter": "cm", "centimeters": "cm", "centimetre": "cm", "inch": "in", "inches": "in", "foot": "ft", "feet": "ft",
     "kilometer": "km", "kilometre": "km", "newton": "n", "°/s": "deg/s", "dps": "deg/s", "lb": "lbf", "n/cm2": "n/cm^2",
     "n/mm2": "n/mm^2", "n/m2": "n/m^2", "kg/cm2": "kg/cm^2", "kgf/cm^2": "kg/cm^2", "kgf/cm2": "kg/cm^2", "g/cm2": "g/cm^2",
-    "lb/in^2": "psi", "lb/in2": "psi",
+    "lb/in^2": "psi", "lb/in2": "psi", "°": "deg", "degree": "deg", "degrees": "deg", "kmh": "km/h", "kph": "km/h",
 }  # fmt: skip
 _UNIT = re.compile(r'"?\s*(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\))\s*"?')
 _SUFFIX = re.compile(r"(.+)_(s|ms|us|ns)")

@@ -54,8 +54,21 @@ def _effects(scene: Scene) -> Iterator[tuple[str, FileReader]]:
                 yield f"effects.{contact.name}.{name}", cast(FileReader, effect)
 
 
+def _programmes(scene: Scene) -> Iterator[tuple[str, FileReader]]:
+    """Dotted path and section of each programme of a contact that may be a file."""
+    for contact in rigs()[scene.rig].contacts:
+        programme = getattr(getattr(scene, contact.name), "programme", None)
+        if hasattr(programme, "input_file"):
+            yield f"{contact.name}.programme", cast(FileReader, programme)
+
+
 def input_files(scene: Scene) -> list[InputFile]:
     """The files that a scene names."""
-    readers: list[tuple[str, FileReader]] = [*excitations(scene).items(), *curves_of(scene), *_effects(scene)]
+    readers: list[tuple[str, FileReader]] = [
+        *excitations(scene).items(),
+        *curves_of(scene),
+        *_effects(scene),
+        *_programmes(scene),
+    ]
     found = ((f"{where}.file", reader.input_file(), reader) for where, reader in readers)
     return [InputFile(where, *file, reader) for where, file, reader in found if file is not None]

@@ -25,6 +25,7 @@ from contact_sim_pkg.scene.schema.accuracy import integration_tolerance, request
 from contact_sim_pkg.scene.schema.clock import whole_duration
 from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 from contact_sim_pkg.scene.schema.scene import Scene
+from contact_sim_pkg.scene.schema.travel import points_of
 from contact_sim_pkg.scene.schema.validate import validate
 from contact_sim_pkg.scene.yaml.document import parse_document
 
@@ -106,6 +107,10 @@ def explicit(scene: Scene) -> dict[str, Any]:
     """
     contacts = rigs()[scene.rig].contacts
     absent: dict[str, Any] = {contact.name: {} for contact in contacts if getattr(scene, contact.name) is None}
+    if scene.slip is None and points_of(scene, "slip", "slip_angle") is not None:
+        absent["slip"] = {}
+    if scene.travel is None and points_of(scene, "speed") is not None:
+        absent["travel"] = {}
     whole = Scene.model_validate({**_dump(scene), **absent})  # the schema fills in the defaults
     whole._file = scene.file
     data = _dump(whole)

@@ -30,10 +30,13 @@ Kind = TypeVar("Kind", bound="Section")
 
 
 MAY_BE_LEFT_OUT = frozenset({
-    "angle", "at_least", "at_most", "belt_width", "cols", "corrector_passes", "coupling_length", "coupling_tolerance",
-    "longitudinal", "points", "radius", "relative_tolerance", "rows", "sidewall_chord", "speed", "tolerance",
+    "angle", "at_least", "at_most", "belt_width", "cols", "control", "corrector_passes", "coupling_length",
+    "coupling_tolerance", "deflection", "load", "longitudinal", "mount", "points", "programme", "radius",
+    "relative_tolerance", "rows", "sidewall_chord", "slide_damping", "speed", "tolerance",
 })  # fmt: skip
-"""Keys without a value of their own in sections outside the effects, of a pressure field and of an inflated tire."""
+"""Keys without a value of their own in sections outside the effects, of a tire and its mount, a pressure field and an inflated
+tire.
+"""
 
 
 class _Plain(SimpleNamespace):

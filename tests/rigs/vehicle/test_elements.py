@@ -14,6 +14,7 @@ from contact_sim_pkg.rigs.vehicle.motion.columns import FORCES
 from contact_sim_pkg.rigs.vehicle.motion.ends import Pan
 from contact_sim_pkg.rigs.vehicle.motion.ground import Ground
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass, accelerate
+from contact_sim_pkg.rigs.vehicle.motion.mount import HeldAxle, Slide
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Back, Leaning, MasslessNode, Seat, Seated, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.motion.road import AsperityPush, RoadContact
 from contact_sim_pkg.rigs.vehicle.motion.spring import DriveLine, ShakenMass, Spring
@@ -33,7 +34,9 @@ CASES = {
     "upper stop": TravelStops(0, 2, -0.3, -0.17, STOP),
     "friction that holds": DryFriction(0, 2, 4, 0, 40.0, 2e5),
     "shaken mass": ShakenMass(2, MASSES[1].mass),
+    "slide": Slide(0, 2000.0),
 }
+HELD = HeldAxle(0)
 MODE = numpy.zeros(1, dtype=numpy.int64)
 STATE = numpy.array([-0.012, 0.3, -0.17, -0.4, 1.5e-4])  # the wheel 12 mm in the road, a friction that holds
 GROUND = Ground(0.001, 0.2, 0.0, 0.0, 0.0, 3.0, 150.0, 9.81)
@@ -64,7 +67,7 @@ SEATS = {
 
 
 def test_each_element_has_a_case():
-    cases = (*CASES.values(), *SEATS.values())
+    cases = (*CASES.values(), *SEATS.values(), HELD)
     assert {type(each) for each in cases} == set(elements._KERNELS)
 
 
@@ -132,6 +135,18 @@ def test_what_an_element_brings_in_less_what_it_loses_and_stores_is_the_power_of
     else:
         assert lost >= 0.0
         assert kept == 0.0
+
+
+def test_a_held_axle_stands_whatever_acts_on_it_and_costs_no_energy():
+    acting, state, rate = (CASES["spring"], CASES["contact"], HELD), STATE.copy(), numpy.zeros(5)
+    state[1] = 0.0  # it begins at rest
+    alone = elements.act(acting[:2], GROUND, MODE, state, numpy.zeros(5))
+    assert elements.act(acting, GROUND, MODE, state, rate) == alone
+    accelerate(MASSES, -9.81, state, rate)
+    assert abs(rate[1]) > 1.0
+    free = rate[3]
+    assert elements.finish(acting, GROUND, state, rate) == 0.0
+    assert (rate[0], rate[1], rate[3]) == (0.0, 0.0, free)
 
 
 def test_two_masses_on_a_spring_in_free_fall_follow_the_closed_form():

@@ -27,6 +27,7 @@ from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import entries
 from contact_sim_pkg.rigs.vehicle.motion.columns import FORCES
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Seat
+from contact_sim_pkg.rigs.vehicle.motion.spring import Spring
 from contact_sim_pkg.rigs.vehicle.motion.vehicle import event_count
 from contact_sim_pkg.rigs.vehicle.run.drive import rate_at_start
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_heights
@@ -195,6 +196,8 @@ def _twins(model: Model) -> tuple[Quarter | None, Occupant | None]:
     seat, quarter = model.rig.seat, None
     if model.quarter is not None:
         wheel, body, belt, _contact, _push, sidewalls, suspension, _drive = model.quarter
+        assert body is not None  # no test machine
+        assert isinstance(suspension, Spring)
         on_belt = None if belt is None or sidewalls is None else Belt(belt.mass, sidewalls.stiffness, sidewalls.damping)
         quarter = Quarter(
             wheel.mass, body.mass, suspension.stiffness, suspension.damping, _law(model.tire_contact), on_belt

@@ -19,6 +19,8 @@ TIRE = Contact(
     effects=TIRE_EFFECTS,
     rules=(
         *(f"{__name__}.tire.schema_rules:{name}" for name in ("slip_breaches", "tire_effect_breaches")),
+        f"{__name__}.tire.mount_rules:mount_breaches",
+        f"{__name__}.tire.mount_rules:programme_breaches",
         f"{__name__}.tire.magic_formula.section:magic_formula_breaches",
         f"{__name__}.effects.bump_stop:bump_stop_breaches",
     ),
@@ -101,6 +103,9 @@ RIGS = (
             "tire_cleat": 24,
             "tire_braking": 25,
             "tire_magic_formula": 26,
+            "tire_plate": 26,
+            "tire_drum": 26,
+            "tire_flat_track": 26,
             "tire_rough_road": 26,
             "tire_belgian_block": 27,
             "tire_texture": 28,

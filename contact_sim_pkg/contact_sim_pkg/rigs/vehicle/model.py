@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy
+from scipy.optimize import brentq
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.laws.elastic_law import approach_of_force
+from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_force
 from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, Friction
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.registry import rigs
@@ -31,6 +32,7 @@ from contact_sim_pkg.rigs.vehicle.motion.ends import Floor, Pan, base_of
 from contact_sim_pkg.rigs.vehicle.motion.masses import Mass
 from contact_sim_pkg.rigs.vehicle.motion.parameters import Leaning, MasslessNode, Seat, Seated, Softening, Vehicle
 from contact_sim_pkg.rigs.vehicle.motion.scales import POSITION_SCALE, VELOCITY_SCALE, contact_scale
+from contact_sim_pkg.rigs.vehicle.motion.spring import Spring
 from contact_sim_pkg.rigs.vehicle.rest import settle
 from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
 from contact_sim_pkg.rigs.vehicle.seat.cushion import SeatMap, build_pan_cushion, build_seat_map
@@ -50,6 +52,7 @@ from contact_sim_pkg.rigs.vehicle.tire.model import (
     Tread,
     build_tire,
 )
+from contact_sim_pkg.rigs.vehicle.tire.mount import Mounted, mounted
 from contact_sim_pkg.rigs.vehicle.tire.quarter_car import QuarterCar
 from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss
 from contact_sim_pkg.rigs.vehicle.tire.standing import TireAtRest
@@ -84,6 +87,7 @@ class Model:
     scale: Vector  # [states] error allowed per step
     coordinates: tuple[Coordinate, ...]
     quarter: QuarterCar | None  # None without a tire
+    machine: Mounted | None  # that its axle is mounted on; None: a quarter car
     acting: Acting  # what effects bring beside quarter car and occupant
     occupant: OccupantModel | None
     lean: Lean | None  # None where the pan alone carries the occupant
@@ -162,13 +166,15 @@ def build(scene: ResolvedScene, lean: Lean | None = None, solver: type | None = 
     # A footprint on a road bounds the length of the coupling steps, and so the segments.
     footprint = None if tire is None or tire_field is None else tire.footprint_length
     timing = coupled_timing(scene, tire_field is not None or seat_field is not None, footprint)
-    coordinates = _coordinates(rig, quarter, acting)
+    machine = mounted(scene.section(tire_schema.TireSection)) if with_tire else None
+    coordinates = _coordinates(rig, quarter, acting, machine)
     return Model(
         rig=rig,
         timing=timing,
         scale=_scale(rig, coordinates, quarter, acting, given(scene.integrator.relative_tolerance)),
         coordinates=coordinates,
         quarter=quarter,
+        machine=machine,
         acting=acting,
         occupant=occupant,
         lean=lean,
@@ -238,9 +244,9 @@ def _acting(scene: ResolvedScene, quarter: QuarterCar | None, seated: float) -> 
         for effect, keys in scene.effects_at(contact.name):
             if not effect.elements:
                 continue
-            wheel, body, suspension = (
-                (None, None, 0.0) if quarter is None else (quarter.wheel, quarter.body, quarter.suspension.stiffness)
-            )
+            wheel, body, suspension = (None, None, 0.0)
+            if quarter is not None and isinstance(quarter.suspension, Spring):
+                wheel, body, suspension = quarter.wheel, quarter.body, quarter.suspension.stiffness
             chassis = Chassis(GRAVITY, wheel, body, seated, suspension, state, mode)
             brought = load(effect.elements)(keys, chassis)
             refuse_brought(f"effects.{contact.name}.{effect.name}", brought, chassis, found)
@@ -260,7 +266,9 @@ def _seat(
         node = MasslessNode(sum(link.damping for link in occupant.links if 0 in link[:2]))
     # Its states follow those of the quarter car, whose body is the floor, and of what effects bring.
     floor: Floor
-    offset, floor = (0, None) if quarter is None else (quarter.states, quarter.body.place)
+    offset, floor = 0, None
+    if quarter is not None and quarter.body is not None:
+        offset, floor = quarter.states, quarter.body.place
     if acting.pan is not None:
         floor = Pan(acting.pan) if quarter is None else acting.pan
     offset += acting.width
@@ -343,7 +351,9 @@ def _least(one: tuple[float, float], other: tuple[float, float]) -> tuple[float,
     return min(one[0], other[0]), min(one[1], other[1])
 
 
-def _coordinates(rig: Vehicle, quarter: QuarterCar | None, acting: Acting) -> tuple[Coordinate, ...]:
+def _coordinates(
+    rig: Vehicle, quarter: QuarterCar | None, acting: Acting, machine: Mounted | None
+) -> tuple[Coordinate, ...]:
     """What moves, in the order of the state vector, with the size of its motion."""
     usual = on_seat = (POSITION_SCALE, VELOCITY_SCALE)
     occupant = 0.0 if rig.seat is None else float(rig.seat.masses.sum())
@@ -353,12 +363,12 @@ def _coordinates(rig: Vehicle, quarter: QuarterCar | None, acting: Acting) -> tu
     found: list[Coordinate] = []
     if quarter is not None:
         wheel, body, belt = quarter.wheel, quarter.body, quarter.belt
-        mass = wheel.mass + body.mass + occupant + (0.0 if belt is None else belt.mass)
-        on_road = contact_scale(quarter.contact.law, mass * rig.gravity, quarter.tread.mass)
-        found += [
-            _coordinate("wheel_z", wheel, on_road if belt is None else usual),
-            _coordinate("body_z", body, on_seat),
-        ]
+        mass = wheel.mass + (0.0 if body is None else body.mass) + occupant + (0.0 if belt is None else belt.mass)
+        load = mass * rig.gravity if machine is None else machine.largest
+        on_road = contact_scale(quarter.contact.law, load, quarter.tread.mass)
+        found.append(_coordinate("wheel_z", wheel, on_road if belt is None else usual))
+        if body is not None:
+            found.append(_coordinate("body_z", body, on_seat))
         if belt is not None:
             found.append(_coordinate("belt_z", belt, on_road))
     for joined in acting.joined:
@@ -416,6 +426,20 @@ def _spring_scale(friction: Friction, load: float) -> float:
     return min(POSITION_SCALE, reached) if reached > 0.0 else POSITION_SCALE
 
 
+def _hang(quarter: QuarterCar, gravity: float, height: float, state: Vector) -> None:
+    """Hold the wheel at the height 0 over a road of effective ``height`` [m]; a belt is in balance on its sidewalls."""
+    state[quarter.wheel.place], belt, law = 0.0, quarter.belt, quarter.contact.law.elastic
+    if belt is None or quarter.sidewalls is None:
+        return
+    stiffness, weight = quarter.sidewalls.stiffness, belt.mass * gravity
+
+    def pulled(place: float) -> float:
+        return stiffness * place + weight - float(elastic_force(law, max(height - place, 0.0)))
+
+    low = -weight / stiffness  # where it hangs free
+    state[belt.place] = low if pulled(low) >= 0.0 else brentq(pulled, low, max(height, low), xtol=1e-15, rtol=1e-14)
+
+
 def standing_state(model: Model, height: float, rate: float = 0.0) -> Vector:
     """State [states] in equilibrium, in [m] and [m/s], under gravity on a road of effective ``height``
     [m] that rises at a ``rate`` [m/s] under the tire: every body rises with it (decision 0034).
@@ -427,15 +451,19 @@ def standing_state(model: Model, height: float, rate: float = 0.0) -> Vector:
     # Wheel, belt and body from the road up: each spring carries what is above it.
     quarter = model.quarter
     if quarter is not None:
-        (wheel, wheel_mass), (body, body_mass), belt = quarter.wheel, quarter.body, quarter.belt
-        carried = (body_mass + occupant + model.acting.mass) * rig.gravity
-        on_wheel = carried + wheel_mass * rig.gravity
-        on_road = on_wheel + (0.0 if belt is None else belt.mass * rig.gravity)
+        (wheel, wheel_mass), body, belt, machine = quarter.wheel, quarter.body, quarter.belt, model.machine
+        carried = 0.0 if body is None else (body.mass + occupant + model.acting.mass) * rig.gravity
+        of_belt = 0.0 if belt is None else belt.mass * rig.gravity
+        on_wheel = carried + wheel_mass * rig.gravity if machine is None else machine.start - of_belt
+        on_road = on_wheel + of_belt
         state[wheel] = height - approach_of_force(quarter.contact.law.elastic, on_road)
         if belt is not None and quarter.sidewalls is not None:
             state[belt.place] = state[wheel]
             state[wheel] -= on_wheel / quarter.sidewalls.stiffness
-        floor = state[body] = state[wheel] - carried / quarter.suspension.stiffness
+        if machine is not None and machine.deflection is not None:
+            _hang(quarter, rig.gravity, height, state)
+        if body is not None and isinstance(quarter.suspension, Spring):
+            floor = state[body.place] = state[wheel] - carried / quarter.suspension.stiffness
         for each in quarter.masses:
             state[each.place + 1] = rate
     # What effects bring stands where all forces balance.

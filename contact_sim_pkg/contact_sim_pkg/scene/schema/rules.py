@@ -8,9 +8,11 @@ from itertools import chain, pairwise
 from contact_sim_pkg.records.breach import Breach, one_of, show
 from contact_sim_pkg.records.registry import refused_sections, rigs
 from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.schema.clock import clock_breaches
 from contact_sim_pkg.scene.schema.law_rules import law_breaches
 from contact_sim_pkg.scene.schema.scene import Scene
+from contact_sim_pkg.scene.schema.travel import points_of
 
 
 def breaches(scene: Scene) -> Iterator[Breach]:
@@ -32,7 +34,7 @@ def breaches(scene: Scene) -> Iterator[Breach]:
 
 def _sections(scene: Scene) -> Iterator[Breach]:
     for name in rigs()[scene.rig].needs:
-        if getattr(scene, name) is None:
+        if getattr(scene, name) is None and not (name == "travel" and _has_programme(scene)):
             yield Breach(name, f"is missing; the rig {scene.rig} needs it", ("rig",))
     for name in refused_sections(scene.rig):
         if getattr(scene, name) is not None:
@@ -53,11 +55,20 @@ def _expect(scene: Scene) -> Iterator[Breach]:
         yield Breach("expect.at_least", sentence, ("expect.at_most",))
 
 
+def _has_programme(scene: Scene) -> bool:
+    """Of the speed."""
+    try:
+        return points_of(scene, "speed") is not None
+    except SceneError:  # said of its file
+        return True
+
+
 def _travel(scene: Scene) -> Iterator[Breach]:
     travel = scene.travel
     if travel is None:
         return
-    yield from one_of("travel", "speed", travel.speed is not None, "points", travel.points is not None)
+    if not _has_programme(scene):
+        yield from one_of("travel", "speed", travel.speed is not None, "points", travel.points is not None)
     points = travel.points or []
     if points and points[0][0] != 0.0:
         yield Breach("travel.points.0.0", f"the first time is {show(points[0][0])} s; it must be 0", ("travel.points",))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, TypeAlias
+from typing import Annotated, Any, ClassVar, TypeAlias
 
 from pydantic import Field
 
 from contact_sim_pkg.records.fields import Section, number, numbers
+from contact_sim_pkg.records.registry import rigs
 
+MOST_POINTS = 10000
 SpeedPoint: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
 SlipPoint: TypeAlias = Annotated[list[float], Field(min_length=3, max_length=3)]
 
@@ -26,8 +28,12 @@ class TravelSection(Section):
         "pairs [time, speed], first time 0, times increasing to at most 3600 s, speeds 0 to 100 m/s",
         default=None,
         shortest=1,
-        longest=1000,
+        longest=MOST_POINTS,
     )
+
+    def open_values(self, scene: Any) -> dict[str, Any]:
+        points = points_of(scene, "speed")
+        return {} if points is None else {"points": points}
 
 
 class Slip(Section):
@@ -53,5 +59,18 @@ class Slip(Section):
         "triples [time, longitudinal, angle], first time 0, times increasing to at most 3600 s, slips as above",
         default=None,
         shortest=1,
-        longest=1000,
+        longest=MOST_POINTS,
     )
+
+    def open_values(self, scene: Any) -> dict[str, Any]:
+        points = points_of(scene, "slip", "slip_angle")
+        return {} if points is None else {"points": points}
+
+
+def points_of(scene: Any, *quantities: str) -> list[list[float]] | None:
+    """Rows of time and quantities that a programme of the rig's contacts gives; None where none does."""
+    for contact in rigs()[scene.rig].contacts:
+        pairs = getattr(getattr(getattr(scene, contact.name), "programme", None), "pairs", None)
+        if pairs is not None and (points := pairs(scene, *quantities)) is not None:
+            return points  # type: ignore[no-any-return]
+    return None

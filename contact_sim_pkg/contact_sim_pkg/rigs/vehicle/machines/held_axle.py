@@ -1,14 +1,12 @@
-"""A tire that rolls over an obstacle with its axle held in height, as on a test drum."""
+"""A tire that rolls over an obstacle with its axle held in height (mount `held`)."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.scene_outputs import outputs_with, records_of
 from contact_sim_pkg.scene.resolve import load_resolved
@@ -17,7 +15,6 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 __all__ = ["CLEAT", "OverCleat", "duration_of", "held_over", "over_cleat"]
 
 SCENE = "tire_cleat"
-HEAVY = 1e7  # [kg] of a wheel that no tire moves; gravity gives it the load all the same
 CLEAT = 1.0  # [m] where the cleat begins
 BEHIND = 5.0  # [m] rolled behind it, at least
 Samples = NDArray[numpy.float64]
@@ -40,9 +37,10 @@ def over_cleat(load: float, speed: float, *values: str) -> OverCleat:
     """
     scene = load_resolved(
         SCENE, f"duration={duration_of(speed)}", f"travel={{speed: {speed}}}", "outputs.force_rate=2000",
-        f"road={{kind: cleat, position: {CLEAT}, height: 0.01, length: 0.05, edge: 0.005}}", "block_length=0.1", *values,
+        f"road={{kind: cleat, position: {CLEAT}, height: 0.01, length: 0.05, edge: 0.005}}", "block_length=0.1",
+        f"tire.mount={{kind: held, load: {load}}}", *values,
     )  # fmt: skip
-    return held_over(scene, load)
+    return held_over(scene)
 
 
 def duration_of(speed: float) -> float:
@@ -50,16 +48,9 @@ def duration_of(speed: float) -> float:
     return round((CLEAT + BEHIND) / speed + 0.15, 1) + 0.1
 
 
-def held_over(scene: ResolvedScene, load: float) -> OverCleat:
-    """The run of a scene with a wheel that spins, at one speed, its axle at the height where it stands under the
-    ``load`` [N].
-    """
-    model = build(scene)
-    assert model.quarter is not None
-    quarter = model.quarter._replace(wheel=model.quarter.wheel._replace(mass=HEAVY))
-    weight = sum(each.mass for each in quarter.masses)
-    held = model.rig._replace(masses=quarter.masses, gravity=load / weight)
-    outputs = outputs_with(scene, Simulation(scene, replace(model, rig=held, quarter=quarter)))
+def held_over(scene: ResolvedScene) -> OverCleat:
+    """The run of a scene whose axle is held, with a wheel that spins, at one speed."""
+    outputs = outputs_with(scene, Simulation(scene))
     records = records_of(outputs, "tire/axle")
     time = numpy.arange(sum(len(record.vertical) for record in records)) * records[0].sample_period
 

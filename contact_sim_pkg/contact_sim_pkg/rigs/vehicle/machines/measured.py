@@ -126,10 +126,10 @@ def cleat(effects: Effects, conditions: Conditions) -> Sheets:
     """
     speed, height = conditions["speed"], conditions["cleat_height"]
     scene = scene_on(
-        effects, conditions, HELD, duration=duration_of(speed), block_length=0.1, outputs={"force_rate": 2000.0},
+        effects, conditions, HELD, {"kind": "held"}, duration=duration_of(speed), block_length=0.1, outputs={"force_rate": 2000.0},
         road={"kind": "cleat", "position": CLEAT, "height": height, "length": conditions["cleat_length"], "edge": EDGE},
     )  # fmt: skip
-    found = held_over(scene, conditions["load"])
+    found = held_over(scene)
     rise = found.vertical - found.vertical[0]
     row = {
         "largest_rise": float(rise.max()), "largest_fall": float(-rise.min()),

@@ -90,15 +90,23 @@ def specimen_of_file(tire: PropertyFile) -> Specimen:
     return Specimen(own, load, float(found.effects["inflation"]["pressure"]), USUAL.suspension)
 
 
-def scene_on(effects: Effects, conditions: Mapping[str, float], needs: Sequence[str], **parts: Any) -> ResolvedScene:
+def scene_on(
+    effects: Effects,
+    conditions: Mapping[str, float],
+    needs: Sequence[str],
+    mount: dict[str, Any] | None = None,
+    **parts: Any,
+) -> ResolvedScene:
     """The tire under the `load` [N] and at the `inflation` [Pa] of the conditions, with the effects that a machine
-    ``needs``, each with the tire's keys, else the usual ones; ``parts`` of the scene.
+    ``needs``, each with the tire's keys, else the usual ones; on a ``mount`` (None: the quarter car), ``parts`` of the
+    scene.
     """
     own = {**effects, "inflation": {**effects["inflation"], "pressure": conditions["inflation"]}}
     body = conditions["load"] / GRAVITY - WHEEL
     data = {
         "name": "tire_test", "rig": "tire", "duration": 1.0, "accuracy": ACCURACY, "road": {"kind": "flat"},
-        "travel": {"speed": conditions.get("speed", 0.0)}, "tire": {"wheel_mass": WHEEL, "body_mass": body},
+        "travel": {"speed": conditions.get("speed", 0.0)},
+        "tire": {"wheel_mass": WHEEL, "body_mass": body, **({} if mount is None else {"mount": mount})},
         "effects": {"tire": {name: own.get(name, {}) for name in needs}}, **parts,
     }  # fmt: skip
     return resolve(Scene.model_validate(data))
@@ -106,8 +114,8 @@ def scene_on(effects: Effects, conditions: Mapping[str, float], needs: Sequence[
 
 def body_at(effects: Effects, inflation: float, drum_diameter: float = 0.0) -> TireBody:
     """The tire at an ``inflation`` [Pa] on a drum of a diameter [m], 0: on level ground."""
-    body = body_of(scene_on(effects, {"inflation": inflation, "load": 4000.0}, ("inflation",)))
-    return body._replace(form=body.form._replace(drum=2.0 / drum_diameter if drum_diameter > 0.0 else 0.0))
+    mount = {"kind": "drum", "radius": 0.5 * drum_diameter} if drum_diameter > 0.0 else None
+    return body_of(scene_on(effects, {"inflation": inflation, "load": 4000.0}, ("inflation",), mount))
 
 
 def table_at(effects: Effects, conditions: Mapping[str, float]) -> TireTable:

@@ -12,6 +12,7 @@ from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.held import hold
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
+from contact_sim_pkg.laws.elastic_law import elastic_force
 from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.model import Model, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import entries
@@ -104,9 +105,13 @@ class Bodies:
         """Move the whole rig up by ``height`` [m]."""
         self.state[[each.place for each in self.model.coordinates if each.is_vertical]] += height
 
-    def weight(self) -> float:
-        """Load [N] of the tire at rest."""
-        rig = self.model.rig
+    def weight(self, height: float) -> float:
+        """Load [N] of the tire at rest, of an axle at a deflection that over a road of effective ``height`` [m]."""
+        rig, machine, quarter = self.model.rig, self.model.machine, self.model.quarter
+        if machine is not None and quarter is not None:
+            if machine.deflection is None:
+                return machine.start
+            return float(elastic_force(quarter.contact.law.elastic, max(self.tire_approach(height), 0.0)))
         mass = sum(each.mass for each in rig.masses) + (0.0 if rig.seat is None else float(rig.seat.masses.sum()))
         return mass * rig.gravity
 

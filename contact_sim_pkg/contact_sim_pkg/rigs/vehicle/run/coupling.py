@@ -125,8 +125,11 @@ class Coupling:
         bodies.stand(float(first.smooth[0]), rate)
         if self.tire.grids is not None:
             self.tire.place(drive.road, float(drive.travel[0]))
-            approach, rolled = self.tire.stand(bodies.weight()), self.tire.roll_in(bodies.weight(), drive.speed)
-            bodies.lift(bodies.tire_approach(0.0) - (approach if rolled is None else rolled))
+            load, machine = bodies.weight(float(first.smooth[0])), self.model.machine
+            if load > 0.0:
+                approach, rolled = self.tire.stand(load), self.tire.roll_in(load, drive.speed)
+                if machine is None or machine.deflection is None:
+                    bodies.lift(bodies.tire_approach(0.0) - (approach if rolled is None else rolled))
         self.tire.begin(self._solve_tire(first, 0, 0, is_published=True))
         if drive.speed != 0.0:
             self.tire.store()
@@ -394,7 +397,11 @@ class Coupling:
             return 0.0
         self.tire.place(drive.road, float(drive.travel[point]))
         solve = self.tire.solve_published if is_published else self.tire.solve_between
-        return solve(self.bodies.tire_approach(0.0), self.bodies.tire_approach(float(drive.smooth[point])), block)
+        return solve(
+            self.bodies.tire_approach(drive.table_at(point)),
+            self.bodies.tire_approach(float(drive.smooth[point])),
+            block,
+        )
 
     def _solve_seat(self, block: int) -> float:
         """Solve the seat's field at the present state; returns its correction [m], 0 without a

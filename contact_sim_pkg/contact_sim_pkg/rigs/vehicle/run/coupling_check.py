@@ -239,7 +239,7 @@ class CouplingCheck:
                 tire, tire_grid = by_level
             elif self._tire.grids is not None:
                 self._tire.place(drive.road, float(drive.travel[half]))
-                smooth, approach = float(drive.smooth[half]), bodies.tire_approach(0.0)
+                smooth, approach = float(drive.smooth[half]), bodies.tire_approach(drive.table_at(half))
                 found = self._tire.solve(approach, bodies.tire_approach(smooth), step.block)
                 slope = slopes[0] + (slopes[1] - slopes[0]) * half / step.segments
                 tire = _missed(self._tire.contact, bodies.tire_approach(laid[0]), smooth + found - laid[0], step)
@@ -266,12 +266,13 @@ class CouplingCheck:
         level, contact = self._run.level, self._run.contact
         if self._level is None or level is None or contact is None or not level.is_quiet:
             return None
-        half, drive, approach = middle_of(step), step.drive, bodies.tire_approach(0.0)
+        half, drive, below = middle_of(step), step.drive, bodies.tire_approach(0.0)
+        approach = below + drive.table_at(half)
         coarse = self._level.at(drive.road, float(drive.travel[half]), approach, contact.elastic)
         if coarse is None:
             return None
         found, load = level.with_offset(coarse), self._level.field.load
-        tire = _missed(contact, bodies.tire_approach(laid), found.height - approach - laid, step)
+        tire = _missed(contact, bodies.tire_approach(laid), found.height - below - laid, step)
         slope = slopes[0] + (slopes[1] - slopes[0]) * half / step.segments
         tire = tire._replace(along=abs(found.slope - slope) * load, speed=tire.normal * self._speed_of(step.duration))
         return tire, Missed(peak=level.peak_differs / self._order, area=level.area_differs / self._order)
@@ -297,7 +298,7 @@ def _swing_of(model: Model) -> tuple[float, float]:
     quarter = model.quarter
     if quarter is None or model.coupling is None:
         return 1.0, 0.0
-    mass, beside = quarter.tread.mass, (quarter.sidewalls or quarter.suspension).stiffness
+    mass, beside = quarter.tread.mass, quarter.beside
     law, load = quarter.contact.law.elastic, model.coupling.allowances[0].load
     stiffness = float(elastic_stiffness(law, float(approach_of_force(law, load)))) + beside
     return mass, 2.0 * math.pi * math.sqrt(mass / stiffness)

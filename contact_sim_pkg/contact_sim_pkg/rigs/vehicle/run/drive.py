@@ -34,6 +34,11 @@ class BlockDrive(NamedTuple):
     push: Vector | None  # [N] of the road's asperities; None where the scene calls for none
 
     speed: float = 0.0  # [m/s] at the start of the block
+    table: Vector | None = None  # [m] height of a machine's table, which the smooth one contains; None: 0
+
+    def table_at(self, point: int) -> float:
+        """Height [m] of the table under the road at the end of a segment."""
+        return 0.0 if self.table is None else float(self.table[point])
 
     def part(self, first: int, segments: int) -> BlockDrive:
         """The same for ``segments`` segments from number ``first``."""
@@ -41,7 +46,7 @@ class BlockDrive(NamedTuple):
         return BlockDrive(
             self.road, self.travel[chosen], self.smooth[chosen], self.rate[chosen], self.acceleration_x[chosen],
             self.acceleration_z[chosen], None if self.push is None else self.push[chosen],
-            self.speed,
+            self.speed, None if self.table is None else self.table[chosen],
         )  # fmt: skip
 
 
@@ -52,17 +57,30 @@ def block_drive(model: Model, travel: Travel | None, block: int, road: Any, vibr
     """
     a_x, a_z = _accelerations(model, block, vibration)
     places, smooth, rate, push = _rolling(model, travel, block, road)
-    speed = float(places[1] - places[0]) / model.timing.segment_length
-    return BlockDrive(road, places, smooth, rate, a_x, a_z, push, speed)
+    speed, table = float(places[1] - places[0]) / model.timing.segment_length, None
+    if model.machine is not None and model.machine.deflection is not None:
+        table, rising = model.machine.table(_ends(model, block), model.timing.segment_length)
+        smooth, rate = smooth + table, rate + rising
+    return BlockDrive(road, places, smooth, rate, a_x, a_z, push, speed, table)
+
+
+def _ends(model: Model, block: int) -> Vector:
+    """Times [s] of the ends of all segments of a block."""
+    steps = model.timing.intervals * model.timing.segments
+    return numpy.arange(block * steps, (block + 1) * steps + 1, dtype=numpy.float64) * model.timing.segment_length
 
 
 def _accelerations(model: Model, block: int, vibration: Any) -> tuple[Vector, Vector]:
-    """Floor accelerations, straight between the samples."""
+    """Accelerations of the floor, straight between the samples; of a loaded axle that of its servo."""
     timing = model.timing
     points = timing.intervals * timing.segments + 1
     if not model.shaken:
         zeros = numpy.zeros(points)
-        return zeros, zeros
+        if model.machine is None or model.quarter is None or model.machine.is_held:
+            return zeros, zeros
+        mass = sum(each.mass for each in model.quarter.masses)
+        servo = model.machine.acceleration(_ends(model, block), mass, model.quarter.wheel.mass, model.rig.gravity)
+        return zeros, servo
     samples = (points - 1) // timing.vibration_stride + 1
     if vibration is None or vibration.block != block or len(vibration.acceleration_z) != samples:
         found = "none" if vibration is None else f"block {vibration.block} with {len(vibration.acceleration_z)} samples"
@@ -85,8 +103,7 @@ def _rolling(
         zeros = numpy.zeros(steps + 1)
         return zeros, zeros, zeros, None
     _check_road(geometry, block, road)
-    ends = numpy.arange(block * steps, (block + 1) * steps + 1, dtype=numpy.float64)
-    places, speeds = travel.along(ends * timing.segment_length)
+    places, speeds = travel.along(_ends(model, block))
     smooth, slopes = numpy.empty(steps + 1), numpy.empty(steps + 1)
     inside = effective_heights(
         road.height, road.first_row, geometry.lattice.cell_x, geometry.weights, places, smooth, slopes
@@ -105,10 +122,10 @@ def rate_at_start(model: Model, travel: Travel | None, road: Any, rate: float, t
 
     The smaller of ``rate`` [m/s], that of the height which a smooth tire sees, and the mean one: of the line
     through those heights over the travel of `AHEAD`, by least squares. 0 where they differ in sign, and
-    where the ``road`` does not reach as far, as behind its first block.
+    where the ``road`` does not reach as far, as behind its first block. Of an axle that is held 0.
     """
-    geometry = model.tire_geometry
-    if geometry is None or travel is None or rate == 0.0:
+    geometry, machine = model.tire_geometry, model.machine
+    if geometry is None or travel is None or rate == 0.0 or (machine is not None and machine.is_held):
         return 0.0
     start, end = travel.position(time), travel.position(time + AHEAD)
     places = numpy.linspace(start, end, PLACES_AHEAD, dtype=numpy.float64)

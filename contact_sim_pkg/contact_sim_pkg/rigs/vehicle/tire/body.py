@@ -43,8 +43,11 @@ class TireBody(NamedTuple):
 
 
 def body_of(scene: ResolvedScene) -> TireBody:
-    """The tire of a resolved scene."""
-    return tire_body(scene.data["effects"]["tire"])
+    """The tire of a resolved scene; on a drum its curvature is part of the form."""
+    body, mount = tire_body(scene.data["effects"]["tire"]), plain(scene.data["tire"]).mount
+    if mount is None or mount.kind != "drum":
+        return body
+    return body._replace(form=body.form._replace(drum=1.0 / mount.radius))
 
 
 def tire_body(effects: dict[str, Any]) -> TireBody:

@@ -165,22 +165,24 @@ def tire_gap(
 
 @kernel
 def height_along(form: TireForm, x: float) -> float:
-    """Height of the tire in [m] at ``x`` [m] before its lowest point; that of its centre beyond its
-    radius.
+    """Height of the tire in [m] over the road, or the drum, at ``x`` [m] before its lowest point; that of its centre
+    beyond its radius.
     """
     radius = form.radius_rolling
-    if form.circular:
-        return radius - math.sqrt(max(radius * radius - x * x, 0.0))
-    return 0.5 * x * x / radius
+    height = radius - math.sqrt(max(radius * radius - x * x, 0.0)) if form.circular else 0.5 * x * x / radius
+    if form.drum > 0.0:
+        height += x * x * form.drum / (1.0 + math.sqrt(max(1.0 - (form.drum * x) ** 2, 0.0)))
+    return height
 
 
 @kernel
 def slope_along(form: TireForm, x: float) -> float:
-    """Slope dz/dx [1] of the height of the tire at ``x`` [m] before its lowest point."""
+    """Slope dz/dx [1] of that height at ``x`` [m] before the lowest point."""
     radius = form.radius_rolling
-    if form.circular:
-        return x / math.sqrt(max(radius * radius - x * x, 1e-6 * radius * radius))
-    return x / radius
+    slope = x / math.sqrt(max(radius * radius - x * x, 1e-6 * radius * radius)) if form.circular else x / radius
+    if form.drum > 0.0:
+        slope += form.drum * x / math.sqrt(max(1.0 - (form.drum * x) ** 2, 1e-6))
+    return slope
 
 
 @entry

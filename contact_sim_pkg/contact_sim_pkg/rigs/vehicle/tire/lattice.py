@@ -27,6 +27,8 @@ SIGHT = 1.0  # of the tire's radius: how far the road is looked at beyond the pr
 
 def standing_load(tire: TireSection, occupant: OccupantSection | None) -> float:
     """Load in [N] of the tire at rest, under an occupant where it carries one."""
+    if tire.mount is not None and tire.mount.load is not None:
+        return float(tire.mount.load)
     mass = tire.wheel_mass + tire.body_mass
     return (mass + (0.0 if occupant is None else occupant_mass(occupant))) * GRAVITY
 

@@ -29,6 +29,7 @@ from contact_sim_pkg.rigs.vehicle.tire.force_table import TireTable, tire_table
 from contact_sim_pkg.rigs.vehicle.tire.lattice import standing_load, tire_lattice
 from contact_sim_pkg.rigs.vehicle.tire.magic_formula.coefficients import MagicFormula
 from contact_sim_pkg.rigs.vehicle.tire.magic_formula.section import MagicFormulaSection
+from contact_sim_pkg.rigs.vehicle.tire.mount import mounted, refuse_beyond_law
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, LoadFriction, Sidewalls, TreadViscoelasticity, WheelSpin
 from contact_sim_pkg.rigs.vehicle.tire.quarter_car import QuarterCar, quarter_car
 from contact_sim_pkg.rigs.vehicle.tire.rolling_loss import RollingLoss, rolling_loss
@@ -167,8 +168,11 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None, solver: t
     contact = Contact(law, normal_loss(scene, "tire", law, load / GRAVITY), None)
     asperities = _asperities(scene, geometry, load)
     ring = scene.effect("tire", schema.RigidRingSection)
-    quarter = quarter_car(given_tire, ring, contact, pushed=asperities is not None)
+    machine = mounted(given_tire)
+    quarter = quarter_car(given_tire, ring, contact, machine, pushed=asperities is not None)
     sidewalls = quarter.sidewalls
+    if machine is not None and table is not None:
+        refuse_beyond_law(machine, given_tire, table, sidewalls)
     deflection = float(approach_of_force(law, load)) + (0.0 if sidewalls is None else load / sidewalls.stiffness)
     return TireParts(
         quarter=quarter,

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, TypeAlias
 from pydantic import Field
 
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import ring_stiffness
+from contact_sim_pkg.rigs.vehicle.tire.mount_section import MountSection
+from contact_sim_pkg.rigs.vehicle.tire.programme import TireProgramme
 from contact_sim_pkg.rigs.vehicle.tire.size import PATTERN, read_size
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers, text
 from contact_sim_pkg.scene.schema.laws import HuntCrossley
@@ -45,6 +47,8 @@ class TireSection(Section):
     suspension_damping: float = number(
         0.0, 1e6, "N s/m", "damper between wheel and body; medium car", default=1500.0, live="law"
     )
+    mount: MountSection | None = choice("what the axle is mounted on; the quarter car by default", default=None)
+    programme: TireProgramme | None = choice("what a test machine runs over time", default=None)
 
 
 class HertzElastic(Section):

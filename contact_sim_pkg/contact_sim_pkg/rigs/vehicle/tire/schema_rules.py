@@ -18,9 +18,10 @@ from contact_sim_pkg.rigs.vehicle.tire.schema import (
     WheelSpinSection,
 )
 from contact_sim_pkg.rigs.vehicle.tire.size import read_size
-from contact_sim_pkg.scene.errors import Breach
+from contact_sim_pkg.scene.errors import Breach, SceneError
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.scene import Scene
+from contact_sim_pkg.scene.schema.travel import points_of
 
 LOWEST_SLIP, HIGHEST_SLIP, LARGEST_ANGLE = -1.0, 10.0, 1.5
 LONGEST_TIME = 3600.0  # [s]
@@ -31,21 +32,33 @@ USUAL_AREA = 0.02  # [m^2] of bristles
 
 def slip_breaches(scene: Scene) -> Iterator[Breach]:
     """A slip that nothing uses, slips given twice, points out of order or range."""
-    slip = scene.slip
-    if slip is None:
+    slip, programme = scene.slip, _programme_of(scene)
+    if slip is None and programme is None:
         return
+    given = "slip" if slip is not None else "tire.programme"
     if scene.effect("tire", BrushSection) is None and scene.effect("tire", MagicFormulaSection) is None:
         sentence = "acts through the effect brush or magic_formula, neither of which the scene names; add effects.tire.brush: {}"
-        yield Breach("slip", sentence)
+        yield Breach(given, sentence)
+    points = programme if slip is None else slip.points
+    constant = None if slip is None else slip.longitudinal
     spins = scene.effect("tire", WheelSpinSection) is not None
-    turned = slip.longitudinal is not None or any(point[1] != 0.0 for point in slip.points or ())
-    if spins and turned:
-        where = "slip.points" if slip.longitudinal is None else "slip.longitudinal"
+    if spins and (constant is not None or any(point[1] != 0.0 for point in points or ())):
+        where = "slip.longitudinal" if constant is not None else "tire.programme" if slip is None else "slip.points"
         yield Breach(where, "the rim turns by effects.tire.wheel_spin; give its drive and brake, not the slip")
+    if slip is None:
+        return
     yield from _points_breaches(
         "slip", slip.points, {"longitudinal": slip.longitudinal, "angle": slip.angle},
         ((0.0, LONGEST_TIME, " s"), (LOWEST_SLIP, HIGHEST_SLIP, ""), (-LARGEST_ANGLE, LARGEST_ANGLE, " rad")),
     )  # fmt: skip
+
+
+def _programme_of(scene: Scene) -> list[list[float]] | None:
+    """Slips over time that the programme of the tire gives; None: none, or none that can be read."""
+    try:
+        return points_of(scene, "slip", "slip_angle")
+    except SceneError:  # said of its file
+        return None
 
 
 def _points_breaches(

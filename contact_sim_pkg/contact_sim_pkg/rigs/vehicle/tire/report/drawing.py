@@ -17,10 +17,17 @@ def tire_parts(scene: Mapping[str, Any]) -> list[Part]:
     suspension = listed(
         at(scene, "tire.suspension_stiffness", "{:g} kN/m", 1e-3), at(scene, "tire.suspension_damping", "{:g} N s/m")
     )
-    return [
+    parts = [
         *road_parts(scene),
         Part("tire", listed(size, pressure, at(scene, "tire.wheel_mass", "wheel {:g} kg")), tire),
         *([] if load is None else [Part("load", f"{1e-3 * load:.3g} kN")]),
+    ]
+    kind = at(scene, "tire.mount.kind")
+    if kind not in ("", "quarter_car"):
+        keeps = f"{kind.replace('_', ' ')}, keeps the {at(scene, 'tire.mount.control')}"
+        return [*parts, Part("mount", listed(keeps, at(scene, "tire.mount.radius", "radius {:g} m")), mass)]
+    return [
+        *parts,
         Part("suspension", suspension, spring_and_damper),
         Part("body", at(scene, "tire.body_mass", "{:g} kg"), mass),
     ]

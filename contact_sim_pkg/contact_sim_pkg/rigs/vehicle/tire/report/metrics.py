@@ -52,7 +52,7 @@ class _Ride(NamedTuple):
     event: bool
     """whether the road is even but for one obstacle, so that what varies is over when it is passed"""
     slips: bool
-    """whether it brakes, drives or is steered: the manoeuvre is what the run is for, however short"""
+    """whether it brakes, drives, is steered or runs on a machine: the manoeuvre is what the run is for, however short"""
     errors: Errors
     """numerical ones of the run"""
     conditions: dict[str, float | str]
@@ -69,7 +69,7 @@ def tire_metrics(recording: Recording) -> list[Metric]:
     ride = _Ride(
         recording, contact, standing, Maker(TIRE, f"{TIRE}/force", window, conditions).make,
         str(conditions.get("road", "")).startswith("class"), one_obstacle(recording.scene) is not None,
-        float(conditions["largest_slip"]) >= LARGE_SLIP, errors_of(recording), conditions,
+        float(conditions["largest_slip"]) >= LARGE_SLIP or _mount_of(recording.scene) is not None, errors_of(recording), conditions,
     )  # fmt: skip
     field = recording.fields.get(TIRE)
     stands = standing_of(recording)
@@ -108,6 +108,12 @@ def one_obstacle(scene: Mapping[str, Any]) -> Obstacle | None:
     return obstacle if obstacle is not None and obstacle.period is None else None
 
 
+def _mount_of(scene: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    """Of the axle on a test machine; None on a quarter car."""
+    mount = (scene.get(TIRE) or {}).get("mount")
+    return mount if isinstance(mount, Mapping) and mount.get("kind") != "quarter_car" else None
+
+
 def _conditions(recording: Recording) -> dict[str, float | str]:
     """Standing load [kN], inflation [kPa], mean speed [m/s], road, belt, largest slip."""
     found = conditions_of(recording.scene)
@@ -120,6 +126,9 @@ def _conditions(recording: Recording) -> dict[str, float | str]:
     found["belt"] = "yes" if effects.get("sidewall_compliance") is not None else "no"
     if road is not None and recording.duration > 0.0:
         found["speed_m_s"] = float(road.travel.distance[-1] - road.travel.distance[0]) / recording.duration
+    mount = _mount_of(recording.scene)
+    if mount is not None and mount.get("kind") == "drum":
+        found["road"] = f"drum of {2.0 * float(mount['radius']):g} m"
     found["largest_slip"] = 0.0
     if shear is not None:
         found["largest_slip"] = float(np.hypot(shear.slip, np.tan(shear.slip_angle)).max())
@@ -205,8 +214,11 @@ def _standing(ride: _Ride, stands: TireStanding) -> Iterator[Metric]:
         ("mean_pressure", "mean pressure", 1e-3 * stands.mean_pressure, "kPa", ""),
     )
     for key, name, value, unit, of in values:
+        quantity = (
+            "" if str(ride.conditions.get("road", "")).startswith("drum") else f"tire_{key}"
+        )  # published on a plate
         remark = ", ".join(filter(None, (of, f"static, under {1e-3 * stands.load:.3g} kN")))
-        yield ride.make(key, name, value, unit, quantity=f"tire_{key}", topic=f"{TIRE}/standing", basis=STATE,
+        yield ride.make(key, name, value, unit, quantity=quantity, topic=f"{TIRE}/standing", basis=STATE,
                         remark=remark)  # fmt: skip
         if key == "stiffness":
             yield from _hop(ride, stands.stiffness)
@@ -216,7 +228,7 @@ def _hop(ride: _Ride, stiffness: float) -> Iterator[Metric]:
     """The frequency at which the wheel hops on an uneven road, beside that on the ``stiffness`` [N/m] of its tire."""
     tire, motion = ride.recording.scene["tire"], ride.recording.motion
     wheel = None if motion is None else motion.acceleration.get("wheel_z")
-    if motion is None or wheel is None or not ride.rough:
+    if motion is None or wheel is None or not ride.rough or "body_z" not in motion.acceleration:
         return
     masses = np.array([float(tire["wheel_mass"]), float(tire["body_mass"])])
     spring = float(tire["suspension_stiffness"])
@@ -244,7 +256,10 @@ def _along(ride: _Ride) -> Iterator[Metric]:
     """Rolling resistance, friction and what rings behind an obstacle."""
     axle, shear = axle_of(ride.recording), shear_of(ride.recording)
     topic = f"{TIRE}/axle"
-    if axle is not None and not ride.event:  # a mean over the run, which an obstacle is a part of
+    # A machine that stands, or steers and brakes by a programme, measures no resistance
+    slips = float(ride.conditions["largest_slip"]) >= LARGE_SLIP and _mount_of(ride.recording.scene) is not None
+    rolls = ride.conditions.get("speed_m_s") != 0.0 and not slips
+    if axle is not None and rolls and not ride.event:  # a mean over the run, which an obstacle is a part of
         load = float(ride.contact.normal.mean())
         resistance = -float(axle.longitudinal.mean()) / load if load > 0.0 else math.nan
         error = (
