@@ -4,7 +4,18 @@ import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 
-from .layout import ABSENT, BUILD_TOOLS_LOCK, COLCON_DEFAULTS, ENVIRONMENT, LOCK, ON_USE, ON_USE_FOLDER, PACKAGES, PROJECT, WORKSPACE
+from .layout import (
+    ABSENT,
+    BUILD_TOOLS_LOCK,
+    COLCON_DEFAULTS,
+    ENVIRONMENT,
+    LOCK,
+    ON_USE,
+    ON_USE_FOLDER,
+    PACKAGES,
+    PROJECT,
+    WORKSPACE,
+)
 from .underlay import Underlay
 
 ENVIRONMENT_STAMP = ENVIRONMENT / "environment.stamp"

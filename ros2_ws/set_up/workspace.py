@@ -32,7 +32,9 @@ def build_on_use(name: str, environ: dict[str, str], progress: Progress) -> None
     _build(environ, progress, folder, [str(ABSENT / name)], f"building {name} (once)", "what needed it")
 
 
-def _build(environ: dict[str, str], progress: Progress, folder: Path, paths: Iterable[str], what: str, again: str) -> None:
+def _build(
+    environ: dict[str, str], progress: Progress, folder: Path, paths: Iterable[str], what: str, again: str
+) -> None:
     """Build the packages at ``paths`` into ``folder``, by colcon. Raises SetUpError where it fails."""
     progress.remove(*(folder / each for each in ("build", "install", "log")))
     trees = folder / "build" / "idl_trees"
