@@ -5,6 +5,7 @@ python examples/nodes/steered.py                              # in another
 """
 
 import sys
+import time
 
 import rclpy
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
@@ -16,6 +17,13 @@ from simulation_interfaces.msg import Result, SimulationState
 from simulation_interfaces.srv import GetSimulatorFeatures, ResetSimulation, SetSimulationState, StepSimulation
 
 SIMULATOR = "/contact_simulator"
+SERVICES = {
+    "get_simulator_features": GetSimulatorFeatures,
+    "set_simulation_state": SetSimulationState,
+    "step_simulation": StepSimulation,
+    "reset_simulation": ResetSimulation,
+    "set_parameters": SetParameters,
+}
 
 
 class Steerer(Node):
@@ -25,24 +33,25 @@ class Steerer(Node):
         """Nothing asked for yet."""
         super().__init__("steerer")
         self._action = ActionClient(self, SimulateSteps, f"{SIMULATOR}/simulate_steps")
+        self._clients = {name: self.create_client(kind, f"{SIMULATOR}/{name}") for name, kind in SERVICES.items()}
+        for each in self._clients.values():
+            each.wait_for_service()
+        self._action.wait_for_server()
+        time.sleep(1.0)  # for the simulator to discover this node too: it drops an answer to whom it does not know
 
-    def call(self, kind, name, **values):
+    def call(self, name, **values):
         """The response of a service."""
-        client = self.create_client(kind, f"{SIMULATOR}/{name}")
-        client.wait_for_service()
-        answer = client.call_async(kind.Request(**values))
+        answer = self._clients[name].call_async(SERVICES[name].Request(**values))
         rclpy.spin_until_future_complete(self, answer)
-        self.destroy_client(client)
         return answer.result()
 
     def go_to(self, state):
         """Stop, play or pause."""
-        self.check(self.call(SetSimulationState, "set_simulation_state", state=SimulationState(state=state)).result)
+        self.check(self.call("set_simulation_state", state=SimulationState(state=state)).result)
 
     def steps(self, count, cancel_at):
-        """Blocks done of ``count`` that are cancelled once so many are done."""
+        """Blocks done of ``count``, which are cancelled once so many are: what is done meanwhile counts too."""
         done, asked = [0], []
-        self._action.wait_for_server()
 
         def on_feedback(message):
             done.append(message.feedback.completed_steps)
@@ -58,7 +67,7 @@ class Steerer(Node):
     def change(self, key, value):
         """Change a live key of the scene."""
         number = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
-        answer = self.call(SetParameters, "set_parameters", parameters=[Parameter(name=key, value=number)]).results[0]
+        answer = self.call("set_parameters", parameters=[Parameter(name=key, value=number)]).results[0]
         if not answer.successful:
             raise RuntimeError(answer.reason)
 
@@ -73,17 +82,16 @@ def main() -> int:
     """The path of a user."""
     rclpy.init()
     bench = Steerer()
-    features = bench.call(GetSimulatorFeatures, "get_simulator_features").features
+    features = bench.call("get_simulator_features").features
     print(f"{len(features.features)} features: {features.custom_info}")
     bench.go_to(SimulationState.STATE_PAUSED)
-    bench.check(bench.call(StepSimulation, "step_simulation", steps=5).result)
+    bench.check(bench.call("step_simulation", steps=5).result)
     print("5 steps done")
-    is_cancelled = 20 <= bench.steps(50, cancel_at=20) <= 50
-    print(f"50 steps cancelled: {is_cancelled}")
+    print(f"{bench.steps(50, cancel_at=20)} of 50 steps done when they were cancelled")
     bench.go_to(SimulationState.STATE_PLAYING)
     bench.change("effects.tire.inflation.pressure", 180e3)
     print("inflation changed")
-    bench.check(bench.call(ResetSimulation, "reset_simulation").result)
+    bench.check(bench.call("reset_simulation").result)
     bench.go_to(SimulationState.STATE_PLAYING)
     print("plays again")
     bench.destroy_node()

@@ -19,6 +19,7 @@ from contact_sim_pkg.nodes.parameters import declare, declare_input_timeout, dec
 from contact_sim_pkg.nodes.processes.on_use import provide
 from contact_sim_pkg.nodes.processes.process import run as run_process
 from contact_sim_pkg.nodes.processes.process import use_usual_policy
+from contact_sim_pkg.nodes.processes.run_plan import EXCITATIONS, INSIDE, TOPICS_ALONE
 from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_scene, write_description
 from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, subscription
 from contact_sim_pkg.nodes.protocol.peers import Peers
@@ -36,8 +37,9 @@ from contact_sim_pkg.steering.own_excitation import OwnExcitation
 if TYPE_CHECKING:
     from contact_sim_pkg.nodes.steering_services import SteeringServices
 
-EXCITATION_TEXT = "Who makes the excitation: topics (other nodes), or inside (this node, which then takes steps, resets and live keys)."
-EXCITATIONS = ("topics", "inside")
+EXCITATION_TEXT = (
+    "Where blocks come from: topics (other nodes), inside (this node, which then takes steps, resets, live keys)."
+)
 INTERFACES = "simulation_interfaces"
 CLOCK_TEXT = "Publish the simulated time on /clock after each block."
 PEERS_SECONDS = 0.01  # between two looks at the graph before ready
@@ -58,7 +60,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._logged = declare_record(self)
         self._input_timeout = declare_input_timeout(self)
         self._publish_clock = declare(self, "publish_clock", True, CLOCK_TEXT)
-        self._excitation = declare(self, "excitation", EXCITATIONS[0], EXCITATION_TEXT)
+        self._excitation = declare(self, "excitation", TOPICS_ALONE, EXCITATION_TEXT)
         if self._excitation not in EXCITATIONS:
             raise NodeError(
                 f"parameter excitation is {self._excitation!r}, allowed are {', '.join(EXCITATIONS)}", REFUSED
@@ -79,7 +81,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         if math.isfinite(pace):
             use_usual_policy(everywhere=True)
         self.announce(f"{scene.name}: compiling")
-        self._own = OwnExcitation(scene) if self._excitation == "inside" else None
+        self._own = OwnExcitation(scene) if self._excitation == INSIDE else None
         made = (*self._own.topics, STEERING) if self._own is not None else ()
         self._out = out = SimulatorPublishers(self, scene, made, clock=self._publish_clock, number=self._number)
         with out.compiling():
