@@ -33,15 +33,17 @@ class Steerer(Node):
         """Nothing asked for yet."""
         super().__init__("steerer")
         self._action = ActionClient(self, SimulateSteps, f"{SIMULATOR}/simulate_steps")
-        self._clients = {name: self.create_client(kind, f"{SIMULATOR}/{name}") for name, kind in SERVICES.items()}
-        for each in self._clients.values():
+        self._services_asked = {
+            name: self.create_client(kind, f"{SIMULATOR}/{name}") for name, kind in SERVICES.items()
+        }
+        for each in self._services_asked.values():
             each.wait_for_service()
         self._action.wait_for_server()
         time.sleep(1.0)  # for the simulator to discover this node too: it drops an answer to whom it does not know
 
     def call(self, name, **values):
         """The response of a service."""
-        answer = self._clients[name].call_async(SERVICES[name].Request(**values))
+        answer = self._services_asked[name].call_async(SERVICES[name].Request(**values))
         rclpy.spin_until_future_complete(self, answer)
         return answer.result()
 
