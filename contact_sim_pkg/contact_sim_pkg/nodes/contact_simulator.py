@@ -21,7 +21,8 @@ from contact_sim_pkg.nodes.processes.process import run as run_process
 from contact_sim_pkg.nodes.processes.process import use_usual_policy
 from contact_sim_pkg.nodes.processes.run_plan import EXCITATIONS, INSIDE, TOPICS_ALONE
 from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_scene, write_description
-from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, subscription
+from contact_sim_pkg.nodes.protocol.endpoints import newest, numbered_subscription, subscription
+from contact_sim_pkg.nodes.protocol.logger_answers import CLOSE_SECONDS as LOGGER_SECONDS
 from contact_sim_pkg.nodes.protocol.peers import Peers
 from contact_sim_pkg.nodes.protocol.simulated_run import SimulatedRun
 from contact_sim_pkg.nodes.protocol.states import DONE, REFUSED, STOPPED_BY_USER, NodeError, RunState
@@ -251,7 +252,16 @@ class ContactSimulatorNode(LifecycleBenchNode):
         if run is not None and run.state.under_way and not run.reset(time.monotonic()):
             self._number = run.report.number + 1
             self._out.settle()
+            self._wait_for_bag(run)
         return super().on_cleanup(state)
+
+    def _wait_for_bag(self, run: SimulatedRun) -> None:
+        """Until the logger has closed the bag of a run that ends, and can hear of the next one."""
+        limit = time.monotonic() + LOGGER_SECONDS
+        while self._logged and time.monotonic() < limit:
+            answer = newest(self, "bench/recorded", PEERS_SECONDS)
+            if answer is not None and answer.run >= run.report.number and answer.closed:
+                return
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """End the run for all of its nodes, also before it has begun."""

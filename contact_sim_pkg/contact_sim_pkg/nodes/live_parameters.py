@@ -63,11 +63,14 @@ class LiveParameters:
             self._node.undeclare_parameter(name)
 
     def _as_numbers(self, given: list[Parameter]) -> list[Parameter]:
-        """Whole numbers as the numbers that they are meant as. Raises FixedKeyError."""
+        """Whole numbers as the numbers that they are meant as. Raises FixedKeyError for what is no parameter."""
         found = []
         for each in given:
-            if not self._node.has_parameter(each.name) and each.name in (keys := self._keys()):
-                raise FixedKeyError(keys[each.name].reason)
+            if not self._node.has_parameter(each.name):
+                key = self._keys().get(each.name)
+                raise FixedKeyError(
+                    key.reason if key else f"no parameter {each.name}; live are {', '.join(self._live)}"
+                )
             is_whole = each.name in self._live and each.type_ is Parameter.Type.INTEGER
             found.append(Parameter(each.name, value=float(each.value)) if is_whole else each)
         return found
