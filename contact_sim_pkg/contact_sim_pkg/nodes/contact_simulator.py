@@ -24,6 +24,7 @@ from contact_sim_pkg.nodes.processes.scene_file import queue_depth, read_scene, 
 from contact_sim_pkg.nodes.protocol.endpoints import newest, numbered_subscription, subscription
 from contact_sim_pkg.nodes.protocol.logger_answers import CLOSE_SECONDS as LOGGER_SECONDS
 from contact_sim_pkg.nodes.protocol.peers import Peers
+from contact_sim_pkg.nodes.protocol.progress_report import ProgressReport
 from contact_sim_pkg.nodes.protocol.simulated_run import SimulatedRun
 from contact_sim_pkg.nodes.protocol.states import DONE, REFUSED, STOPPED_BY_USER, NodeError, RunState
 from contact_sim_pkg.nodes.simulator_publishers import SimulatorPublishers
@@ -66,7 +67,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
             raise NodeError(
                 f"parameter excitation is {self._excitation!r}, allowed are {', '.join(EXCITATIONS)}", REFUSED
             )
-        self._number = 0  # of the run
+        self._released: ProgressReport | None = None  # of a run whose followers wait for the next `configure`
         self._run: SimulatedRun | None = None
         self._steering: Steering | None = None
         self._own: OwnExcitation | None = None
@@ -84,7 +85,8 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self.announce(f"{scene.name}: compiling")
         self._own = OwnExcitation(scene) if self._excitation == INSIDE else None
         made = (*self._own.topics, STEERING) if self._own is not None else ()
-        self._out = out = SimulatorPublishers(self, scene, made, clock=self._publish_clock, number=self._number)
+        self._out = out = SimulatorPublishers(self, scene, made, clock=self._publish_clock, report=self._released)
+        self._released = None
         with out.compiling():
             simulation: BlockSimulation = make_simulation(scene) if self._own is None else self._own
             self._run = run = SimulatedRun(
@@ -179,13 +181,12 @@ class ContactSimulatorNode(LifecycleBenchNode):
                 self._leave(run, now)
             return
         self._computing.call(run.begin_anew, time.monotonic())
-        self._number = run.report.number
         for each in self._offered:
             if isinstance(each, LiveParameters):
                 each.show()
         if self._steering is not None:
             self._steering.on_begun_anew()
-        self.announce(f"run {self._number} is at its start")
+        self.announce(f"run {run.report.number} is at its start")
 
     def _on_input(self, run: SimulatedRun, topic: str, data: bytes, number: int | None) -> None:
         """Keep a block of the run's own source until its turn; warn of one that is refused."""
@@ -249,10 +250,13 @@ class ContactSimulatorNode(LifecycleBenchNode):
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Release a run; one that has begun ends as at a reset, and `configure` begins the next one."""
         run = self._run
-        if run is not None and run.state.under_way and not run.reset(time.monotonic()):
-            self._number = run.report.number + 1
-            self._out.settle()
-            self._wait_for_bag(run)
+        if run is not None and run.state.under_way:
+            if not run.reset(time.monotonic()):
+                self._out.settle()
+                self._wait_for_bag(run)
+                run.report.begin_anew()
+            self._released = run.report
+            self._endpoints_before.append(run.report.publisher)  # by which its followers hear of the end
         return super().on_cleanup(state)
 
     def _wait_for_bag(self, run: SimulatedRun) -> None:
@@ -291,6 +295,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
 
     def stop(self) -> None:
         """End the run after the block done last; a second signal does not wait for the logger."""
+        if self._released is not None:
+            self._released.send(RunState.STOPPED, STOPPED_BY_USER)
+            self._released.settle()
         self.exit_status = DONE if self._run is None else self._run.stop(time.monotonic())
 
     def fault(self, sentence: str, exit_status: int) -> None:

@@ -28,7 +28,13 @@ class SimulatorPublishers:
     """Publishers of one run."""
 
     def __init__(
-        self, node: Node, scene: ResolvedScene, excitation: Iterable[str] = (), *, clock: bool, number: int = 0
+        self,
+        node: Node,
+        scene: ResolvedScene,
+        excitation: Iterable[str] = (),
+        *,
+        clock: bool,
+        report: ProgressReport | None = None,
     ) -> None:
         """Report STARTING and publish the scene.
 
@@ -37,9 +43,9 @@ class SimulatorPublishers:
             scene: the scene.
             excitation: topics of the excitation that the simulator makes itself, and of what steers it.
             clock: publish `/clock` too.
-            number: of the run.
+            report: of a run that has none yet, where it is not that of a first one.
         """
-        self.progress = ProgressReport(publisher(node, "bench/progress"), scene, number)
+        self.progress = report or ProgressReport(publisher(node, "bench/progress"), scene)
         self.progress.send(RunState.STARTING, "compiling")
         self.results = {name: publisher(node, name, queue_depth(scene)) for name in (*excitation, *result_names(scene))}
         self.clock = SimulatedClock(node, wanted=clock)

@@ -19,13 +19,13 @@ SETTLE_SECONDS = 1.0  # for the last report to be acknowledged
 class ProgressReport:
     """State of the run, block by block; the one place that counts the messages sent."""
 
-    def __init__(self, publisher: Publisher, scene: ResolvedScene, number: int = 0) -> None:
-        """Nothing sent; state IDLE; ``number`` of the run."""
+    def __init__(self, publisher: Publisher, scene: ResolvedScene) -> None:
+        """Nothing sent; state IDLE; of the first run."""
         self.publisher = publisher
         self.state = RunState.IDLE
         self._scene = scene.name
         self._blocks, self._period_ns = scene.blocks, scene.block_length_ns
-        self.number = number
+        self.number = 0  # of the run
         self.last: BenchProgress | None = None
         self._begin()
 
