@@ -1,5 +1,6 @@
 """A run that others steer by services, action, parameters and lifecycle of the simulator: the bits of any other run."""
 
+import json
 import subprocess
 import sys
 import time
@@ -179,6 +180,23 @@ def steered(tmp_path):
     yield begin
     for nodes in made:
         nodes.end()
+
+
+def test_the_definitions_are_those_of_2_1_0():
+    """The hashes were made from the definitions of the release by ROS's own generator."""
+    import simulation_interfaces
+
+    found = {}
+    prefix = next(each for each in Path(simulation_interfaces.__file__).parents if (each / "share").is_dir())
+    for path in (prefix / "share" / "simulation_interfaces").rglob("*.json"):
+        for each in json.loads(path.read_text(encoding="utf-8"))["type_hashes"]:
+            found[each["type_name"].removeprefix("simulation_interfaces/")] = each["hash_string"][:15]
+    assert {
+        "msg/Result": "RIHS01_cf43a306", "msg/SimulationState": "RIHS01_bb9f87cc", "msg/SimulatorFeatures": "RIHS01_8b101c85",
+        "srv/GetSimulatorFeatures": "RIHS01_abb9439c", "srv/GetSimulationState": "RIHS01_3362dceb",
+        "srv/SetSimulationState": "RIHS01_a868b916", "srv/StepSimulation": "RIHS01_913fe065",
+        "srv/ResetSimulation": "RIHS01_4ce285d7", "action/SimulateSteps": "RIHS01_f0837c89",
+    }.items() <= found.items()  # fmt: skip
 
 
 @pytest.mark.parametrize("scene", ["car_full_bench", "seat_ride", "impact_rubber_drop"])

@@ -88,8 +88,10 @@ def _standard() -> str:
 
 
 def _publisher(topic: str) -> str:
-    """The node that publishes a topic in a run; a replay publishes what a bag holds."""
-    return ", ".join(node for node, topics in PUBLISHED.items() if topic in topics and node != "bag_replay")
+    """The node that publishes a topic in a run, where its excitation is not made inside the simulator; a replay publishes
+    what a bag holds.
+    """
+    return next((node for node, topics in PUBLISHED.items() if topic in topics and node != "bag_replay"), "")
 
 
 def _appearances() -> dict[str, str]:
