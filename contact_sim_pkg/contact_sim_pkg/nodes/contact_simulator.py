@@ -122,7 +122,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
             return
         from contact_sim_pkg.nodes.steering_services import SteeringServices
 
-        self._offered.append(SteeringServices(self, steering))
+        self._offered.append(SteeringServices(self, steering, self._follow_steering, self._on_answer))
 
     def tick(self, now: float) -> float:
         """Look for peers before ready; advance until the end, but for pauses; then leave once the bag is closed."""
@@ -130,7 +130,6 @@ class ContactSimulatorNode(LifecycleBenchNode):
         if run is None or run.report.last is None:
             return 1.0
         self._out.diagnostics.report(now, run.report.last)
-        self._follow_steering()
         if run.state is RunState.RESET:
             self._begin_anew(run, now)
             return PEERS_SECONDS
@@ -152,6 +151,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self._advance(run, now)
             run.refuse_standstill(time.monotonic())
         return min(1.0, run.wait(now))
+
+    def _on_answer(self) -> None:
+        self._answered = time.monotonic()
 
     def _follow_steering(self) -> None:
         """Bring the lifecycle to the state that a service has chosen."""

@@ -6,7 +6,6 @@ sends it then, and the action goes on from its future.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from typing import Any
 
@@ -46,10 +45,18 @@ INFO = (
 class SteeringServices:
     """Five services and an action."""
 
-    def __init__(self, node: Node, steering: Steering) -> None:
-        """Offer them on a node."""
-        self._node, self._steering = node, steering
-        self.answered = float("-inf")  # steady clock, [s]
+    def __init__(
+        self, node: Node, steering: Steering, follow: Callable[[], None], answered: Callable[[], None]
+    ) -> None:
+        """Offer them on a node.
+
+        Args:
+            node: the simulator.
+            steering: what they ask.
+            follow: brings the lifecycle of the node to the state of ``steering``, before the answer.
+            answered: called at each answer.
+        """
+        self._node, self._steering, self._follow, self._answered = node, steering, follow, answered
         self._services = [
             node.create_service(GetSimulatorFeatures, "~/get_simulator_features", self._features),
             node.create_service(GetSimulationState, "~/get_simulation_state", self._state),
@@ -83,7 +90,9 @@ class SteeringServices:
         """A service that answers once its command has ended."""
 
         def ask(request: Any, response: Any) -> Any:
-            return command_of(request), response
+            command = command_of(request)
+            self._follow()
+            return command, response
 
         service: Any = self._node.create_service(kind, f"~/{name}", ask)
         send = service.send_response
@@ -92,7 +101,7 @@ class SteeringServices:
             command, response = pair
 
             def on_done(answer: Answer) -> None:
-                self.answered = time.monotonic()
+                self._answered()
                 _fill(response, answer)
                 send(response, header)
 
@@ -115,7 +124,7 @@ class SteeringServices:
         command = self._steering.step(goal.request.steps, on_step)
         command.when_done(ended.set_result)
         answer: Answer = await ended
-        self.answered = time.monotonic()
+        self._answered()
         if answer.code is Code.OK:
             goal.succeed()
         elif goal.is_cancel_requested:
