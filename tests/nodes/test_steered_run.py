@@ -260,7 +260,7 @@ def test_every_feature_that_is_claimed_acts_and_no_other_does(tmp_path, steered,
 
     def on_feedback(message):
         seen.append((message.feedback.completed_steps, message.feedback.remaining_steps))
-        if len(seen) == 20:
+        if len(seen) >= 20 and accepted.done() and not asked:
             asked.append(accepted.result().cancel_goal_async())
 
     accepted = steerer.action.send_goal_async(steerer.goal(steps=1000), feedback_callback=on_feedback)
@@ -271,7 +271,7 @@ def test_every_feature_that_is_claimed_acts_and_no_other_does(tmp_path, steered,
     assert (status, result.result) == (5, Code.FAILED)  # cancelled
     done = int(result.error_message.removeprefix("cancelled after ").partition(" ")[0])
     assert 20 <= done < 1000
-    assert seen[:20] == [(number, 1000 - number) for number in range(1, 21)]
+    assert seen == sorted({(number, 1000 - number) for number, _ in seen})  # a busy client hears not of each
     steerer.wait_for(RunState.PAUSED, before + 6 + done)
     assert steerer.block == before + 6 + done
     # on at the pace: what was paused and stepped is not caught up, nor waited for
