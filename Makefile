@@ -18,10 +18,13 @@ PARALLEL = -p xdist -n auto --maxprocesses 4
 # Ends a recipe: prints how long it took and hands the status on.
 REPORT_TIME = status=$$?; echo "make $@: $$SECONDS s in all"; exit $$status
 
-.PHONY: help setup run check test lint lower-bounds bench hard bounds mutants measures profile-start pictures compare-field compare-dynamics clean
+.PHONY: help setup interfaces run check test lint lower-bounds bench hard bounds mutants measures profile-start pictures compare-field compare-dynamics clean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+
+interfaces: setup  ## build simulation_interfaces, by which other programs steer a run, where ROS 2 comes without it
+	@$(SET_UP) simulation_interfaces
 
 setup:  ## make the environment in .ros2/ and build the workspace; does nothing where both are current
 	@$(SET_UP)
@@ -82,5 +85,5 @@ compare-dynamics:  ## run the same impacts, slides and rests with MuJoCo and PyB
 	@SECONDS=0; $(ENTER) && python -m comparisons.dynamics $(COMPARE_OPTIONS); $(REPORT_TIME)
 
 clean:  ## remove the environments, the build and the caches of the tools; bags stay
-	rm -rf .ros2 .lower-bounds .compare-field .compare-dynamics ros2_ws/build ros2_ws/install ros2_ws/log .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .ros2 .lower-bounds .compare-field .compare-dynamics ros2_ws/build ros2_ws/install ros2_ws/log ros2_ws/on_use .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

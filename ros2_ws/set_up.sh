@@ -1,6 +1,6 @@
 #!/bin/sh
 # Finds a Python of 3.11 to 3.14 and runs the set-up with it. PYTHON names one; else the one that the
-# environment was made with, python3, python3.14 … python3.11.
+# environment was made with, python3, python3.14 … python3.11. An argument names a package that is built on first use.
 workspace=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd -P) || exit 1
 unset PYTHONHOME PYTHONSAFEPATH
 export _ROS_WHEELS_BOOTSTRAP_COMPLETE=1
@@ -40,4 +40,4 @@ fi
 case "$PYTHON" in
   */*) PYTHON=$(CDPATH='' cd -- "$(dirname -- "$PYTHON")" && pwd)/$(basename -- "$PYTHON") ;;
 esac
-cd -- "$workspace" && exec "$PYTHON" -B -m set_up
+cd -- "$workspace" && exec "$PYTHON" -B -m set_up "$@"

@@ -30,6 +30,17 @@ PREFIXES
   case "$options" in *u*) set -u ;; esac
   case "$options" in *e*) set -e ;; esac
 
+  # What was built on first use comes last: a package of the same name that is installed hides it.
+  if [ -d "$workspace/on_use" ]; then
+    while IFS= read -r entry; do
+      case ":$AMENT_PREFIX_PATH:" in *":$entry:"*) continue ;; esac
+      export AMENT_PREFIX_PATH="$AMENT_PREFIX_PATH:$entry" LD_LIBRARY_PATH="${LD_LIBRARY_PATH:-}:$entry/lib"
+      export PYTHONPATH="${PYTHONPATH:-}:$(find "$entry/lib" -maxdepth 2 -name '*-packages' -path '*/python3*' | head -n 1)"
+    done <<PREFIXES
+$(find "$workspace/on_use" -mindepth 3 -maxdepth 3 -type d -path '*/install/*')
+PREFIXES
+  fi
+
   # An empty entry stands for the current folder: what a stranger's bag was unpacked with would be imported and loaded.
   for entry in PYTHONPATH LD_LIBRARY_PATH AMENT_PREFIX_PATH; do
     eval "options=\"\${$entry:-}\""

@@ -22,7 +22,7 @@ from launch import Action, LaunchContext, LaunchDescription
 
 with packages_named():
     from contact_sim_pkg.cli.launched import LaunchedRun, arguments_of, options_of, refuse_misspelt
-    from contact_sim_pkg.cli.run import command, refuse_without_bag
+    from contact_sim_pkg.cli.run import command, refuse_two_sources, refuse_without_bag
     from contact_sim_pkg.cli.run_scene import prepare
     from contact_sim_pkg.cli.scene_options import SceneOptions
     from contact_sim_pkg.nodes.processes.environment import LAUNCHED_ENVIRONMENT, plugin_environment
@@ -48,6 +48,7 @@ def start_nodes(context: LaunchContext) -> list[Node]:
         given["scene"] = FIRST_SCENE
     values = options_of(command, given)
     refuse_without_bag(**{name: values[name] for name in ("no_record", "out", "strict", "check")})
+    refuse_two_sources(**{name: values[name] for name in ("excitation", "from_bag")})
     options = SceneOptions(**{name: values[name] for name in SceneOptions.__dataclass_fields__})
     run = prepare(
         options, out=values["out"], from_bag=values["from_bag"],
@@ -56,7 +57,9 @@ def start_nodes(context: LaunchContext) -> list[Node]:
     folder = RunFolder()
     atexit.register(folder.remove)  # not at the shutdown: the logger reads there why its run has ended
     path = write_scene(run.scene, folder.path)
-    nodes = planned_nodes(run.scene, path, run.directory, values["from_bag"], clock=values["clock"])
+    nodes = planned_nodes(
+        run.scene, path, run.directory, values["from_bag"], clock=values["clock"], excitation=values["excitation"]
+    )
     ended = LaunchedRun(path, run.directory, [node.name for node in nodes])
     return [
         Node(

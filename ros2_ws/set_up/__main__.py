@@ -1,4 +1,7 @@
-"""`make setup`: look whether the machine has what is needed, make the environment, build the workspace."""
+"""`make setup`: look whether the machine has what is needed, make the environment, build the workspace.
+
+With the name of a package that is built on first use, that one is built instead, where it is nowhere else.
+"""
 
 import fcntl
 import os
@@ -8,10 +11,10 @@ import time
 from . import preflight, stamps
 from .environment import make_environment, modules_compiled
 from .errors import MISSING, SetUpError
-from .layout import ENVIRONMENT, WORKSPACE, environment_python
+from .layout import ENVIRONMENT, ON_USE, WORKSPACE, environment_python
 from .progress import LOOK, Progress
 from .underlay import Underlay, clean_environ, find_underlay
-from .workspace import build_workspace, is_built
+from .workspace import build_on_use, build_workspace, is_built, is_there
 
 
 def set_up() -> None:
@@ -38,6 +41,23 @@ def set_up() -> None:
     _PROGRESS.say("done; `source ros2_ws/setup.bash` puts `bench` on the PATH")
 
 
+def set_up_on_use(name: str) -> None:
+    """Bring a package that is built on first use up to date; what is current, or there without us, is left alone."""
+    if name not in ON_USE:
+        raise SetUpError(f"{name!r} is no package that is built on first use: {', '.join(ON_USE)}.", status=MISSING)
+    if not (environment_python().exists() and is_built()):
+        raise SetUpError("the workspace is not built: call make setup first.", status=MISSING)
+    underlay = find_underlay(os.environ)
+    environ = clean_environ(os.environ, underlay)
+    key = stamps.on_use_key(name, stamps.environment_key(underlay))
+    stamp = stamps.on_use_stamp(name)
+    if stamps.holds(stamp, key) or is_there(name, environ):
+        return
+    stamp.unlink(missing_ok=True)
+    build_on_use(name, environ, _PROGRESS)
+    stamps.write(stamp, key)
+
+
 def main() -> int:
     """Run the set-up under a lock; returns the exit status: 0, 1 failed, 2 something is missing, 130 interrupted."""
     lock = os.open(WORKSPACE, os.O_RDONLY)
@@ -45,7 +65,10 @@ def main() -> int:
     os.set_inheritable(lock, True)
     try:
         _wait_for(lock)
-        set_up()
+        for name in sys.argv[1:]:
+            set_up_on_use(name)
+        if not sys.argv[1:]:
+            set_up()
     except SetUpError as error:
         for fault in error.faults:
             _PROGRESS.say(fault)

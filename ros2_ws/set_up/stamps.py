@@ -4,7 +4,18 @@ import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 
-from .layout import ABSENT, BUILD_TOOLS_LOCK, COLCON_DEFAULTS, ENVIRONMENT, LOCK, PACKAGES, PROJECT, WORKSPACE
+from .layout import (
+    ABSENT,
+    BUILD_TOOLS_LOCK,
+    COLCON_DEFAULTS,
+    ENVIRONMENT,
+    LOCK,
+    ON_USE,
+    ON_USE_FOLDER,
+    PACKAGES,
+    PROJECT,
+    WORKSPACE,
+)
 from .underlay import Underlay
 
 ENVIRONMENT_STAMP = ENVIRONMENT / "environment.stamp"
@@ -24,12 +35,24 @@ def environment_key(underlay: Underlay) -> str:
 
 def workspace_key(environment: str) -> str:
     """Hash of all that the build depends on. Python sources are linked, not copied: they are not in it."""
-    roots = [*(PROJECT / package for package in PACKAGES), *sorted(ABSENT.glob("*"))]
+    absent = [package for package in sorted(ABSENT.glob("*")) if package.name not in ON_USE]
+    roots = [*(PROJECT / package for package in PACKAGES), *absent]
     files = [root / name for root in roots for name in _PACKAGING if (root / name).exists()]
     files += [path for root in roots for path in sorted(root.glob("msg/*.msg"))]
     # Of what is linked one by one, the names matter and not the content.
     names = [str(path) for root in roots for glob in _INSTALLED_BY_NAME for path in sorted(root.glob(glob))]
     return _hash([environment, *names], [COLCON_DEFAULTS, WORKSPACE / "set_up" / "workspace.py", *files])
+
+
+def on_use_key(name: str, environment: str) -> str:
+    """Hash of all that the build of a package of `ON_USE` depends on."""
+    files = sorted(path for path in (ABSENT / name).rglob("*") if path.is_file())
+    return _hash([environment], [COLCON_DEFAULTS, *files])
+
+
+def on_use_stamp(name: str) -> Path:
+    """Where the stamp of a package of `ON_USE` lies."""
+    return ON_USE_FOLDER / name / "build.stamp"
 
 
 def holds(stamp: Path, key: str) -> bool:

@@ -114,6 +114,7 @@ def test_an_energy_ledger_reads_back_bit_for_bit(block: int, values: list[float]
 def test_texts_of_any_length_are_filled_up_to_a_multiple_of_four(text: str) -> None:
     progress = BenchProgress(
         state=3,
+        run=0,
         block=-1,
         blocks=100,
         messages_sent=5,
@@ -151,7 +152,7 @@ ROUND_TRIPS = {
     "cost": SolverCost(
         block=4, wall_time=0.01, real_time_factor=1.0, steps=5, field_residual=1e-7, coupling_steps_repeated=2
     ),
-    "recorded": BenchRecorded(block=-1, messages=7, closed=True, bag="bags/a", message="closed"),
+    "recorded": BenchRecorded(run=0, block=-1, messages=7, closed=True, bag="bags/a", message="closed"),
 }
 
 

@@ -129,8 +129,8 @@ def test_diagnostics_are_sent_once_a_second_and_at_each_change_and_show_a_warnin
         sent.clear()
         for now in times:
             report = BenchProgress(
-                state=int(state), block=41, blocks=100, messages_sent=9, real_time_factor=1.25, load=520.0, peak_pressure=0.0,
-                scene="seat_ride", message=message,
+                state=int(state), run=0, block=41, blocks=100, messages_sent=9, real_time_factor=1.25, load=520.0,
+                peak_pressure=0.0, scene="seat_ride", message=message,
             )  # fmt: skip
             reports.report(now, report)
         return [int.from_bytes(array.status[0].level, "little") for array in sent]

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.nodes.processes.sros2_policy import LIFECYCLE, OWN_SERVICES, PUBLISHED, SUBSCRIBED
+from contact_sim_pkg.nodes.processes.sros2_policy import LIFECYCLE, OWN_ACTIONS, OWN_SERVICES, PUBLISHED, SUBSCRIBED
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED
 from contact_sim_pkg.records.definitions import PACKAGE, texts
 from contact_sim_pkg.records.registry import rigs
@@ -32,7 +32,7 @@ APPEARS = {
     "scene": "always",
     "road/patch": "scenes with `road` and `travel`",
     "platform/vibration": "scenes with `vibration`",
-    "bench/steering": "offline runs whose parameters changed",
+    "bench/steering": "runs whose parameters changed",
     "cost": "always",
     "state": "always; not recorded",
     "clock": "unless another node publishes it; not recorded",
@@ -88,8 +88,10 @@ def _standard() -> str:
 
 
 def _publisher(topic: str) -> str:
-    """The node that publishes a topic in a run; a replay publishes what a bag holds."""
-    return ", ".join(node for node, topics in PUBLISHED.items() if topic in topics and node != "bag_replay")
+    """The node that publishes a topic in a run, where its excitation is not made inside the simulator; a replay publishes
+    what a bag holds.
+    """
+    return next((node for node, topics in PUBLISHED.items() if topic in topics and node != "bag_replay"), "")
 
 
 def _appearances() -> dict[str, str]:
@@ -209,9 +211,13 @@ def _nodes(parameters: str) -> Iterator[str]:
             continue  # the supervisor, and the command of the live page: they publish nothing
         kind = "lifecycle node" if node in LIFECYCLE else "plain node"
         services = "".join(f"; service `{name}`" for name in OWN_SERVICES.get(node, ()))
+        services += "".join(f"; action `{name}`" for name in OWN_ACTIONS.get(node, ()))
         rows = [(f"`{name}`", value, meaning) for name, value, meaning in _parameters_of(node, parameters)]
         table = _table(("parameter", "default", "meaning"), rows)
-        yield f"### {node}\n\nA {kind}{services}.{_subscribed(node)}\n\n{table}"
+        said = textwrap.fill(
+            f"A {kind}{services}.{_subscribed(node)}", WIDTH, break_long_words=False, break_on_hyphens=False
+        )
+        yield f"### {node}\n\n{said}\n\n{table}"
 
 
 def _subscribed(node: str) -> str:

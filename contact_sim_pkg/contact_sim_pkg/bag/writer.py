@@ -127,13 +127,22 @@ class BagWriter:
         content = ChunkedFile(self._file, LIBRARY)
         if self._attachments:
             content.add_metadata(RECORD, sealed(self._attachments))
-        channels = {}
-        for topic in self._topics:
-            kept = {"offered_qos_profiles": topic.offered_qos, "topic_type_hash": topic.type_hash}
-            if topic.relative_name:
-                kept[RELATIVE_NAME] = topic.relative_name
-            channels[topic.key] = content.add_channel(topic.name, topic.encoding, topic.type, topic.definition, kept)
-        return content, channels
+        return content, {topic.key: self._add_channel(content, topic) for topic in self._topics}
+
+    @staticmethod
+    def _add_channel(content: ChunkedFile, topic: RecordedTopic) -> int:
+        kept = {"offered_qos_profiles": topic.offered_qos, "topic_type_hash": topic.type_hash}
+        if topic.relative_name:
+            kept[RELATIVE_NAME] = topic.relative_name
+        return content.add_channel(topic.name, topic.encoding, topic.type, topic.definition, kept)
+
+    def add_topic(self, topic: RecordedTopic) -> None:
+        """Record another topic from now on; one that is recorded already stays as it is."""
+        with self._lock:
+            if topic.key not in self._channels:
+                self._topics = (*self._topics, topic)
+                self._counts[topic.key] = 0
+                self._channels[topic.key] = self._add_channel(self._content, topic)
 
     @property
     def messages(self) -> int:

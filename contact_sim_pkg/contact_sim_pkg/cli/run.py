@@ -29,6 +29,13 @@ from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
     "--within", multiple=True, metavar="METRIC=0.5%",
     help="Numerical error that a metric may have: steps and cells as loose as it allows, found by short runs.",
 )  # fmt: skip
+@click.option(
+    "--excitation",
+    type=click.Choice(["topics", "inside"]),
+    default="topics",
+    show_default=True,
+    help="On nodes: sent by nodes of its own, or made inside the simulator, which then takes steps, resets and live keys.",
+)
 @click.option("--allow-long", is_flag=True, help="Run even if the estimate is above 10 min of computing.")
 @click.option(
     "--strict",
@@ -48,6 +55,7 @@ def command(
     from_bag: Path | None,
     clock: bool,
     within: tuple[str, ...],
+    excitation: str,
     allow_long: bool,
     strict: bool,
     no_record: bool,
@@ -56,6 +64,7 @@ def command(
 ) -> None:
     """Run SCENE (a name or a YAML file), record it and report its outcome."""
     refuse_without_bag(no_record=no_record, out=out, strict=strict, check=check)
+    refuse_two_sources(excitation=excitation, from_bag=from_bag)
     from contact_sim_pkg.cli.run_scene import run_scene
 
     status = run_scene(
@@ -65,6 +74,7 @@ def command(
         from_bag=from_bag,
         clock=clock,
         within=within,
+        excitation=excitation,
         record=not no_record,
         check=check,
         as_json=as_json,
@@ -72,6 +82,15 @@ def command(
         strict=strict,
     )
     context.exit(status)
+
+
+def refuse_two_sources(*, excitation: str, from_bag: Path | None) -> None:
+    """Raise UsageError where the excitation would come from the simulator and from a bag."""
+    if excitation == "inside" and from_bag is not None:
+        raise click.UsageError(
+            f"--from-bag {from_bag} and --excitation inside are two sources; leave one of them out (`--offline --from-bag` "
+            "repeats a run whose parameters changed)"
+        )
 
 
 def refuse_without_bag(*, no_record: bool, out: Path | None, strict: bool, check: bool) -> None:

@@ -149,6 +149,7 @@ def run_scene(
     out: Path | None,
     from_bag: Path | None,
     clock: bool,
+    excitation: str = "topics",
     record: bool,
     check: bool,
     as_json: bool,
@@ -169,7 +170,7 @@ def run_scene(
     scene, directory, forecast = prepare(
         options, out=out, from_bag=from_bag, record=record, allow_long=allow_long, within=within
     )
-    run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
+    run = _run_offline if offline else partial(_run_on_nodes, clock=clock, excitation=excitation)
     signals = OtherSignals()
     with _signals_call(signals):
         with RunDisplay(scene.duration) as display:
@@ -329,7 +330,13 @@ class Worker(threading.Thread, Generic[Result]):
 
 
 def _run_on_nodes(
-    scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay, *, clock: bool
+    scene: ResolvedScene,
+    directory: Path | None,
+    from_bag: Path | None,
+    display: RunDisplay,
+    *,
+    clock: bool,
+    excitation: str,
 ) -> RunEnd:
     try:
         import rclpy  # noqa: F401  # refused here, with the cure, where ROS is not there
@@ -343,7 +350,7 @@ def _run_on_nodes(
         raise ModuleNotFoundError("No module named 'numba' of a version that fits", name="numba")
     from contact_sim_pkg.nodes.processes.supervisor import Supervisor
 
-    supervisor = Supervisor(scene, directory, from_bag=from_bag, clock=clock)
+    supervisor = Supervisor(scene, directory, from_bag=from_bag, clock=clock, excitation=excitation)
     before = time.monotonic() - BEGAN
     with _signals_call(supervisor.stop):
         outcome = supervisor.run(display.show, display.print_line)

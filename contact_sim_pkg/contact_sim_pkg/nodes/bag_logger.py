@@ -50,7 +50,7 @@ class BagLoggerNode(LifecycleBenchNode):
         refused run leaves none.
         """
         scene = read_scene(self.scene_name)
-        path = new_directory(Path(self._directory) if self._directory else None, scene.name)
+        self._path = path = new_directory(Path(self._directory) if self._directory else None, scene.name)
         self._run, self._news, self._leave_at = Follower(), time.monotonic(), float("inf")
         self._request = ""
         self._scene, self._recording = scene, BagRecording(path, scene, scene.block_length_ns)
@@ -73,6 +73,9 @@ class BagLoggerNode(LifecycleBenchNode):
         recording, progress = self._recording, decode(BenchProgress, data)
         if recording is None or recording.closed or not self._run.accept(progress):
             return
+        if self._run.number > recording.number:  # the report of the reset was overwritten
+            self._close_bag("")
+            recording = self._recording = self._recording_of(self._run.number)
         self._news = time.monotonic()
         never_began = self._run.state is RunState.STOPPED and progress.block < 0
         if self._run.state >= RunState.READY and not never_began and not recording.created:
@@ -90,7 +93,7 @@ class BagLoggerNode(LifecycleBenchNode):
     def tick(self, now: float) -> float:
         """Write whole blocks; close once the run has ended and all is here, or no wait is left."""
         recording = self._recording
-        if recording is None or recording.closed:
+        if recording is None or recording.closed or recording.number > self._run.number:
             return 1.0
         if self._run.state.ended and not recording.created:
             self._leave_without_bag("")
@@ -109,7 +112,16 @@ class BagLoggerNode(LifecycleBenchNode):
         return 1.0
 
     def _end(self, sentence: str) -> None:
-        self.exit_status = LOSS if self._close_bag(sentence) else DONE
+        lossy = self._close_bag(sentence)
+        if self._run.state is RunState.RESET and not lossy and not sentence:
+            self._recording = self._recording_of(self._run.number + 1)
+        else:
+            self.exit_status = LOSS if lossy else DONE
+
+    def _recording_of(self, number: int) -> BagRecording:
+        """The recording of a run behind the first one: DIRECTORY_2, DIRECTORY_3, …"""
+        path = new_directory(self._path.with_name(f"{self._path.name}_{number + 1}"), self._scene.name)
+        return BagRecording(path, self._scene, self._scene.block_length_ns, number)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """End the run for all of its nodes, also before it has begun."""

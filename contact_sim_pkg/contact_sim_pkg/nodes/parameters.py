@@ -1,4 +1,4 @@
-"""Declaration of the nodes' parameters: all read-only, each with text, unit and range."""
+"""Declaration of the nodes' parameters, read-only, each with text, unit and range; live keys are in `live_parameters.py`."""
 
 from __future__ import annotations
 

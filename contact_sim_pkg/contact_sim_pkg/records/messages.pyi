@@ -64,7 +64,9 @@ class BenchProgress(_Record):
     STOPPED: ClassVar[int]
     FAILED: ClassVar[int]
     PAUSED: ClassVar[int]
+    RESET: ClassVar[int]
     state: int
+    run: int
     block: int
     blocks: int
     messages_sent: int
@@ -76,6 +78,7 @@ class BenchProgress(_Record):
 
 @dataclass(frozen=True, kw_only=True)
 class BenchRecorded(_Record):
+    run: int
     block: int
     messages: int
     closed: bool

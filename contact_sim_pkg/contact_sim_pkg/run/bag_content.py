@@ -17,7 +17,7 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 EXCITATION_KEY = "excitation"
 PUBLISHED_BY = "published by"
 """Key of the description of an excitation: full name of the node that published it"""
-OWN_SOURCES = ("road_profile", "vibration", "bag_replay")
+OWN_SOURCES = ("road_profile", "vibration", "contact_simulator", "bag_replay")
 """Nodes of the bench that publish excitation: what the scene says of it holds"""
 
 

@@ -10,7 +10,7 @@ from contact_sim_pkg.excitation.blocks import RoadBlocks
 from contact_sim_pkg.excitation.changed_road import changed_road
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.records.messages import ParameterChange
-from contact_sim_pkg.run.block_simulation import BlockSimulation, InputBlock
+from contact_sim_pkg.run.block_simulation import BlockSimulation, InputBlock, Resettable
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.live_parameters import (
     STEERING,
@@ -71,9 +71,10 @@ class SteeredRun:
         """Every key of the scene with its present value."""
         return parameters_of(self.scene, self.changes)
 
-    def at_start(self) -> SteeredRun:
-        """The run of the scene as it was at first; this one where nothing has changed."""
-        if not self.changes:
+    def restarted(self) -> SteeredRun:
+        """The run of the scene before its first block, ready to go; this one where nothing has changed in it."""
+        if not self.changes and isinstance(self.simulation, Resettable):
+            self.simulation.reset()
             return self
         run = SteeredRun(self.scene, None, self._given)
         run.simulation.prepare()

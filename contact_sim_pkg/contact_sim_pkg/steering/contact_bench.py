@@ -13,7 +13,7 @@ from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.messages import VibrationBlock
 from contact_sim_pkg.report.export.table import has_columns, table_of_records
 from contact_sim_pkg.report.export.time_series import Series, series_of
-from contact_sim_pkg.run.block_simulation import InputBlock, Resettable
+from contact_sim_pkg.run.block_simulation import InputBlock
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.live_parameters import Parameter
 from contact_sim_pkg.run.saved_state import load_state, open_state, save_state
@@ -123,11 +123,7 @@ class ContactBench:
             name, values = self._name
             self._build(_resolved(name, (*values, f"seed={seed}")))
             return
-        self._run = self._run.at_start()
-        if isinstance(self._run.simulation, Resettable):
-            self._run.simulation.reset()
-        else:  # of a plug-in
-            self._build(self.scene)
+        self._run = self._run.restarted()
         self._block, self._is_broken = 0, False
 
     def save(self) -> bytes:

@@ -44,6 +44,13 @@ def test_the_excitation_of_a_bag_is_a_parameter_of_the_excitation_nodes_alone():
     assert asked == {"road_profile", "vibration"}
 
 
+def test_excitation_made_inside_needs_no_node_of_its_own():
+    nodes = planned_nodes(resolved("car_full_bench"), SCENE, Path("bag"), excitation="inside")
+    assert [node.name for node in nodes] == ["bag_logger", "contact_simulator"]
+    assert nodes[1].parameters["excitation"] == "inside"
+    assert "excitation" not in planned_nodes(resolved("seat_ride"), SCENE, None)[-1].parameters
+
+
 def test_the_clock_is_the_simulators_and_can_be_switched_off():
     for clock in (True, False):
         nodes = planned_nodes(resolved("seat_ride"), SCENE, None, clock=clock)

@@ -20,7 +20,7 @@ class Run:
         self.inputs = InputBlocks([VIBRATION], LENGTH, 100)
         if recorded >= 0:
             self.answers.accept(
-                BenchRecorded(block=recorded, messages=5 * recorded, closed=False, bag="bag", message="")
+                BenchRecorded(run=0, block=recorded, messages=5 * recorded, closed=False, bag="bag", message="")
             )
         for block in range(done + 1):
             self.inputs.offer(VIBRATION, vibration(block))
@@ -50,7 +50,7 @@ def test_after_the_end_the_simulator_stays_until_the_bag_is_closed():
     run = Run(done=12, recorded=12)
     run.answers.end(5.0)
     assert run.answers.status_to_leave(5.0) is None
-    run.answers.accept(BenchRecorded(block=12, messages=60, closed=True, bag="bag", message=""))
+    run.answers.accept(BenchRecorded(run=0, block=12, messages=60, closed=True, bag="bag", message=""))
     assert run.answers.status_to_leave(5.0) == 0
 
 
@@ -64,12 +64,16 @@ def test_a_logger_that_never_closes_is_waited_for_shortly_after_a_signal(stopped
 
 def test_the_reason_of_a_bag_closed_before_the_end_is_handed_on_once():
     run = Run(done=2, recorded=1)
-    assert run.answers.accept(BenchRecorded(block=2, messages=10, closed=False, bag="bag", message="")) is None
+    assert run.answers.accept(BenchRecorded(run=0, block=2, messages=10, closed=False, bag="bag", message="")) is None
     assert (
-        run.answers.accept(BenchRecorded(block=2, messages=10, closed=True, bag="bag", message="the disk is full"))
+        run.answers.accept(
+            BenchRecorded(run=0, block=2, messages=10, closed=True, bag="bag", message="the disk is full")
+        )
         == "the disk is full"
     )
     assert (
-        run.answers.accept(BenchRecorded(block=2, messages=10, closed=True, bag="bag", message="the disk is full"))
+        run.answers.accept(
+            BenchRecorded(run=0, block=2, messages=10, closed=True, bag="bag", message="the disk is full")
+        )
         is None
     )

@@ -11,6 +11,7 @@ def followed(*states: RunState, message: str = "") -> Follower:
         run.accept(
             BenchProgress(
                 state=int(state),
+                run=0,
                 block=block,
                 blocks=100,
                 messages_sent=0,

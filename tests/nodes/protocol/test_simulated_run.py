@@ -24,7 +24,8 @@ class Run:
         self.sent: list[BenchProgress] = []
         publisher = SimpleNamespace(publish=lambda data: self.sent.append(decode(BenchProgress, data)))
         report = ProgressReport(publisher, SCENE)
-        simulation = SimpleNamespace(inputs=(), blocks=SCENE.blocks)
+        self.resets = []
+        simulation = SimpleNamespace(inputs=(), blocks=SCENE.blocks, reset=lambda: self.resets.append(self.now))
         self.run = SimulatedRun(simulation, report, SCENE, 0.5, logged=logged, input_timeout=5.0)
 
     def advance(self, seconds):
@@ -46,8 +47,8 @@ class Run:
         return self.sent[-1].block + 1
 
 
-def answer(block, *, closed=False, message=""):
-    return BenchRecorded(block=block, messages=max(0, 3 * block), closed=closed, bag="bag", message=message)
+def answer(block, *, closed=False, message="", run=0):
+    return BenchRecorded(run=run, block=block, messages=max(0, 3 * block), closed=closed, bag="bag", message=message)
 
 
 @pytest.fixture
@@ -116,3 +117,48 @@ def test_before_ready_a_request_counts_only_from_a_logger_without_a_bag(monkeypa
     made.run.on_recorded(answer(-1, closed=True, message=STOPPED_BY_USER), made.now)
     assert made.states() == [RunState.STARTING, RunState.STOPPED]
     assert made.run.logger.status_to_leave(made.now) == 0
+
+
+def step(made, count):
+    """Do blocks of a paused run."""
+    for _ in range(count):
+        assert made.run.may_step()
+        number, _ = made.run.next_block()
+        made.run.on_done(number, DONE, made.now)
+        made.run.on_recorded(answer(number, run=made.run.report.number), made.now)
+
+
+def test_blocks_of_a_step_stay_paused_and_are_neither_caught_up_nor_waited_for(begun):
+    assert not begun.run.may_step()
+    begun.run.pause(begun.now)
+    begun.advance(12.0)
+    step(begun, 30)
+    assert (begun.states()[-1], begun.blocks) == (RunState.PAUSED, 80)
+    begun.run.refuse_standstill(begun.now)
+    begun.run.resume(begun.now)
+    begun.advance(1.0)
+    assert begun.blocks == pytest.approx(130, abs=1)
+    assert begun.run.late == ""
+
+
+def test_a_reset_waits_for_the_bag_and_begins_the_next_run_paused(begun):
+    assert not begun.run.reset(begun.now)
+    assert (begun.states()[-1], begun.run.why_over()) == (
+        RunState.RESET, "the run has ended: block_slip: reset after 0.5 s, 0.5x real time",
+    )  # fmt: skip
+    assert begun.run.logger.deserted
+    assert begun.run.on_recorded(answer(49, closed=True, message="reset"), begun.now) == ""
+    assert not begun.run.logger.deserted
+    begun.run.begin_anew(begun.now)
+    assert begun.resets == [begun.now]
+    assert begun.states()[-2:] == [RunState.READY, RunState.PAUSED]
+    assert (begun.sent[-1].run, begun.blocks, begun.sent[-1].messages_sent, begun.run.blocks_left) == (1, 0, 0, 1000)
+    assert begun.run.reset(begun.now)  # at its start already
+    begun.run.on_recorded(answer(49, closed=True), begun.now)  # of the run before
+    step(begun, 3)
+    assert (begun.sent[-1].run, begun.blocks, begun.sent[-1].messages_sent) == (1, 3, 9)
+
+
+def test_a_run_that_has_ended_is_not_reset_again(begun):
+    begun.run.stop(begun.now)
+    assert begun.run.why_over().startswith("the run has ended: block_slip: stopped")

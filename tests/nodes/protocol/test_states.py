@@ -7,9 +7,10 @@ from contact_sim_pkg.nodes.protocol.window import AHEAD
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
 
-def report(state: RunState, block: int) -> BenchProgress:
+def report(state: RunState, block: int, run: int = 0) -> BenchProgress:
     return BenchProgress(
         state=int(state),
+        run=run,
         block=block,
         blocks=100,
         messages_sent=0,
@@ -92,7 +93,36 @@ def test_nothing_follows_the_end():
 
 def test_an_answer_of_the_logger_that_lies_behind_is_passed_over():
     follower = RecordedFollower()
-    assert follower.accept(BenchRecorded(block=5, messages=60, closed=False, bag="bags/a", message=""))
-    assert not follower.accept(BenchRecorded(block=-1, messages=0, closed=True, bag="bags/b", message=""))
-    assert follower.accept(BenchRecorded(block=5, messages=60, closed=True, bag="bags/a", message="done"))
+    assert follower.accept(BenchRecorded(run=0, block=5, messages=60, closed=False, bag="bags/a", message=""))
+    assert not follower.accept(BenchRecorded(run=0, block=-1, messages=0, closed=True, bag="bags/b", message=""))
+    assert follower.accept(BenchRecorded(run=0, block=5, messages=60, closed=True, bag="bags/a", message="done"))
     assert (follower.closed, follower.bag, follower.message) == (True, "bags/a", "done")
+
+
+def test_a_reset_ends_a_run_and_the_next_one_is_followed_from_its_start():
+    follower = Follower()
+    for state, block in ((RunState.READY, -1), (RunState.RUNNING, 40), (RunState.RESET, 40)):
+        assert follower.accept(report(state, block))
+    assert follower.state.ended
+    assert not follower.accept(report(RunState.RUNNING, 41))
+    assert follower.accept(report(RunState.READY, -1, run=1))
+    assert (follower.number, follower.block, follower.state) == (1, -1, RunState.READY)
+    assert not follower.accept(report(RunState.RUNNING, 60))  # of the run before
+    assert follower.accept(report(RunState.RUNNING, 3, run=1))
+    assert follower.accept(report(RunState.PAUSED, 2, run=2))  # the report of the reset was overwritten
+    assert (follower.number, follower.block) == (2, 2)
+
+
+def test_a_node_that_joins_behind_a_reset_belongs_to_no_run():
+    with pytest.raises(NodeError, match="another bench"):
+        Follower().accept(report(RunState.READY, -1, run=1))
+
+
+def test_answers_of_the_logger_are_those_of_their_run():
+    follower = RecordedFollower()
+    assert follower.accept(BenchRecorded(run=0, block=5, messages=60, closed=True, bag="bags/a", message=""))
+    assert follower.accept(BenchRecorded(run=1, block=-1, messages=1, closed=False, bag="bags/a_2", message=""))
+    assert (follower.block, follower.closed, follower.bag) == (-1, False, "bags/a_2")
+    assert not RecordedFollower(2).accept(
+        BenchRecorded(run=1, block=9, messages=99, closed=True, bag="bags/a_2", message="")
+    )

@@ -19,9 +19,7 @@ _VIEW = standard_topics([name for name, topic in TOPICS.items() if topic.recorde
 PUBLISHED = {
     "road_profile": ("road/patch",),
     "vibration": ("platform/vibration",),
-    "contact_simulator": tuple(
-        name for name, topic in TOPICS.items() if topic.kind != "excitation" and name != "bench/recorded"
-    ),
+    "contact_simulator": tuple(name for name in TOPICS if name != "bench/recorded"),
     "bag_logger": ("bench/recorded",),
     "bag_replay": tuple(name for name, topic in TOPICS.items() if topic.recorded or topic.kind == "clock"),
     "bench_view": tuple(_VIEW),
@@ -46,7 +44,14 @@ PARAMETER_SERVICES = (
     "~/set_parameters",
     "~/set_parameters_atomically",
 )
-OWN_SERVICES = {"bag_replay": ("~/pause",)}
+OWN_SERVICES = {
+    "bag_replay": ("~/pause",),
+    "contact_simulator": (
+        "~/get_simulation_state", "~/get_simulator_features", "~/reset_simulation", "~/set_simulation_state",
+        "~/step_simulation",
+    ),
+}  # fmt: skip
+OWN_ACTIONS = {"contact_simulator": ("~/simulate_steps",)}
 REQUESTED = {"live_view": ("bag_replay/pause", "contact_simulator/change_state")}
 LIFECYCLE_SERVICES = (
     "~/change_state",
@@ -72,6 +77,7 @@ def policy() -> str:
         parameters = () if node == "bench_run" else PARAMETER_SERVICES
         _allow(profile, "services", "reply", (*parameters, *services, "~/get_type_description"))
         _allow(profile, "services", "request", REQUESTED.get(node, ()))
+        _allow(profile, "actions", "execute", OWN_ACTIONS.get(node, ()))
     ElementTree.indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from contact_sim_pkg.nodes.processes.children import Child, Children, ErrorLines
 from contact_sim_pkg.nodes.processes.environment import node_arguments, plugin_environment, set_default_environment
 from contact_sim_pkg.nodes.processes.run_folder import RunFolder
-from contact_sim_pkg.nodes.processes.run_plan import in_processes, planned_nodes
+from contact_sim_pkg.nodes.processes.run_plan import TOPICS_ALONE, in_processes, planned_nodes
 from contact_sim_pkg.nodes.processes.scene_file import descriptions_beside, write_reason, write_scene
 from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments
 from contact_sim_pkg.nodes.processes.stop_requests import StopRequests
@@ -36,7 +36,13 @@ class Supervisor:
     """One run on nodes."""
 
     def __init__(
-        self, scene: ResolvedScene, directory: Path | None, *, from_bag: Path | None = None, clock: bool = True
+        self,
+        scene: ResolvedScene,
+        directory: Path | None,
+        *,
+        from_bag: Path | None = None,
+        clock: bool = True,
+        excitation: str = TOPICS_ALONE,
     ) -> None:
         """Prepare a run of `scene`, recorded in `directory` (None: not recorded), which must not
         exist.
@@ -46,8 +52,10 @@ class Supervisor:
             directory: directory of the bag.
             from_bag: bag whose excitation is sent instead of the scene's own.
             clock: publish simulated time on `/clock`, unless somebody else does.
+            excitation: one of `EXCITATIONS`.
         """
         self._scene, self._directory, self._from_bag, self._clock = scene, directory, from_bag, clock
+        self._excitation = excitation
         self._stops = StopRequests()
         self._failure, self._exit_status = "", DONE
 
@@ -96,7 +104,9 @@ class Supervisor:
             self._fail("bag_logger did not end, and was killed before it had closed its bag", FAULT)
 
     def _start_all(self, children: Children, scene: Path) -> None:
-        nodes = planned_nodes(self._scene, scene, self._directory, self._from_bag, clock=self._clock)
+        nodes = planned_nodes(
+            self._scene, scene, self._directory, self._from_bag, clock=self._clock, excitation=self._excitation
+        )
         for node in in_processes(nodes):
             arguments = node_arguments({**node.parameters, "supervisor": os.getpid()})
             children.start(node.name, python_command(f"contact_sim_pkg.nodes.{node.name}", *arguments))
@@ -127,8 +137,7 @@ class Supervisor:
             self._stops.hand_on(children, now, under_way=monitor.run.state.under_way)
             if self._stops.expired(now):
                 return
-            if monitor.run.state.ended:
-                ended_at = min(ended_at, now)
+            ended_at = min(ended_at, now) if monitor.run.state.ended else float("inf")  # a reset begins the next run
             if now - ended_at > END_SECONDS:
                 self._fail(f"the nodes did not end {END_SECONDS:g} s after the run", FAULT)
                 return
@@ -152,7 +161,8 @@ class Supervisor:
     def _outcome(self, monitor: RunMonitor, began: float, scene: Path) -> SupervisedRun:
         ready = monitor.ready_at or time.monotonic()
         last = monitor.recorded_at if self._directory is not None else monitor.done_at
-        bag = self._directory if self._directory is not None and self._directory.is_dir() else None
+        found = Path(monitor.recorded.bag) if monitor.recorded.number else self._directory  # of the last run
+        bag = found if self._directory is not None and found is not None and found.is_dir() else None
         stopped = self._stops.any or monitor.run.state is RunState.STOPPED
         done = monitor.run.block + 1
         if not self._failure and not stopped and done < self._scene.blocks:

@@ -15,6 +15,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
+from rclpy.wait_for_message import wait_for_message
 
 from contact_sim_pkg.bag.topics import topic_of
 from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
@@ -121,6 +122,15 @@ def _call(node: Node, callback: Callable[..., None], *given: Any) -> None:
     except Exception as error:  # noqa: BLE001  # raised again outside of the executor
         if getattr(node, KEPT, None) is None:
             setattr(node, KEPT, error)
+
+
+def newest(node: Node, name: str, seconds: float) -> Any:
+    """The newest message of a latched topic of the table, waited for within a callback, [s]; None where none came."""
+    topic = topic_of(name)
+    _, message = wait_for_message(
+        message_type(topic.type), node, name, qos_profile=profile_of(topic), time_to_wait=seconds
+    )
+    return message
 
 
 def raise_kept(node: Node) -> None:

@@ -16,10 +16,10 @@ STOP_SECONDS = 4.0  # for the same after a signal; `ros2 launch` sends a second 
 class LoggerAnswers:
     """The logger as the simulator knows it from `bench/recorded`."""
 
-    def __init__(self, window: BlockWindow, *, logged: bool) -> None:
-        """No answer yet; `logged`: the run has a logger."""
+    def __init__(self, window: BlockWindow, *, logged: bool, number: int = 0) -> None:
+        """No answer yet; `logged`: the run has a logger; `number` of the run."""
         self._window, self._logged = window, logged
-        self._follower = RecordedFollower()
+        self._follower = RecordedFollower(number)
         self._leave_at = float("inf")
         self.exit_status = DONE  # of the run, once it has ended
 

@@ -64,6 +64,11 @@ class Pacer:
             self._start += now - self._paused
         self._paused = None
 
+    def step(self) -> None:
+        """A block of a step is done, whenever it was due: those behind it follow at the pace from the end of the pause on."""
+        if self._start is not None:
+            self._start -= self.interval
+
     def wait(self, block: int, now: float) -> float:
         """Seconds until the block is due: 0 when it is, infinity before the start and in a pause."""
         if self._start is None or self._paused is not None:

@@ -20,16 +20,25 @@ class ProgressReport:
     """State of the run, block by block; the one place that counts the messages sent."""
 
     def __init__(self, publisher: Publisher, scene: ResolvedScene) -> None:
-        """Nothing sent; state IDLE."""
+        """Nothing sent; state IDLE; of the first run."""
         self.publisher = publisher
         self.state = RunState.IDLE
         self._scene = scene.name
         self._blocks, self._period_ns = scene.blocks, scene.block_length_ns
+        self.number = 0  # of the run
+        self.last: BenchProgress | None = None
+        self._begin()
+
+    def _begin(self) -> None:
         self._block, self._sent = -1, 0
         self._load = self._peak = 0.0
         self._began: float | None = None  # later by each pause
         self._paused: float | None = None
-        self.last: BenchProgress | None = None
+
+    def begin_anew(self) -> None:
+        """The next run, of which nothing is done."""
+        self.number += 1
+        self._begin()
 
     def send(self, state: RunState, message: str = "") -> None:
         """Report a state, with one sentence for a person."""
@@ -46,6 +55,7 @@ class ProgressReport:
         factor = simulated_ns * 1e-9 / elapsed if elapsed > 0.0 else 0.0
         self.last = BenchProgress(
             state=int(state),
+            run=self.number,
             block=self._block,
             blocks=self._blocks,
             messages_sent=self._sent,
@@ -61,7 +71,8 @@ class ProgressReport:
         """Report a block after its messages; FINISHED with the last one of the scene."""
         self._block, self._sent = block, self._sent + len(result.messages)
         self._load, self._peak = result.load, result.peak_pressure
-        self.send(RunState.FINISHED if block == self._blocks - 1 else RunState.RUNNING)
+        is_last = block == self._blocks - 1
+        self.send(RunState.FINISHED if is_last else self.state if self.state is RunState.PAUSED else RunState.RUNNING)
 
     @property
     def real_time_factor(self) -> float:

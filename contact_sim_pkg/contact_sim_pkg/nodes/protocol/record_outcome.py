@@ -25,7 +25,7 @@ def outcome_of(
     """
     # the supervisor's reason overrides the simulator's last report
     failure = reason or (run.last.message if run.last is not None and run.state is RunState.FAILED else "")
-    ended = "failed" if reason else run.state.name.lower()
+    ended = "failed" if reason else "stopped" if run.state is RunState.RESET else run.state.name.lower()
     if not failure and not run.state.ended:
         ended, failure = "stopped", UNREPORTED
     outcome = {"ended": ended, "blocks_done": str(blocks_done), "failure": failure}

@@ -21,6 +21,7 @@ from contact_sim_pkg.nodes.protocol.single_source import SingleSource
 from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError
 from contact_sim_pkg.records.messages import BenchRecorded, String
 from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names, result_names
+from contact_sim_pkg.run.live_parameters import STEERING
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
@@ -44,11 +45,12 @@ class ClosedBag(NamedTuple):
 class BagRecording:
     """Messages of a run in canonical order, and the bag that they are written to."""
 
-    def __init__(self, path: Path, scene: ResolvedScene, block_length_ns: int) -> None:
-        """No message yet; the bag `path` is not created before `open`; block length in [ns]."""
+    def __init__(self, path: Path, scene: ResolvedScene, block_length_ns: int, number: int = 0) -> None:
+        """No message yet; the bag `path` is not created before `open`; block length in [ns]; `number` of the run."""
+        self.number = number
         self.path, self._scene, self._block_length_ns = path, scene, block_length_ns
         self._inputs, self._blocks = set(input_names(scene)), scene.blocks
-        self._sources = {name: SingleSource() for name in (*result_names(scene), *self._inputs)}
+        self._sources = {name: SingleSource() for name in (*result_names(scene), *self._inputs, STEERING)}
         self.order = RecordOrder(input_names(scene), block_length_ns)
         self.left_out = Counter[str]()
         self.block = -1
@@ -104,6 +106,7 @@ class BagRecording:
             descriptions: findings in the excitation and their treatment, by topic.
         """
         topics = recorded_topics(recorded_names(self._scene), resolve_name)
+        self._steering = recorded_topics([STEERING], resolve_name)[0]
         try:
             self._writer = BagWriter(self.path, topics, attachments(self._scene, descriptions))
         except BagError as error:
@@ -119,13 +122,15 @@ class BagRecording:
 
     def _write(self, messages: list[BlockMessage]) -> None:
         if self._writer is not None:
+            if any(message.topic == STEERING for message in messages):  # a bag without changes has no such topic
+                self._writer.add_topic(self._steering)
             self._writer.write_all((message.topic, message.stamp, message.data) for message in messages)
 
     def answer(self, *, closed: bool = False, sentence: str = "") -> bytes:
         """The bytes of `bench/recorded` at the last block that is whole."""
         count = self.order.released + self.created  # the scene's text is one message
         value = BenchRecorded(
-            block=self.block, messages=count, closed=closed, bag=str(self.path), message=sentence
+            run=self.number, block=self.block, messages=count, closed=closed, bag=str(self.path), message=sentence
         )  # fmt: skip
         return encode(value, (self.block + 1) * self._block_length_ns)
 

@@ -36,13 +36,19 @@ class SimulatedRun:
             input_timeout: longest wait for a block that is due, [s].
         """
         self.simulation, self.report = simulation, report
-        self.inputs = InputBlocks(simulation.inputs, scene.block_length_ns, simulation.blocks)
-        self.window = BlockWindow(simulation.blocks, logged=logged)
-        self.logger = LoggerAnswers(self.window, logged=logged)
+        self._scene, self._pace, self._logged = scene, pace, logged
+        self._timeout = input_timeout + scene.block_length / pace
+        self._begin()
+
+    def _begin(self) -> None:
+        scene, blocks = self._scene, self.simulation.blocks
+        self.inputs = InputBlocks(self.simulation.inputs, scene.block_length_ns, blocks)
+        self.window = BlockWindow(blocks, logged=self._logged)
+        self.logger = LoggerAnswers(self.window, logged=self._logged, number=self.report.number)
         self.late = ""  # sentence about a run behind its pace; empty where it is not
-        self._pacer = Pacer(pace, scene.block_length)
+        self._pacer = Pacer(self._pace, scene.block_length)
         self._lateness = Lateness(self._pacer)
-        self._timeout, self._advanced = input_timeout + scene.block_length / pace, math.inf
+        self._advanced = math.inf
 
     @property
     def state(self) -> RunState:
@@ -55,11 +61,41 @@ class SimulatedRun:
         self._pacer.start(now)
         self.report.send(RunState.READY)
 
+    @property
+    def blocks_left(self) -> int:
+        """Blocks of the scene that are not done."""
+        return self.window.blocks - self.window.next_block
+
+    def why_over(self) -> str:
+        """Why no block follows; empty where one can."""
+        return f"the run has ended: {self.report.describe()}" if self.state.ended else ""
+
+    def reset(self, now: float) -> bool:
+        """Begin anew, at `now` of the steady clock, [s]; whether the run is at its start already. Else report RESET:
+        `begin_anew` follows once the logger has closed its bag.
+        """
+        if self.window.next_block == 0 and not getattr(self.simulation, "has_changed", False):
+            return True
+        self.end(RunState.RESET, "reset", now)
+        return False
+
+    def begin_anew(self, now: float) -> None:
+        """The next run at its start, paused; `now`: steady clock, [s]. Its simulation can `reset`."""
+        self.simulation.reset()  # type: ignore[attr-defined]
+        self.report.begin_anew()
+        self._begin()
+        self.start(now)
+        self.pause(now)
+
     def wait(self, now: float) -> float:
         """Time until pace alone allows the next block, [s]; infinity where a message decides."""
         if self.simulation.inputs or not self.window.open:
             return math.inf
         return self._pacer.wait(self.window.next_block, now)
+
+    def may_step(self) -> bool:
+        """Whether the window allows the next block of a paused run."""
+        return self.state is RunState.PAUSED and self.window.open
 
     def may_begin(self, now: float) -> bool:
         """Whether window and pace allow the next block at `now` of the steady clock, [s].
@@ -77,6 +113,8 @@ class SimulatedRun:
         """Report a block whose messages are published; `now`: steady clock, [s]."""
         self.window.on_done(number)
         self._advanced = now
+        if self.state is RunState.PAUSED:
+            self._pacer.step()
         self.report.block_done(number, result)
         self.late = self._lateness.block_done(number, now, self.report.real_time_factor)
         if self.state.ended:

@@ -30,11 +30,12 @@ class RunState(IntEnum):
     STOPPED = BenchProgress.STOPPED
     FAILED = BenchProgress.FAILED
     PAUSED = BenchProgress.PAUSED
+    RESET = BenchProgress.RESET
 
     @property
     def ended(self) -> bool:
         """No further block will be done."""
-        return self in (RunState.FINISHED, RunState.STOPPED, RunState.FAILED)
+        return self in (RunState.FINISHED, RunState.STOPPED, RunState.FAILED, RunState.RESET)
 
     @property
     def under_way(self) -> bool:
@@ -59,13 +60,14 @@ class Follower:
     A node is a peer that *ready* waits for, and without its answers the run does not get further
     than the window. Whatever is further on, before *ready* was seen, belongs to another bench.
     Later on, a report that lies behind an earlier one comes from another bench that is
-    starting on the same topics, and is ignored.
+    starting on the same topics, and is ignored. A run with a higher number follows a reset.
     """
 
     def __init__(self, *, answers: bool = True) -> None:
         """No report yet; `answers`: the run waits for this node's answers or blocks."""
         self.state = RunState.IDLE
         self.block = -1
+        self.number = 0  # of the run
         self.last: BenchProgress | None = None
         self._answers = answers
 
@@ -77,7 +79,7 @@ class Follower:
         # a run under way that this node did not see begin is that of another bench
         state = RunState(progress.state)
         if self.state is RunState.IDLE:
-            foreign = progress.block >= 0 or state > RunState.READY
+            foreign = progress.block >= 0 or state > RunState.READY or progress.run > 0
         else:
             foreign = self._answers and self.state is RunState.STARTING and progress.block >= AHEAD
         if foreign:
@@ -86,6 +88,11 @@ class Follower:
                 "bench/progress; end it, or give this one a ROS_DOMAIN_ID of its own",
                 REFUSED,
             )
+        if progress.run != self.number:
+            if progress.run < self.number:
+                return False
+            self.number, self.state, self.block, self.last = progress.run, state, progress.block, progress
+            return True
         if state.stage < self.state.stage or progress.block < self.block or self.state.ended:
             return False
         self.state, self.block, self.last = state, progress.block, progress
@@ -97,8 +104,9 @@ class RecordedFollower:
     ignored.
     """
 
-    def __init__(self) -> None:
-        """No answer yet."""
+    def __init__(self, number: int = 0) -> None:
+        """No answer yet; ``number`` of the run that is recorded."""
+        self.number = number
         self.block = -1
         self.messages = 0
         self.closed = False
@@ -107,7 +115,14 @@ class RecordedFollower:
 
     def accept(self, recorded: BenchRecorded) -> bool:
         """Whether this answer is news."""
-        if recorded.block < self.block or recorded.messages < self.messages or self.closed:
+        if recorded.run > self.number:
+            self.number, self.block, self.messages, self.closed = recorded.run, -1, 0, False
+        if (
+            recorded.run < self.number
+            or recorded.block < self.block
+            or recorded.messages < self.messages
+            or self.closed
+        ):
             return False
         self.block, self.messages, self.closed = recorded.block, recorded.messages, recorded.closed
         self.bag, self.message = recorded.bag, recorded.message
