@@ -18,7 +18,7 @@ from contact_sim_pkg.report.tables import Table
 from contact_sim_pkg.sweep.fit_result import Compared, Fit, Fitted
 from contact_sim_pkg.sweep.page import Call, Part, page_of_parts
 
-__all__ = ["answer_of_fit", "coarse_sentence", "write_fit_page"]
+__all__ = ["answer_of_fit", "coarse_sentence", "others_sentence", "write_fit_page"]
 
 MOST_PICTURES = 6
 ROOM = Margins(left=0.92, shared=0.16)
@@ -48,6 +48,8 @@ def answer_of_fit(found: Fit) -> Answer:
         return Answer("outside", "Does not follow", f"{reason}; {left}{late}; the intervals hold nothing.")
     if found.coarse:
         return Answer("doubtful", "Not judged", f"{coarse_sentence(found)}; {keys}; {left}{late}.")
+    if found.others:
+        return Answer("doubtful", "Two answers", f"{keys}; {others_sentence(found)}; {left}{late}.")
     if not found.is_identified:
         return Answer("doubtful", "Not identifiable", f"{keys}; {left}{late}.")
     if math.isnan(found.probability):
@@ -57,8 +59,22 @@ def answer_of_fit(found: Fit) -> Answer:
     return Answer("good", "Follows", f"{keys}; {left}{late}.")
 
 
+def others_sentence(found: Fit) -> str:
+    """Other minima that are as good; empty where there is none."""
+    listed = [
+        ", ".join(f"{each.key} {_digits(value)}" for each, value in zip(found.parameters, values, strict=True))
+        for values in found.others
+    ]
+    return f"as good, by chance: {'; or '.join(listed)}" if listed else ""
+
+
 def coarse_sentence(found: Fit) -> str:
-    """What is missing where the runs are less accurate than the recording."""
+    """What is missing where the runs, or the run that was recorded, are less accurate than what is left."""
+    if found.recorded:
+        return (
+            f"what is left is no noise, and within what the recorded run errs by at accuracy {found.recorded:.2g}: a recording "
+            f"made at {0.1 * found.recorded:.1g} decides"
+        )
     return (
         f"what is left is no noise, and within what the runs may err by at accuracy {found.coarse:.2g}: "
         f"--set accuracy={0.1 * found.coarse:.1g} decides"
