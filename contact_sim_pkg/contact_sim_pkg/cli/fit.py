@@ -136,7 +136,8 @@ def _say(found: Fit, out: Path, page: Path) -> None:
     if not found.follows:
         say(
             f"the scene does not follow what was measured (probability {found.probability:.1g}): an effect, a "
-            "filter (--free sensor.low_pass=5:100:log) or another model is missing, and the intervals hold nothing"
+            "filter (--free sensor.low_pass=5:100:log), a delay (--shift) or another model is missing, and the intervals hold "
+            "nothing"
         )
     elif found.coarse:
         say(coarse_sentence(found))
