@@ -44,7 +44,8 @@ def answer_of_fit(found: Fit) -> Answer:
     left = f"misfit {found.misfit:.3g} {found.unit}".rstrip()
     late = f", the recording {1e3 * found.shift:.2f} ms late" if found.shift else ""
     if not found.follows:
-        reason = f"what is left is no noise (probability {found.probability:.1g}): an effect, a filter, a delay or another model lacks"
+        noise = f"what is left is no noise (probability {found.probability:.1g})"
+        reason = f"{noise}: an effect, a filter, a delay or another model is missing"
         return Answer("outside", "Does not follow", f"{reason}; {left}{late}; the intervals hold nothing.")
     if found.coarse:
         return Answer("doubtful", "Not judged", f"{coarse_sentence(found)}; {keys}; {left}{late}.")
