@@ -111,7 +111,7 @@ def command(
 
 
 def _say(found: Fit, out: Path, page: Path) -> None:
-    from contact_sim_pkg.sweep.fit_page import coarse_sentence, others_sentence
+    from contact_sim_pkg.sweep.fit_page import coarse_sentence, late_words, others_sentence
 
     show_rows(
         [
@@ -126,7 +126,7 @@ def _say(found: Fit, out: Path, page: Path) -> None:
         ],
         False,
     )
-    late = f", the recording {1e3 * found.shift:.2f} ms late" if found.shift else ""
+    late = late_words(found)
     request = f", accuracy {found.accuracy:.2g}" if math.isfinite(found.accuracy) else ""
     say(f"90 % intervals; misfit {found.misfit:.3g} {found.unit}".rstrip() + f"{late}; {found.cases} runs{request}")
     if found.recorded:

@@ -18,9 +18,11 @@ from contact_sim_pkg.report.tables import Table
 from contact_sim_pkg.sweep.fit_result import Compared, Fit, Fitted
 from contact_sim_pkg.sweep.page import Call, Part, page_of_parts
 
-__all__ = ["answer_of_fit", "coarse_sentence", "others_sentence", "write_fit_page"]
+__all__ = ["answer_of_fit", "coarse_sentence", "late_words", "others_sentence", "write_fit_page"]
 
 MOST_PICTURES = 6
+LEAST_LATE = 5e-6
+"""[s] that is printed as more than 0.00 ms"""
 ROOM = Margins(left=0.92, shared=0.16)
 NONE = "–"
 
@@ -42,7 +44,9 @@ def answer_of_fit(found: Fit) -> Answer:
     """Whether the scene follows what was measured, whether its keys are identifiable, and the keys."""
     keys = "; ".join(_said(each) for each in found.parameters)
     left = f"misfit {found.misfit:.3g} {found.unit}".rstrip()
-    late = f", the recording {1e3 * found.shift:.2f} ms late" if found.shift else ""
+    late = late_words(found)
+    if found.recorded:
+        late += f"; with the error of the recorded run, made at accuracy {found.recorded:.2g}"
     if not found.follows:
         noise = f"what is left is no noise (probability {found.probability:.1g})"
         reason = f"{noise}: an effect, a filter, a delay or another model is missing"
@@ -58,6 +62,11 @@ def answer_of_fit(found: Fit) -> Answer:
             "usual", "Fitted", f"{keys}; {left}{late}; the scatter is not known, whether it follows was not judged."
         )
     return Answer("good", "Follows", f"{keys}; {left}{late}.")
+
+
+def late_words(found: Fit) -> str:
+    """By how much a recording is late, where that is more than nothing."""
+    return f", the recording {1e3 * found.shift:.2f} ms late" if abs(found.shift) > LEAST_LATE else ""
 
 
 def others_sentence(found: Fit) -> str:
@@ -117,6 +126,8 @@ def _compared(compared: Compared, name: str) -> Picture:
     if is_density:
         for axes in (above, below):
             axes.set_yscale("log")
+    else:
+        below.ticklabel_format(axis="y", style="sci", scilimits=(-2, 4))
     if marks:
         below.xaxis.set_major_locator(MaxNLocator(integer=True))
     above.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.1)
