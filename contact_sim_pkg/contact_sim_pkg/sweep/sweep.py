@@ -76,6 +76,7 @@ def sweep(
     rows: list[Row] = []
     try:
         progress = _Progress(len(tasks))
+        notify(f"0 of {len(tasks)} cases", 0.0)
         for row in run_on_cluster(tasks, scheduler) if scheduler else _ordered(tasks, values, count):
             rows.append(row)
             notify(progress.after(row), len(rows) / len(tasks))
