@@ -230,7 +230,7 @@ def _minima(runs: Runs, at: At) -> tuple[Minimum, list[Minimum]]:
     """The least square, and what further starts led to."""
     places = starts(at, len(runs.free))
     found = minimum(at, places[0])
-    found, *others = _sorted([found, *followed(at, far_starts(places, found), found)])
+    found, *others = _sorted([found, *followed(at, far_starts(at, places, found), found)])
     return found, others
 
 
@@ -267,15 +267,18 @@ def _fitted_response(runs: Runs, to: MeasuredResponse) -> Fit:
     at = _at(runs, residual)
     residual.weigh(runs([numpy.full(len(runs.free), 0.5)])[0])
     places = starts(at, len(runs.free))
-    best = places[0]
+    best, led = places[0], None
     for _ in range(MOST_ROUNDS):
         changed = residual.weigh(runs([best])[0])
         _require_enough(residual.lines.size, runs)
         own = own_error(runs, residual, to, best)
-        best = (found := _settled(runs, residual, minimum(at, best, least=own.scatter), own)).place
+        found = minimum(at, best, least=own.scatter)
+        if led is None:  # before a finer request makes the starts new runs
+            led = far_starts(at, places, found)
+        best = (found := _settled(runs, residual, found, own)).place
         if changed < SAME_SPREAD:
             break
-    others = followed(at, far_starts(places, found), found, own.scatter)
+    others = followed(at, led or [], found, own.scatter)
     concluded = _Concluded(runs, residual, found, to, others)
     fitted, left = residual.fitted(concluded.given), concluded.found.left
     compared = [Compared("seat.transmissibility", residual.frequency, residual.measured, fitted, "frequency, Hz")]
@@ -294,7 +297,7 @@ def _fitted_series(runs: Runs, to: Series, most_shift: float) -> Fit:
         if led is None:
             places = starts(at, len(runs.free))
             found = minimum(at, places[0], ROUGH, least)
-            led = far_starts(places, found)
+            led = far_starts(at, places, found)
         else:
             found = minimum(at, found.place, ROUGH, least)
         found, *others = _sorted([found, *followed(at, led, found, least)])

@@ -22,6 +22,8 @@ AWAY = 0.2
 """Of the ranges' diagonal, that starts which are followed lie from each other."""
 FAR = 10.0
 """Times what chance lets a square grow by, that a short part, or a rough minimum, may err by."""
+STRAIGHT = 0.5
+"""Of a residual's change from a minimum to a start, that slopes may miss."""
 APART = 3.0
 """Half intervals, that two minima lie from each other."""
 
@@ -35,11 +37,16 @@ def starts(at: At, count: int) -> list[Field]:
     return [places[i] for i in numpy.argsort(squares, kind="stable")]
 
 
-def far_starts(sorted_places: Sequence[Field], found: Minimum) -> list[Field]:
-    """The best of the starts that lie apart from each other, and from a minimum."""
+def far_starts(at: At, sorted_places: Sequence[Field], found: Minimum) -> list[Field]:
+    """The best of the starts that lie apart from each other, and from a minimum whose slopes do not explain them: where a
+    residual is nearly straight from there, there is no other minimum between.
+    """
     kept = [sorted_places[0], found.place]
-    for place in sorted_places[1:]:
-        if all(float(numpy.linalg.norm(place - each)) > AWAY * math.sqrt(place.size) for each in kept):
+    for place, left in zip(sorted_places[1:], at(sorted_places[1:]), strict=True):
+        missed = left - found.left - found.slope @ (place - found.place)
+        is_explained = float(numpy.linalg.norm(missed)) < STRAIGHT * float(numpy.linalg.norm(left - found.left))
+        is_far = all(float(numpy.linalg.norm(place - each)) > AWAY * math.sqrt(place.size) for each in kept)
+        if is_far and not is_explained:
             kept.append(place)
     return kept[2 : 2 + FOLLOWED]
 
