@@ -16,6 +16,7 @@ from contact_sim_pkg.sweep.case import Task, run_case
 from contact_sim_pkg.sweep.fit import fit
 from contact_sim_pkg.sweep.measured import Points, Series, read_points, read_series
 from contact_sim_pkg.sweep.pool import Workers
+from contact_sim_pkg.sweep.sensor import low_passed
 from contact_sim_pkg.sweep.spectrum import log_density
 from contact_sim_pkg.sweep.variation import SweepError, read_variation
 
@@ -228,21 +229,106 @@ def test_what_cannot_be_fitted_is_one_sentence(tmp_path, capsys, arguments, word
     assert word in capsys.readouterr().err
 
 
+class OffByItsRequest(Linear):
+    """Runs that are off by their accuracy times 3."""
+
+    def __call__(self, places):
+        return [given * numpy.array([[1.0], [1.0 + 3.0 * self.accuracy]]) for given in super().__call__(places)]
+
+
 def test_a_finer_accuracy_is_taken_where_it_moves_a_key():
     """Runs that are off by their accuracy times 3: within 0.3 of 0.013 (the half interval of the size over t) from 1e-3 on."""
 
-    class Rough(Linear):
-        is_held = False
-
-        def __call__(self, places):
-            return [given * numpy.array([[1.0], [1.0 + 3.0 * self.accuracy]]) for given in super().__call__(places)]
-
-    runs = Rough(KEYS)
+    runs = OffByItsRequest(KEYS)
+    runs.is_held = False
     found = fits._fitted_series(runs, recorded(2), 0.02)
     assert found.accuracy == runs.accuracy <= 1e-3
     held = fits._fitted_series(Linear(KEYS), recorded(2), 0.02)
     deviation = (held.parameters[0].high - held.parameters[0].low) / 2.0 / stats.norm.ppf(0.95)
     assert abs(found.parameters[0].value - held.parameters[0].value) < 0.5 * deviation
+
+
+@pytest.mark.parametrize(("held", "expected"), [(None, 3.0), (1e-8, 3.09)])
+def test_a_recording_of_the_bench_carries_its_own_error(held, expected):
+    """Of 3 % of its size at a request of 1e-2, which a run at that request has as well: of 3.0 the interval holds 0.09."""
+    runs = OffByItsRequest(KEYS)
+    runs.is_held = held is not None
+    runs.accuracy = held or 1e-1
+    to = Series("x.y", TIME, 1.03 * Linear.model(TIME, 3.0, 4.0), 1e-2)
+    found = fits._fitted_series(runs, to, 0.02)
+    assert found.recorded == 1e-2
+    assert found.accuracy == pytest.approx(held or 1e-2)
+    size, frequency = found.parameters
+    assert size.value == pytest.approx(expected, rel=1e-3)
+    assert size.low < 3.0 < size.high
+    # The linear interval of a scatter as large as the error on 2000 samples is 2 % of it
+    assert size.high - size.low == pytest.approx(2.0 * 0.03 * expected, rel=0.05)
+    assert frequency.high - frequency.low < 0.01
+    assert found.is_identified
+
+
+def test_a_recording_within_its_own_error_is_not_held_against_the_scene():
+    """Runs whose error is another tone: of 0.5 % of the size, which the fit's own runs at a finer request do not have."""
+
+    class Ringing(Linear):
+        def __call__(self, places):
+            return [
+                numpy.array([given[0], given[1] + self.accuracy * numpy.sin(60.0 * given[0])])
+                for given in super().__call__(places)
+            ]
+
+    runs = Ringing(KEYS)
+    runs.accuracy = 1e-8
+    to = Series("x.y", TIME, Linear.model(TIME, 3.0, 4.0) + 0.05 * numpy.sin(60.0 * TIME), 5e-2)
+    found = fits._fitted_series(runs, to, 0.0)
+    assert found.probability < 1e-3
+    assert found.coarse == 5e-2
+    assert found.follows
+
+
+def test_two_minima_that_chance_does_not_tell_apart_are_both_given():
+    """Of an offset that acts by its square, 0.4 and -0.4 are as good."""
+
+    class Even(Linear):
+        @staticmethod
+        def model(time, size, offset):
+            return Linear.model(time, size * (1.0 + offset**2), 4.0)
+
+    seen = recorded(6, colour=0.0)
+    to = seen._replace(values=seen.values + Linear.model(TIME, 3.0 * 0.16, 4.0))
+    runs = Even(("offset=-1:1",))
+    runs.model = lambda time, offset: Even.model(time, 3.0, offset)
+    found = fits._fitted_series(runs, to, 0.0)
+    ((other,),) = found.others
+    assert {round(abs(each), 1) for each in (found.parameters[0].value, other)} == {0.4}
+    assert other == pytest.approx(-found.parameters[0].value, abs=1e-2)
+    assert not found.is_identified
+
+
+def test_a_low_pass_is_that_of_butterworth():
+    """|H|² = 1 / (1 + (f / f_c)^4), of sines far below the rate."""
+    time = numpy.arange(0.0, 4.0, 1e-3)
+    for frequency in (5.0, 20.0, 40.0):
+        _, passed = low_passed(numpy.array([time, numpy.cos(2.0 * math.pi * frequency * time)]), 20.0)
+        gain = math.sqrt(2.0) * float(passed[2000:].std())
+        assert gain == pytest.approx(1.0 / math.sqrt(1.0 + (frequency / 20.0) ** 4), rel=0.02)
+    _, still = low_passed(numpy.array([time, numpy.full(time.size, 7.0)]), 20.0)
+    assert still == pytest.approx(7.0)
+    with pytest.raises(SweepError, match="450 Hz at most"):
+        low_passed(numpy.array([time, time]), 600.0)
+
+
+@pytest.mark.parametrize(
+    ("keys", "fixed", "word"),
+    [
+        (("sensor.gain=1:2",), {}, "has only sensor.low_pass"), (("sensor.low_pass=5:50",), {}, "over time"),
+        (KEYS[:1], {"sensor.low_pass": "5"}, "over time"),
+    ],
+)  # fmt: skip
+def test_a_sensor_that_acts_on_nothing_is_one_sentence(tmp_path, keys, fixed, word):
+    to = Points([{}], ["impact.duration"], {}, numpy.array([[1.0]]), None)
+    with pytest.raises(SweepError, match=word):
+        fit("impact_steel", to, free(*keys), tmp_path / "out", fixed=fixed)
 
 
 def test_many_impacts_are_fitted_from_a_distant_start():

@@ -24,12 +24,18 @@ def fitted(parameter=MODULUS, axis="row of the table", **others):
     [
         (fitted(), "Follows"), (fitted(UNSEEN), "Not identifiable"), (fitted(probability=math.nan), "Fitted"),
         (fitted(probability=1e-9), "Does not follow"), (fitted(probability=1e-9, coarse=1e-2), "Not judged"),
+        (fitted(probability=1e-9, coarse=1e-2, recorded=1e-2), "Not judged"), (fitted(others=[[9e6]]), "Two answers"),
     ],
 )  # fmt: skip
 def test_the_worst_that_holds_comes_first(found, word):
     answer = answer_of_fit(found)
     assert answer.word == word
     assert ("7.08921e+06 to 7.50728e+06" in answer.text) == (word not in ("Not identifiable", "Does not follow"))
+
+
+def test_another_minimum_and_a_recording_that_is_too_coarse_are_said_with_their_numbers():
+    assert "impact.modulus 9e+06" in answer_of_fit(fitted(others=[[9e6]])).text
+    assert "made at 0.001 decides" in answer_of_fit(fitted(probability=1e-9, coarse=1e-2, recorded=1e-2)).text
 
 
 @pytest.mark.parametrize("axis", ["row of the table", "time, s", "frequency, Hz"])

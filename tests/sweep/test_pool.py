@@ -52,6 +52,32 @@ def test_a_process_that_ends_between_two_cases_costs_none(tmp_path):
     assert sorted(found) == [(number, "finished") for number in range(8)]
 
 
+def test_no_process_outlives_the_one_that_began_it(tmp_path):
+    """Which is killed while they wait for a case: they would do so for ever, 200 MB each."""
+    program = (
+        "import os, signal\nfrom tests.sweep.test_pool import tasks, work\nfrom contact_sim_pkg.sweep.pool import Workers\n"
+        "with Workers(2, work) as workers:\n"
+        f"    list(workers.run(tasks({str(tmp_path)!r})))\n"
+        "    print(*workers._pool._processes, flush=True)\n"
+        "    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    root = Path(__file__).parents[2]
+    ended = subprocess.run([sys.executable, "-c", program], cwd=root, stdout=subprocess.PIPE, text=True, check=False)
+    begun = [int(each) for each in ended.stdout.split()]
+    assert begun
+    until = time.monotonic() + 60.0
+    while any(_is_there(each) for each in begun) and time.monotonic() < until:
+        time.sleep(0.05)
+    assert not any(_is_there(each) for each in begun)
+
+
+def _is_there(process):
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
 def test_a_process_has_one_thread(tmp_path):
     assert [row["threads"] for row in run_all(tasks(tmp_path, 1), 1, work)] == ["1"]
 

@@ -28,6 +28,7 @@ from contact_sim_pkg.sweep.case import FINISHED, Row, Task, sources_hash
 from contact_sim_pkg.sweep.fit import Fit, fit
 from contact_sim_pkg.sweep.measured import Points, Series
 from contact_sim_pkg.sweep.pool import Workers
+from contact_sim_pkg.sweep.sensor import FILTER, is_of_sensor
 from contact_sim_pkg.sweep.sweep import CASES, texts_of
 from contact_sim_pkg.sweep.variation import Values, read_variation
 
@@ -114,6 +115,10 @@ KINDS = {
         finer={"effects.seat.cushion.cell": "0.005", "outputs.force_rate": "1000"},
     ),
 }  # fmt: skip
+KINDS["sensor"] = KINDS["slap"]._replace(
+    free=(*KINDS["slap"].free[:1], "sensor.low_pass=10:60:log"),
+)
+"""A slap behind the low pass of a sensor, whose frequency is free."""
 
 DURATIONS = KINDS["impact"]._replace(metrics=("impact.duration",))
 PAIRS = {
@@ -133,7 +138,7 @@ PAIRS = {
 """Kinds of which the recording holds one number of the first two keys: damping of restitution and its speed, the ratio of
 stresses under a hardness, the weight at rest, and m/E and E²R in the time of a contact (Hertz).
 """
-REFUSED = {"other-law": "slap", "late": "tire", "low-passed": "slap"}
+REFUSED = {"other-law": "slap", "late": "tire", "late-slap": "slap", "low-passed": "slap"}
 """Recordings that the scene of a kind cannot follow: force over approach with another power, 3 ms late with the shift held, and
 behind a low pass.
 """
@@ -154,12 +159,12 @@ def refused(what: str, workers: Workers, seed: int) -> Fit:
     other = {"effects.backrest.normal_elastic.exponent": "1.35"} if what == "other-law" else {}
     with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
         model = kind._replace(finer={**kind.finer, **other})
-        to = recording(model, hidden, rng, workers, Path(folder) / "twin", 3e-3 if what == "late" else 0.0)
+        to = recording(model, hidden, rng, workers, Path(folder) / "twin", 3e-3 if what.startswith("late") else 0.0)
         assert isinstance(to, Series)
         if what == "low-passed":
             passed = signal.lfilter(*signal.butter(2, LOW_PASS, fs=RATE), to.values - to.values[0])
             to = to._replace(values=passed + to.values[0])
-        return fitted(kind, to, hidden, workers, Path(folder) / "fit", 0.0 if what == "late" else 0.01).found
+        return fitted(kind, to, hidden, workers, Path(folder) / "fit", 0.0 if what.startswith("late") else 0.01).found
 
 
 def twins(kind: Kind, count: int, workers: Workers, first: int = 0) -> Iterator[Twin]:
@@ -188,7 +193,8 @@ def recording(
     kind: Kind, hidden: Values, rng: numpy.random.Generator, workers: Workers, folder: Path, late: float = math.nan,
 ) -> Points | Series:  # fmt: skip
     """What was measured of hidden values; ``late`` [s], nan: drawn."""
-    values = {**kind.fixed, **kind.finer, **hidden, "accuracy": "1e-6"}
+    of_scene = {key: value for key, value in hidden.items() if not is_of_sensor(key)}
+    values = {**kind.fixed, **kind.finer, **of_scene, "accuracy": "1e-6"}
     if not kind.series:
         rows = _rows(kind, [{**values, **each} for each in kind.points], workers, folder)
         exact = numpy.array([[_metric(row, each) for each in kind.metrics] for row in rows])
@@ -197,12 +203,23 @@ def recording(
         return Points([*kind.points], [*kind.metrics], units, measured, kind.noise * exact)
     (row,) = _rows(kind, [values], workers, folder)
     path = interpolate.CubicSpline(row["time"], row["values"])
+    if FILTER in hidden:
+        path = _behind_sensor(path, float(hidden[FILTER]))
     late = float(rng.uniform(-LATEST, LATEST)) if math.isnan(late) else late
     at = numpy.arange(row["time"][0] + 0.02, row["time"][-1] - 0.02, 1.0 / RATE)
     exact = path(at - late)
     white = rng.normal(size=at.size + 100) * math.sqrt(1.0 - kind.colour**2)
     noise = signal.lfilter([1.0], [1.0, -kind.colour], white)[100:]
     return Series(kind.series, at, exact + kind.noise * max(float(exact.std()), 1e-2 * float(exact.mean())) * noise)
+
+
+def _behind_sensor(path: interpolate.CubicSpline, frequency: float) -> interpolate.CubicSpline:
+    """Behind a low pass of second order in continuous time, straight between 10 samples a millisecond."""
+    time = numpy.arange(path.x[0], path.x[-1], 1e-4)
+    above, below = signal.butter(2, 2.0 * math.pi * frequency, analog=True)
+    rest = path(time[0])
+    _, passed, _ = signal.lsim((above, below), path(time) - rest, time - time[0])
+    return interpolate.CubicSpline(time, passed + rest)
 
 
 def _rows(kind: Kind, cases: list[Values], workers: Workers, folder: Path) -> list[Row]:

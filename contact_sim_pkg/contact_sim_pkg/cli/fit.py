@@ -111,7 +111,7 @@ def command(
 
 
 def _say(found: Fit, out: Path, page: Path) -> None:
-    from contact_sim_pkg.sweep.fit_page import coarse_sentence
+    from contact_sim_pkg.sweep.fit_page import coarse_sentence, late_words, others_sentence
 
     show_rows(
         [
@@ -126,13 +126,18 @@ def _say(found: Fit, out: Path, page: Path) -> None:
         ],
         False,
     )
-    late = f", the recording {1e3 * found.shift:.2f} ms late" if found.shift else ""
+    late = late_words(found)
     request = f", accuracy {found.accuracy:.2g}" if math.isfinite(found.accuracy) else ""
     say(f"90 % intervals; misfit {found.misfit:.3g} {found.unit}".rstrip() + f"{late}; {found.cases} runs{request}")
+    if found.recorded:
+        say(f"the intervals hold the numerical error of the recorded run, made at accuracy {found.recorded:.2g}")
+    if found.others:
+        say(others_sentence(found))
     if not found.follows:
         say(
-            f"the scene does not follow what was measured (probability {found.probability:.1g}): an effect, a filter or "
-            "another model is missing, and the intervals hold nothing"
+            f"the scene does not follow what was measured (probability {found.probability:.1g}): an effect, a "
+            "filter (--free sensor.low_pass=5:100:log), a delay (--shift) or another model is missing, and the intervals hold "
+            "nothing"
         )
     elif found.coarse:
         say(coarse_sentence(found))

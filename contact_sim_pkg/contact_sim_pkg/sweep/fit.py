@@ -25,7 +25,9 @@ from contact_sim_pkg.sweep.intervals import LEVEL, Interval, intervals, unidenti
 from contact_sim_pkg.sweep.least_squares import ROUGH, At, Minimum, minimum
 from contact_sim_pkg.sweep.measured import Measured, MeasuredResponse, Points, Series
 from contact_sim_pkg.sweep.pool import Workers
+from contact_sim_pkg.sweep.recorded import NO_ERROR, OwnError, own_error
 from contact_sim_pkg.sweep.residuals import (
+    EXACT,
     DensityResidual,
     PointsResidual,
     Residual,
@@ -33,24 +35,22 @@ from contact_sim_pkg.sweep.residuals import (
     SeriesResidual,
 )
 from contact_sim_pkg.sweep.scene_runs import Runs, SceneRuns
+from contact_sim_pkg.sweep.sensor import check_sensor, is_of_sensor
+from contact_sim_pkg.sweep.starts import as_good, far_starts, followed, starts
 from contact_sim_pkg.sweep.sweep import CASES, Notify, check_folder, processors, texts_of
-from contact_sim_pkg.sweep.variation import SweepError, Values, Variation, samples_of
+from contact_sim_pkg.sweep.variation import SweepError, Values, Variation
 
 __all__ = ["Compared", "Fit", "Fitted", "fit"]
 
 Field = NDArray[numpy.float64]
 
 EFFECT_KEY = re.compile(r"(effects\.\w+\.\w+)\.\w+")
-STARTS = 4
-"""Cases a parameter, drawn over the ranges, of which the best is the start."""
 PARTS = 0.125, 0.35, 1.0
 """Of a recording's square, that are fitted one after the other."""
 MOST_ROUNDS = 4
 """Of fitting and whitening."""
 WHITE, SAME_SPREAD = 0.02, 0.1
 """By which the filters, and of themselves the spreads of lines of two rounds may differ."""
-FINEST = 1e-8
-"""Accuracy that runs may request."""
 FINER = 0.1
 """Times the accuracy, of the run beside which one is looked at."""
 FAR = 10.0
@@ -105,19 +105,22 @@ def fit(
     keys = [each.key for each in free]
     if len(set(keys)) < len(keys):
         raise SweepError(f"--free {keys[0]}: is there twice")
-    cases: list[Values] = [{**(fixed or {}), **each} for each in (to.values if isinstance(to, Points) else [{}])]
-    for each in free:
+    check_sensor(keys, fixed or {}, to)
+    sensor = {key: value for key, value in (fixed or {}).items() if is_of_sensor(key)}
+    of_scene = {key: value for key, value in (fixed or {}).items() if key not in sensor}
+    cases: list[Values] = [{**of_scene, **each} for each in (to.values if isinstance(to, Points) else [{}])]
+    inner = [each for each in free if not is_of_sensor(each.key)]
+    middle = scene_of(scene, texts_of({**cases[0], **{each.key: each.at(0.5) for each in inner}}))
+    for each in inner:
         for end in each.ends:
-            middle = scene_of(
-                scene, texts_of({**cases[0], **{other.key: other.at(0.5) for other in free}, each.key: end})
-            )
+            scene_of(scene, texts_of({**cases[0], **{other.key: other.at(0.5) for other in inner}, each.key: end}))
     if isinstance(to, MeasuredResponse) and middle.data.get("seat") is None:
         raise SweepError(f"{scene} has no seat, so no transmissibility from its floor: fit a series or metrics of it")
     (folder / CASES).mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
         if workers is None:
             workers = stack.enter_context(Workers(jobs or processors()))
-        runs = SceneRuns(scene, to, cases, free, folder, workers, notify)
+        runs = SceneRuns(scene, to, cases, free, folder, workers, notify, sensor)
         runs.accuracy = requested(middle.data["accuracy"])
         runs.is_held = any("accuracy" in each for each in cases)
         if isinstance(to, Points):
@@ -133,37 +136,62 @@ def fit(
 
 
 class _Concluded:
-    """A least square that was found, its intervals, and what is left."""
+    """A least square that was found, its intervals, what is left, and others that are as good."""
 
-    def __init__(self, runs: Runs, residual: Residual, found: Minimum, fewer: int = 0) -> None:
-        """Of a residual with ``fewer`` degrees of freedom than its keys leave."""
+    def __init__(
+        self,
+        runs: Runs,
+        residual: Residual,
+        found: Minimum,
+        to: Measured,
+        others: Sequence[Minimum] = (),
+        fewer: int = 0,
+    ) -> None:
+        """Of a residual with ``fewer`` degrees of freedom than its keys leave; ``others`` are what further starts led to."""
         at, count = _at(runs, residual), found.place.size
+        own = own_error(runs, residual, to, found.place)
+        found, *others = _sorted([found, *(minimum(at, each.place, least=own.scatter) for each in others)])
+        self.others: list[Minimum] = []
         for _ in range(2):
             freedom = found.freedom - fewer
-            self.scatter = residual.scatter
-            if math.isnan(residual.scatter) and freedom > 0:
-                self.scatter = math.sqrt(found.square / freedom)
+            self.scatter = _scatter(residual, found.square, freedom, own)
             blind = unidentified(at, found, self.scatter)
             ends = [Interval(math.nan, math.nan)] * count
             if blind.any() or not self.scatter > 0.0:
                 break
             quantile = stats.t.ppf(0.5 + 0.5 * LEVEL, freedom if math.isnan(residual.scatter) else math.inf)
+            self.others = as_good(others, found, self.scatter, quantile)
             ends, best = intervals(at, found, self.scatter, quantile)
             # A profile may come upon a place that is better than where it began
             if float(numpy.sum(at([best])[0] ** 2)) > found.square - 0.1 * self.scatter**2:
                 break
-            found = minimum(at, best)
+            found = minimum(at, best, least=own.scatter)
         needless = set() if blind.any() or not self.scatter > 0.0 else _needless(runs, residual, found, self.scatter)
-        self.found, self.given = found, runs([found.place])[0]
-        self.probability = residual.probability(found.left, count, self.given)
+        self.found, self.own, self.given = found, own, runs([found.place])[0]
+        self.probability = residual.probability(found.left, found.slope, self.given)
+        ends = [Interval(low - way, high + way) for (low, high), way in zip(ends, own.ways(found.slope), strict=True)]
         self.parameters = _parameters(runs, found.place, ends, blind, needless)
 
     def as_fit(self, runs: Runs, misfit: float, unit: str, compared: list[Compared], shift: float = 0.0) -> Fit:
         """The result."""
+        is_own = self.probability < LEAST_PROBABILITY and self.own.is_all(self.found.left)
         return Fit(
             self.parameters, misfit, unit, self.probability, shift, runs.count, runs.values_at(self.found.place), compared,
-            accuracy=runs.accuracy,
+            self.own.request if is_own else 0.0, runs.accuracy, self.own.request,
+            [[_value(each, float(part)) for each, part in zip(runs.free, other.place, strict=True)] for other in self.others],
         )  # fmt: skip
+
+
+def _sorted(found: Sequence[Minimum]) -> list[Minimum]:
+    return sorted(found, key=lambda each: each.square)
+
+
+def _scatter(residual: Residual, square: float, freedom: int, own: OwnError) -> float:
+    """Standard deviation of a residual by chance, and by the recording's own error where that is more; nan: not known."""
+    usual = residual.scatter
+    if math.isnan(usual) and freedom > 0:
+        usual = math.sqrt(square / freedom)
+    return float(numpy.fmax(usual, own.scatter)) if own.moved is not None else usual
 
 
 def _needless(runs: Runs, residual: Residual, found: Minimum, scatter: float) -> set[str]:
@@ -198,26 +226,34 @@ def _at(runs: Runs, residual: Residual) -> At:
     return lambda places: [residual.of(given) for given in runs(places)]
 
 
+def _minima(runs: Runs, at: At) -> tuple[Minimum, list[Minimum]]:
+    """The least square, and what further starts led to."""
+    places = starts(at, len(runs.free))
+    found = minimum(at, places[0])
+    found, *others = _sorted([found, *followed(at, far_starts(at, places, found), found)])
+    return found, others
+
+
 def _fitted_points(runs: Runs, to: Points) -> Fit:
     residual = PointsResidual(to)
     _require_enough(int(residual.known.sum()), runs)
-    at = _at(runs, residual)
-    found = _settled(runs, residual, minimum(at, _start(runs, at)))
-    concluded = _Concluded(runs, residual, found)
+    found, others = _minima(runs, _at(runs, residual))
+    concluded = _Concluded(runs, residual, _settled(runs, residual, found), to, others)
     number, given = numpy.arange(1.0, 1.0 + len(to.values)), concluded.given
     compared = [
         Compared(_titled(each, to.units.get(each, "")), number, to.measured[:, i], given[:, i], "row of the table")
         for i, each in enumerate(to.metrics)
     ]
     unit = "of its scatter" if to.scatter is not None else "of the mean size"
-    return concluded.as_fit(runs, math.sqrt(concluded.found.square / found.left.size), unit, compared)
+    return concluded.as_fit(runs, math.sqrt(concluded.found.square / concluded.found.left.size), unit, compared)
 
 
 def _fitted_spectrum(runs: Runs, to: Series) -> Fit:
     residual = DensityResidual(to)
     _require_enough(int(residual.lines.sum()), runs)
-    at = _at(runs, residual)
-    concluded = _Concluded(runs, residual, _settled(runs, residual, minimum(at, _start(runs, at))))
+    found, others = _minima(runs, _at(runs, residual))
+    own = own_error(runs, residual, to, found.place)
+    concluded = _Concluded(runs, residual, _settled(runs, residual, found, own), to, others)
     lines, given = residual.lines, concluded.given
     both = numpy.exp(residual.measured.values[lines]), numpy.exp(residual.density(given)[lines])
     compared = [Compared(f"density of {to.name}", residual.measured.frequency[lines], *both, "frequency, Hz")]
@@ -227,17 +263,23 @@ def _fitted_spectrum(runs: Runs, to: Series) -> Fit:
 
 def _fitted_response(runs: Runs, to: MeasuredResponse) -> Fit:
     """A transmissibility, its lines weighed anew by the spread of the run that is best, round by round."""
-    residual, best = ResponseResidual(to), numpy.full(len(runs.free), 0.5)
+    residual = ResponseResidual(to)
     at = _at(runs, residual)
-    residual.weigh(runs([best])[0])
-    best = _start(runs, at)
+    residual.weigh(runs([numpy.full(len(runs.free), 0.5)])[0])
+    places = starts(at, len(runs.free))
+    best, led = places[0], None
     for _ in range(MOST_ROUNDS):
         changed = residual.weigh(runs([best])[0])
         _require_enough(residual.lines.size, runs)
-        best = (found := _settled(runs, residual, minimum(at, best))).place
+        own = own_error(runs, residual, to, best)
+        found = minimum(at, best, least=own.scatter)
+        if led is None:  # before a finer request makes the starts new runs
+            led = far_starts(at, places, found)
+        best = (found := _settled(runs, residual, found, own)).place
         if changed < SAME_SPREAD:
             break
-    concluded = _Concluded(runs, residual, found)
+    others = followed(at, led or [], found, own.scatter)
+    concluded = _Concluded(runs, residual, found, to, others)
     fitted, left = residual.fitted(concluded.given), concluded.found.left
     compared = [Compared("seat.transmissibility", residual.frequency, residual.measured, fitted, "frequency, Hz")]
     unit = "of the magnitude" if to.spread is None else "of the spread of its lines"
@@ -247,19 +289,29 @@ def _fitted_response(runs: Runs, to: MeasuredResponse) -> Fit:
 def _fitted_series(runs: Runs, to: Series, most_shift: float) -> Fit:
     """A series, in parts that grow, then whitened anew round by round."""
     _require_enough(SeriesResidual(to, most_shift).time.size, runs)
-    place: Field | None = None
+    least, led = EXACT * float(to.values.std()), None
     for part in PARTS:
         residual = SeriesResidual(to, most_shift, part)
         at = _at(runs, residual)
         runs.end = residual.end if part < 1.0 else None
-        found = minimum(at, _start(runs, at) if place is None else place, ROUGH)
-        place = found.place
+        if led is None:
+            places = starts(at, len(runs.free))
+            found = minimum(at, places[0], ROUGH, least)
+            led = far_starts(at, places, found)
+        else:
+            found = minimum(at, found.place, ROUGH, least)
+        found, *others = _sorted([found, *followed(at, led, found, least)])
+        led = [each.place for each in others]
     for _ in range(MOST_ROUNDS):
-        changed = residual.whiten(runs([found.place])[0])
-        found = _settled(runs, residual, minimum(at, found.place))
+        given = runs([found.place])[0]
+        # What a recording of the bench leaves of its own error has no colour to be taken off
+        is_done = to.request > 0.0 and residual.is_exact(given)
+        changed = 0.0 if is_done else residual.whiten(given)
+        own = own_error(runs, residual, to, found.place)
+        found = _settled(runs, residual, minimum(at, found.place, least=own.scatter), own)
         if changed < WHITE:
             break
-    concluded = _Concluded(runs, residual, found, fewer=1)
+    concluded = _Concluded(runs, residual, found, to, others, fewer=1)
     given = concluded.given
     fitted = residual.fitted(given)
     compared = [Compared(to.name, residual.time, residual.measured, fitted, "time, s")]
@@ -267,31 +319,20 @@ def _fitted_series(runs: Runs, to: Series, most_shift: float) -> Fit:
     return concluded.as_fit(runs, misfit, "", compared, residual.shift(given))
 
 
-def _start(runs: Runs, at: At) -> Field:
-    """The best of `STARTS` cases a parameter and the middle."""
-    count = len(runs.free)
-    unit = [Variation(str(i), (), 0.0, 1.0) for i in range(count)]
-    drawn = samples_of(unit, f"lhs:{STARTS * count}", 0, 1)
-    places = [numpy.full(count, 0.5), *(numpy.array([float(each[str(i)]) for i in range(count)]) for each in drawn)]
-    return places[int(numpy.argmin([float(each @ each) for each in at(places)]))]
-
-
-def _settled(runs: Runs, residual: Residual, found: Minimum) -> Minimum:
-    """The least square of runs that request enough."""
+def _settled(runs: Runs, residual: Residual, found: Minimum, own: OwnError = NO_ERROR) -> Minimum:
+    """The least square of runs that request enough, and no more than a recording of the bench can show."""
     at = _at(runs, residual)
-    while not runs.is_held and runs.accuracy > FINEST:
+    while not runs.is_held and runs.accuracy > own.finest:
         usual = runs.accuracy
-        scatter = (
-            residual.scatter if math.isfinite(residual.scatter) else math.sqrt(found.square / max(found.freedom, 1))
-        )
-        runs.accuracy = max(FINER * usual, FINEST)
+        scatter = _scatter(residual, found.square, max(found.freedom, 1), own)
+        runs.accuracy = max(FINER * usual, own.finest)
         moved = at([found.place])[0] - found.left
         basis, _ = numpy.linalg.qr(found.slope)
         is_still = float(numpy.linalg.norm(basis.T @ moved)) <= STILL * scatter
         if is_still and float(numpy.std(moved)) <= FAINT * scatter:
             runs.accuracy = usual
             break
-        found = minimum(at, found.place)
+        found = minimum(at, found.place, least=own.scatter)
     return found
 
 

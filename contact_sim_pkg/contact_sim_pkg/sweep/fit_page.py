@@ -18,9 +18,11 @@ from contact_sim_pkg.report.tables import Table
 from contact_sim_pkg.sweep.fit_result import Compared, Fit, Fitted
 from contact_sim_pkg.sweep.page import Call, Part, page_of_parts
 
-__all__ = ["answer_of_fit", "coarse_sentence", "write_fit_page"]
+__all__ = ["answer_of_fit", "coarse_sentence", "late_words", "others_sentence", "write_fit_page"]
 
 MOST_PICTURES = 6
+LEAST_LATE = 5e-6
+"""[s] that is printed as more than 0.00 ms"""
 ROOM = Margins(left=0.92, shared=0.16)
 NONE = "–"
 
@@ -42,12 +44,17 @@ def answer_of_fit(found: Fit) -> Answer:
     """Whether the scene follows what was measured, whether its keys are identifiable, and the keys."""
     keys = "; ".join(_said(each) for each in found.parameters)
     left = f"misfit {found.misfit:.3g} {found.unit}".rstrip()
-    late = f", the recording {1e3 * found.shift:.2f} ms late" if found.shift else ""
+    late = late_words(found)
+    if found.recorded:
+        late += f"; with the error of the recorded run, made at accuracy {found.recorded:.2g}"
     if not found.follows:
-        reason = f"what is left is no noise (probability {found.probability:.1g}): an effect, a filter or another model is missing"
+        noise = f"what is left is no noise (probability {found.probability:.1g})"
+        reason = f"{noise}: an effect, a filter, a delay or another model is missing"
         return Answer("outside", "Does not follow", f"{reason}; {left}{late}; the intervals hold nothing.")
     if found.coarse:
         return Answer("doubtful", "Not judged", f"{coarse_sentence(found)}; {keys}; {left}{late}.")
+    if found.others:
+        return Answer("doubtful", "Two answers", f"{keys}; {others_sentence(found)}; {left}{late}.")
     if not found.is_identified:
         return Answer("doubtful", "Not identifiable", f"{keys}; {left}{late}.")
     if math.isnan(found.probability):
@@ -57,8 +64,27 @@ def answer_of_fit(found: Fit) -> Answer:
     return Answer("good", "Follows", f"{keys}; {left}{late}.")
 
 
+def late_words(found: Fit) -> str:
+    """By how much a recording is late, where that is more than nothing."""
+    return f", the recording {1e3 * found.shift:.2f} ms late" if abs(found.shift) > LEAST_LATE else ""
+
+
+def others_sentence(found: Fit) -> str:
+    """Other minima that are as good; empty where there is none."""
+    listed = [
+        ", ".join(f"{each.key} {_digits(value)}" for each, value in zip(found.parameters, values, strict=True))
+        for values in found.others
+    ]
+    return f"as good, by chance: {'; or '.join(listed)}" if listed else ""
+
+
 def coarse_sentence(found: Fit) -> str:
-    """What is missing where the runs are less accurate than the recording."""
+    """What is missing where the runs, or the run that was recorded, are less accurate than what is left."""
+    if found.recorded:
+        return (
+            f"what is left is no noise, and within what the recorded run errs by at accuracy {found.recorded:.2g}: a recording "
+            f"made at {0.1 * found.recorded:.1g} decides"
+        )
     return (
         f"what is left is no noise, and within what the runs may err by at accuracy {found.coarse:.2g}: "
         f"--set accuracy={0.1 * found.coarse:.1g} decides"
@@ -100,6 +126,8 @@ def _compared(compared: Compared, name: str) -> Picture:
     if is_density:
         for axes in (above, below):
             axes.set_yscale("log")
+    else:
+        below.ticklabel_format(axis="y", style="sci", scilimits=(-2, 4))
     if marks:
         below.xaxis.set_major_locator(MaxNLocator(integer=True))
     above.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy
@@ -64,6 +65,10 @@ class Fit(NamedTuple):
 
     accuracy: float = math.nan
     """that the runs request"""
+    recorded: float = 0.0
+    """accuracy that the run of the recording requested, whose own error the intervals hold; 0: of no run of the bench"""
+    others: Sequence[Sequence[float]] = ()
+    """values of the keys at other minima that chance lets be as good"""
 
     @property
     def follows(self) -> bool:
@@ -72,5 +77,5 @@ class Fit(NamedTuple):
 
     @property
     def is_identified(self) -> bool:
-        """Whether each key has an interval."""
-        return all(math.isfinite(each.low) for each in self.parameters)
+        """Whether each key has an interval, and there is no other minimum that is as good."""
+        return all(math.isfinite(each.low) for each in self.parameters) and not self.others

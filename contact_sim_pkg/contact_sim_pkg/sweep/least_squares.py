@@ -50,9 +50,9 @@ class Minimum(NamedTuple):
         return self.left.size - self.place.size
 
 
-def minimum(at: At, start: Field, gain: float = GAIN) -> Minimum:
+def minimum(at: At, start: Field, gain: float = GAIN, least: float = 0.0) -> Minimum:
     """The least squares near ``start``, until a step would move the parameters by less than ``gain`` of their standard
-    deviations.
+    deviations; these are of a residual's own scatter, or of ``least`` where that is less.
     """
     place, (left,) = start, at([start])
     slope, is_fresh, damping = slopes(at, place), True, 1e-4
@@ -60,7 +60,7 @@ def minimum(at: At, start: Field, gain: float = GAIN) -> Minimum:
         step = _step(place, left, slope, damping)
         promised = float(left @ left) - float(numpy.sum((left + slope @ step) ** 2))
         freedom = max(left.size - place.size, 1)
-        if promised <= gain**2 * float(left @ left) / freedom:
+        if promised <= gain**2 * max(float(left @ left) / freedom, least**2):
             if is_fresh:
                 break
             slope, is_fresh = slopes(at, place), True

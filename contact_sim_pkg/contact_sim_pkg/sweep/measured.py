@@ -9,15 +9,17 @@ from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
+from ruamel.yaml import YAML
 from scipy import interpolate
 
-from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.files import BAG_ENDINGS
 from contact_sim_pkg.report.export.table import table_of
 from contact_sim_pkg.report.metrics.of_bag import recording_of
 from contact_sim_pkg.report.signal.spectrum import magnitude_spread
 from contact_sim_pkg.rigs.vehicle.seat.report.response import TRUSTED_COHERENCE, transmissibility_curve
 from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals, ride_signals
+from contact_sim_pkg.scene.schema.accuracy import requested
 from contact_sim_pkg.sweep.variation import SweepError, Values, read_rows
 
 __all__ = ["BY", "Measured", "MeasuredResponse", "Points", "Series", "read_measured", "read_points", "read_response",
@@ -53,6 +55,8 @@ class Series(NamedTuple):
     time: Field
     """[s], increasing"""
     values: Field
+    request: float = 0.0
+    """accuracy that the run requested which a bag of the bench holds, whose own numerical error it carries; 0: none"""
 
 
 class MeasuredResponse(NamedTuple):
@@ -64,6 +68,8 @@ class MeasuredResponse(NamedTuple):
     """> 0"""
     spread: Field | None
     """standard deviation of the magnitude by chance, over the magnitude; None where it is not known"""
+    request: float = 0.0
+    """accuracy that a run requested which a bag of the bench holds; 0: none"""
 
 
 Measured = Points | Series | MeasuredResponse
@@ -155,9 +161,12 @@ def read_series(path: Path, name: str) -> Series:
 
     Raises SweepError, BagError where there is none, or its time does not increase.
     """
+    request = 0.0
     if path.is_dir() or path.suffix in BAG_ENDINGS:
         topic, _, column = name.rpartition(".")
-        time, *columns = table_of(open_bag(path), topic).columns
+        bag = open_bag(path)
+        request = _request_of(bag)
+        time, *columns = table_of(bag, topic).columns
         by_name = {each.name: each.values for each in columns}
         if column not in by_name:
             raise SweepError(f"{path}: {topic} has no column {column!r}; it has {', '.join(by_name)}")
@@ -168,7 +177,15 @@ def read_series(path: Path, name: str) -> Series:
         raise SweepError(f"{path}: {name} needs {FEWEST_SAMPLES} samples or more, whose time increases")
     if not numpy.isfinite(found).all():
         raise SweepError(f"{path}: {name} has a sample that is no number")
-    return Series(name, *found)
+    return Series(name, *found, request)
+
+
+def _request_of(bag: Bag) -> float:
+    """Accuracy that the run of a bag requested; 0 where no run of the bench made it."""
+    if bag.scene is None:
+        return 0.0
+    scene = YAML(typ="safe").load(bag.scene)
+    return requested(scene.get("accuracy", 0.0)) if isinstance(scene, dict) else 0.0
 
 
 def _columns_of_csv(path: Path, name: str) -> tuple[Field, Field]:
@@ -198,6 +215,7 @@ def read_response(path: Path, series: Sequence[str] = ()) -> MeasuredResponse:
     """
     if not series and not (path.is_dir() or path.suffix in BAG_ENDINGS):
         return _response_of_table(path)
+    is_bag = path.is_dir() or path.suffix in BAG_ENDINGS
     signals = _two_accelerations(path, series) if series else ride_signals(recording_of(open_bag(path)).motion)
     if signals is None:
         raise SweepError(
@@ -210,7 +228,8 @@ def read_response(path: Path, series: Sequence[str] = ()) -> MeasuredResponse:
         raise SweepError(
             f"{path}: the seat does not follow the floor: the coherence of T(f) is below {TRUSTED_COHERENCE}"
         )
-    return MeasuredResponse(curve.x[known], curve.y[known], curve.spread[known])
+    request = _request_of(open_bag(path)) if is_bag else 0.0
+    return MeasuredResponse(curve.x[known], curve.y[known], curve.spread[known], request)
 
 
 def _two_accelerations(path: Path, series: Sequence[str]) -> RideSignals:

@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from multiprocessing import resource_tracker
+from multiprocessing import connection, resource_tracker
+from threading import Thread
 from typing import Any
 
 from contact_sim_pkg.sweep.case import Numbered, Row, failed, run_case
@@ -103,12 +104,22 @@ class Workers:
 
 def _pool(jobs: int) -> ProcessPoolExecutor:
     """Begun anew, not forked: threads of compilers and of DDS do not survive a fork."""
-    return ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), _ignore_interrupt)
+    return ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), _begin)
 
 
-def _ignore_interrupt() -> None:
-    """Who interrupts means the process that waits for this one, which ends it. The signal is held since this one began."""
+def _begin() -> None:
+    """Who interrupts means the process that waits for this one, which ends it: the signal is held since this one began. Where
+    that process has gone without a word, killed, this one goes too: it would wait for a case for ever.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        Thread(target=_end_after, args=(parent.sentinel,), daemon=True).start()
+
+
+def _end_after(sentinel: int) -> None:
+    connection.wait([sentinel])
+    os._exit(1)
 
 
 @contextmanager

@@ -47,8 +47,10 @@ class Residual(Protocol):
     def of(self, given: Field) -> Field:
         """Of what a run gives. Raises SweepError where it cannot be compared."""
 
-    def probability(self, left: Field, keys: int, given: Field) -> float:
-        """Of what is ``left`` of a run if the scene with so many free keys is right; nan where nothing says it."""
+    def probability(self, left: Field, slope: Field, given: Field) -> float:
+        """Of what is ``left`` of a run if the scene is right, ``slope`` [residuals, keys] by its free keys; nan where nothing
+        says it.
+        """
 
 
 class PointsResidual:
@@ -68,9 +70,9 @@ class PointsResidual:
             raise SweepError("a metric has no value in a case where it was measured; narrow the ranges of --free")
         return numpy.asarray(found)
 
-    def probability(self, left: Field, keys: int, given: Field) -> float:
+    def probability(self, left: Field, slope: Field, given: Field) -> float:
         """By chi-squared."""
-        freedom = left.size - keys
+        freedom = left.size - slope.shape[1]
         return math.nan if math.isnan(self.scatter) or freedom == 0 else float(stats.chi2.sf(left @ left, freedom))
 
 
@@ -99,9 +101,9 @@ class DensityResidual:
             )
         return numpy.asarray(found)
 
-    def probability(self, left: Field, keys: int, given: Field) -> float:
+    def probability(self, left: Field, slope: Field, given: Field) -> float:
         """By chi-squared."""
-        return float(stats.chi2.sf(left @ left, left.size - keys))
+        return float(stats.chi2.sf(left @ left, left.size - slope.shape[1]))
 
 
 class ResponseResidual:
@@ -170,14 +172,14 @@ class ResponseResidual:
             return 1.0
         return float((abs(self.spread - before[1]) / self.spread).max())
 
-    def probability(self, left: Field, keys: int, given: Field) -> float:
+    def probability(self, left: Field, slope: Field, given: Field) -> float:
         """Twice the least of two: of so large a sum of squares where the spreads are known (chi-squared), and of the
         autocorrelations of what is left from line to line (Ljung and Box), for what another model leaves is smooth.
         """
         if float(numpy.std(numpy.log(self.fitted(given) / self.measured))) < EXACT:
             return math.nan
         white = _of_whiteness(left, min(LAGS_OF_LINES, left.size // 4), 0)
-        freedom = left.size - keys
+        freedom = left.size - slope.shape[1]
         if self._to.spread is None or freedom < 1:
             return white
         return min(1.0, 2.0 * min(white, float(stats.chi2.sf(left @ left, freedom))))
@@ -234,29 +236,39 @@ class SeriesResidual:
         """Whether what a run leaves is too small for chance."""
         return float(numpy.std(self.fitted(given) - self.measured)) < EXACT * float(self.measured.std())
 
-    def probability(self, left: Field, keys: int, given: Field) -> float:
+    def probability(self, left: Field, slope: Field, given: Field) -> float:
         """Twice the least of two: of the autocorrelations of what is left if it is white (Ljung and Box), and of what follows the
         run's own values in it (Ljung, section 16.6). An autoregression can whiten what another model leaves; but that stays
         a function of the run, and chance is none.
         """
         if self.is_exact(given):
             return math.nan
-        return min(1.0, 2.0 * min(_of_whiteness(left), self._of_independence(left, given, keys)))
+        return min(1.0, 2.0 * min(_of_whiteness(left), self._of_independence(left, slope, given)))
 
-    def _of_independence(self, left: Field, given: Field, keys: int) -> float:
-        """By an F test of the values of the run, `AROUND` samples before and behind, and of their square."""
+    def _of_independence(self, left: Field, slope: Field, given: Field) -> float:
+        """By an F test of the values of the run, `AROUND` samples before and behind, and of their square, beside the free keys:
+        what these have made up for, such as a delay that is held, is seen only in what they cannot.
+        """
         values = self.fitted(given)
         values = (values - values.mean()) / max(float(values.std()), 1e-300)
         inner = values.size - 2 * AROUND
         columns = [values[i : i + inner] for i in range(2 * AROUND + 1)]
         columns += [columns[AROUND] ** 2, columns[AROUND] ** 3, numpy.ones(inner)]
         whitened = numpy.array([signal.lfilter(self.filter, [1.0], each)[self.filter.size - 1 :] for each in columns]).T
-        own = left[AROUND : AROUND + whitened.shape[0]]
-        followed, _, rank, _ = numpy.linalg.lstsq(whitened, own, rcond=1e-7)
-        rest = float(numpy.sum((own - whitened @ followed) ** 2))
-        freedom = own.size - int(rank) - keys
-        gain = float(own @ own) - rest
-        return float(stats.f.sf(gain / rank / (rest / freedom), rank, freedom)) if rest > 0.0 and freedom > 0 else 1.0
+        inside = slice(AROUND, AROUND + whitened.shape[0])
+        own, by_keys = left[inside], slope[inside] / numpy.maximum(numpy.linalg.norm(slope, axis=0), 1e-300)
+        by_keys = by_keys * float(numpy.linalg.norm(whitened, axis=0).max())
+        of_keys, _, keys, _ = numpy.linalg.lstsq(by_keys, own, rcond=1e-7)
+        both = numpy.hstack([whitened, by_keys])
+        followed, _, rank, _ = numpy.linalg.lstsq(both, own, rcond=1e-7)
+        rest = float(numpy.sum((own - both @ followed) ** 2))
+        gain = float(numpy.sum((own - by_keys @ of_keys) ** 2)) - rest
+        more, freedom = int(rank) - int(keys), own.size - int(rank)
+        return (
+            float(stats.f.sf(gain / more / (rest / freedom), more, freedom))
+            if rest > 0.0 and min(more, freedom) > 0
+            else 1.0
+        )
 
     def _path(self, given: Field) -> interpolate.Akima1DInterpolator:
         """What a run gives over time: straight lines would damp what is fast wherever the shift is no whole step."""

@@ -17,6 +17,7 @@ from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.measured import Measured, MeasuredResponse, Points, Series
 from contact_sim_pkg.sweep.pool import Workers
+from contact_sim_pkg.sweep.sensor import FILTER, is_of_sensor, low_passed
 from contact_sim_pkg.sweep.sweep import Notify, texts_of
 from contact_sim_pkg.sweep.variation import SweepError, Values, Variation
 
@@ -56,10 +57,11 @@ class SceneRuns:
 
     def __init__(
         self, scene: str, to: Measured, cases: Sequence[Values], free: Sequence[Variation], folder: Path,
-        workers: Workers, notify: Notify,
+        workers: Workers, notify: Notify, sensor: Values | None = None,
     ) -> None:  # fmt: skip
         self._scene, self._to, self._cases, self.free = scene, to, cases, free
         self._folder, self._workers, self._notify = folder, workers, notify
+        self._sensor = sensor or {}
         self.count = 0
         self.accuracy, self.is_held = 0.0, True
         self.end: float | None = None
@@ -90,11 +92,18 @@ class SceneRuns:
         self.count += len(tasks)
         for i, texts in enumerate(new):
             self._known[tables, texts] = self._given([rows[len(cases) * i + j] for j in range(len(cases))])
-        return [self._known[tables, texts] for texts in named]
+        return [self._sensed(self._known[tables, texts], place) for texts, place in zip(named, places, strict=True)]
+
+    def _sensed(self, given: Field, place: Field) -> Field:
+        """What a run gives behind the sensor."""
+        found = {each.key: each.at(float(part)) for each, part in zip(self.free, place, strict=True)}
+        frequency = {**self._sensor, **found}.get(FILTER)
+        return given if frequency is None else low_passed(given, float(frequency))
 
     def values_at(self, place: Field) -> Values:
-        """What a place sets."""
-        return {each.key: each.at(float(part)) for each, part in zip(self.free, place, strict=True)}
+        """What a place sets of the scene."""
+        both = zip(self.free, place, strict=True)
+        return {each.key: each.at(float(part)) for each, part in both if not is_of_sensor(each.key)}
 
     def without(self, effect: str) -> Runs | None:
         """Those of the scene without an effect, over the other keys; None where it cannot be left out."""
@@ -102,7 +111,7 @@ class SceneRuns:
         found.free = [each for each in self.free if not each.key.startswith(f"{effect}.")]
         found._cases = [{**case, effect: "null"} for case in self._cases]
         found._known, found.count = {}, 0
-        middle = {each.key: each.at(0.5) for each in found.free}
+        middle = {each.key: each.at(0.5) for each in found.free if not is_of_sensor(each.key)}
         try:
             block = scene_of(self._scene, texts_of({**found._cases[0], **middle})).data
         except SceneError:

@@ -12,7 +12,7 @@ from contact_sim_pkg.report.metrics.curve_bands import CurveBand
 from contact_sim_pkg.sweep.case import FINISHED, Row, Task, scene_of, sources_hash
 from contact_sim_pkg.sweep.cluster import run_on_cluster
 from contact_sim_pkg.sweep.kept import NONE, read_kept, worst_cases
-from contact_sim_pkg.sweep.pool import run_all
+from contact_sim_pkg.sweep.pool import Workers, run_all
 from contact_sim_pkg.sweep.table import SweepTable
 from contact_sim_pkg.sweep.variation import Values, Variation
 
@@ -75,9 +75,11 @@ def sweep(
     ]
     rows: list[Row] = []
     try:
+        progress = _Progress(len(tasks))
+        notify(f"0 of {len(tasks)} cases", 0.0)
         for row in run_on_cluster(tasks, scheduler) if scheduler else _ordered(tasks, values, count):
             rows.append(row)
-            notify(_progress(rows, len(tasks)), len(rows) / len(tasks))
+            notify(progress.after(row), len(rows) / len(tasks))
         if kept.number:
             again = [tasks[number]._replace(keeps_bag=True) for number in worst_cases(kept, rows)]
             notify(f"running the {len(again)} worst with their bags", 1.0)
@@ -105,8 +107,10 @@ def _ordered(tasks: Sequence[Task], values: Sequence[Values], jobs: int) -> Iter
         first.setdefault(tuple((key, value) for key, value in given.items() if not _is_number(value)), task)
     warming = list(first.values()) if len(first) <= len(tasks) // 2 else [tasks[0]]
     began = {task.number for task in warming}
-    yield from run_all(warming, 1)
-    yield from run_all([task for task in tasks if task.number not in began], jobs)
+    with Workers(jobs) as workers:  # the process that has begun goes on: a start costs as much as some cases
+        for task in warming:
+            yield from workers.run([task])
+        yield from workers.run([task for task in tasks if task.number not in began])
 
 
 def check_folder(folder: Path) -> None:
@@ -142,11 +146,18 @@ def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _progress(rows: Sequence[Row], count: int) -> str:
-    """`37 of 200 cases, 2 failed, 12 had run before`."""
-    lost = sum(row["outcome"] != FINISHED for row in rows)
-    again = sum(row.get("again", False) for row in rows)
-    parts = [f"{len(rows)} of {count} cases"]
-    parts += [f"{lost} failed"] if lost else []
-    parts += [f"{again} had run before"] if again else []
-    return ", ".join(parts)
+class _Progress:
+    """`37 of 200 cases, 2 failed, 12 had run before`; counted, for to look at all rows after each is a square of them."""
+
+    def __init__(self, count: int) -> None:
+        self._count, self._ended, self._lost, self._again = count, 0, 0, 0
+
+    def after(self, row: Row) -> str:
+        """With one more."""
+        self._ended += 1
+        self._lost += row["outcome"] != FINISHED
+        self._again += row.get("again", False)
+        parts = [f"{self._ended} of {self._count} cases"]
+        parts += [f"{self._lost} failed"] if self._lost else []
+        parts += [f"{self._again} had run before"] if self._again else []
+        return ", ".join(parts)
