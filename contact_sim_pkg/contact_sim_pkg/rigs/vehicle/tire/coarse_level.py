@@ -39,7 +39,7 @@ LEAST_HALF = 8
 MARGIN = 8
 """Cells of the fine grid by which the coarse one extends further on each side."""
 
-LOOSER, LOOSER_SIDEWALLS = 2.0, 3.0
+LOOSER, LOOSER_SIDEWALLS = 1.5, 3.0
 """Times the tolerance of a field, since its load alone counts, and what its sidewalls may miss of the depth. The height takes
 the mean of that off, the next solution the rest: a second pass at each instant would cost as much as the first.
 """
@@ -104,11 +104,10 @@ class CoarseLevel:
         self.field.closer, self.field.looser_sidewalls = LOOSER, LOOSER_SIDEWALLS
         self._geometry, self._most = geometry, SHARE * allowed
         self._gap = numpy.empty((self.field.settings.rows, self.field.settings.cols))
-        self.reset()
         # Compiled here: on level road there may be nothing to lend
         self.keep(is_beside=True)
         self.lend(self.field.softening)
-        self._borne = None
+        self.reset()
 
     def reset(self) -> None:
         """Drop solutions and offset."""
