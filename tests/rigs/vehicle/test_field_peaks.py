@@ -11,9 +11,9 @@ from contact_sim_pkg.run.sources import make_sources
 errors = []
 solved = PressureField.solve
 
-LARGEST = 0.25
-"""Error of a cell over the largest pressure: the field's tolerance of 0.003 allows 0.12 of last change. A quarter, since a
-single cell at the border, where two of a hundred fields err most, lets go over several corrections.
+LARGEST = 0.15
+"""Error of a cell over the largest pressure: the field's tolerance of 0.003 allows 0.12 by the clearance of the cell, which
+sees what its neighbours add to it in part.
 """
 
 
