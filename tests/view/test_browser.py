@@ -28,11 +28,12 @@ def test_curves_and_maps_are_drawn_and_the_console_is_empty(tmp_path, width):
         wait_until(lambda: "seat_ride" in tab.value("document.getElementById('state').textContent"))
         assert tab.value("[...document.querySelectorAll('#view .u-label')].map(each => each.textContent)")
         assert tab.value("document.querySelectorAll('#view .uplot').length") == 2
-        # A map has its canvas as soon as the run is known, its picture with a later frame.
+        # a map has its canvas as soon as the run is known, its picture and then its caption with a later frame
+        wait_until(lambda: tab.value("document.querySelector('#maps output').textContent") != "")
         pixel = "[...c.getContext('2d').getImageData(c.width / 2, c.height / 2, 1, 1).data]"
-        middle = f"(c => {pixel})(document.querySelector('#maps canvas'))"
-        wait_until(lambda: tab.value(middle)[3] > 0)
-        assert tab.value(middle)[3] == 255, "the middle of a Hertz contact is loaded"
+        assert tab.value(f"(c => {pixel})(document.querySelector('#maps canvas'))")[3] == 255, (
+            "the middle of a Hertz contact is loaded"
+        )
         assert tab.value("document.documentElement.scrollWidth") <= width
         tab.value("document.getElementById('pause').click()")
         wait_until(lambda: not server.wishes.empty())

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.records.metric import CLOSED_FORM, EVENT, Band, Metric
+from contact_sim_pkg.records.metric import EVENT, USUAL_RANGE, Band, Metric
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, near
 from contact_sim_pkg.report.series import ContactSeries, FieldSeries, Recording
 from contact_sim_pkg.report.signal.confidence import half_interval
@@ -46,7 +46,7 @@ def _slaps(make: Any, recording: Recording, contact: ContactSeries) -> Iterator[
         yield make("interval", "time from slap to slap", 1e3 * between, "ms", topic=topic, count=count - 1,
                    band=near(1e3 * whole, 0.02, "whole cycles of the drive"))  # fmt: skip
     yield make("restitution", "restitution e, mean", slaps.restitution.mean(), "", topic=topic, count=count, basis=EVENT,
-               spread=half_interval(slaps.restitution), band=Band(0.0, 1.0, CLOSED_FORM, "no slap gains energy"),
+               spread=half_interval(slaps.restitution), band=Band(0.0, 1.0, USUAL_RANGE, "no slap gains energy"),
                remark=f"{slaps.restitution.min():.3g} to {slaps.restitution.max():.3g}")  # fmt: skip
     lasted = 1e3 * durations(slaps)
     yield make("duration", "duration of a slap, mean", lasted.mean(), "ms", topic=topic, count=count, basis=EVENT,

@@ -8,7 +8,7 @@ import math
 from typing import Any
 
 from contact_sim_pkg.records.messages import ImpactEvents
-from contact_sim_pkg.records.metric import CLOSED_FORM, EVENT, LIMIT, Band, Metric
+from contact_sim_pkg.records.metric import EVENT, LIMIT, USUAL_RANGE, Band, Metric
 from contact_sim_pkg.report.metrics.maker import Maker, at_most, near
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.rigs.impact.material.estimate import EstimatedValue
@@ -46,7 +46,7 @@ def impact_metrics(recording: Recording) -> list[Metric]:
 
     found = [
         make("restitution", "restitution e of the first", first["restitution"], "", count=count,
-             band=Band(0.0, 1.0, CLOSED_FORM, "no impact gains energy"), remark=spans["restitution"]),
+             band=Band(0.0, 1.0, USUAL_RANGE, "no impact gains energy"), remark=spans["restitution"]),
         make("duration", "contact time of the first", 1e3 * first["duration"], "ms", band=elastic(1e3 * duration), count=count,
              remark=spans["duration"]),
         make("force", "peak force of the first", first["peak_force"], "N", band=elastic(force), count=count,
