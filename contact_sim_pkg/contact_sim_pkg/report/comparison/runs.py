@@ -26,6 +26,7 @@ from contact_sim_pkg.report.comparison.figures import (
     slap_comparison,
 )
 from contact_sim_pkg.report.comparison.films import data_of_runs, films_of_runs
+from contact_sim_pkg.report.comparison.instants import at_common_instants
 from contact_sim_pkg.report.comparison.maps import figure_of_maps, map_comparison
 from contact_sim_pkg.report.comparison.scene_differences import differences
 from contact_sim_pkg.report.comparison.tables import difference_table, metric_table
@@ -68,7 +69,7 @@ def write_comparison(
     path = free_place(bags, out, overwrite=overwrite)
     refuse_incomparable(bags)
     # Everything is read before the file is touched
-    page = render_comparison([read_recording(bag) for bag in bags], requirements)
+    page = render_comparison(at_common_instants(bags, [read_recording(bag) for bag in bags]), requirements)
     with new_page(path, bags, overwrite=overwrite) as file:
         file.write(page.encode())
     return path
