@@ -189,9 +189,13 @@ def _draw_surface(axes: Any, field: PressureMap, quantity: Quantity, window: Win
     axes.set_box_aspect((max(length / largest, 0.45), max(width / largest, 0.45), 0.55), zoom=0.9)
     axes.set_xlabel("x, mm", labelpad=1)
     axes.set_ylabel("y, mm", labelpad=1)
-    axes.set_zlabel(quantity.label, labelpad=2)
     axes.tick_params(pad=-1)
-    axes.locator_params(nbins=4)
+    axes.locator_params(axis="z", nbins=4)
+    # where the axes meet, the labels of one would stand on those of the other
+    for axis, (low, high) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+        edge = 0.15 * (high - low)
+        ticks = MaxNLocator(4).tick_values(low, high)
+        axis.set_ticks(ticks[(ticks > low + edge) & (ticks < high - edge)])
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_pane_color((0.0, 0.0, 0.0, 0.0))
         axis.line.set_color(MUTED)

@@ -168,7 +168,7 @@ def slap_stages(key: str, name: str, field: FieldSeries) -> Picture:
     bar = figure.colorbar(ScalarMappable(limits, PRESSURE_COLOURS), ax=axes, label="pressure, kPa", pad=0.01, aspect=30)
     bar.ax.spines["outline"].set_visible(False)
     figure.supxlabel(AT_BACKREST.across)
-    figure.supylabel(AT_BACKREST.along)
+    figure.supylabel(AT_BACKREST.along, x=0.004)
     caption = (
         f"Pressure of the {name} while it touches around its largest force, {field.heaviest.load:.4g} N at "
         f"{field.heaviest.time:.3f} s; cells without pressure are blank, one colour scale for all. {AT_BACKREST.seen}"
