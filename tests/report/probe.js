@@ -26,13 +26,23 @@
   });
   const wide = [...document.querySelectorAll(".tile")].filter(tile => seen(tile) && tile.scrollWidth > tile.clientWidth + 1)
     .map(tile => tile.textContent.trim().replace(/\s+/g, " "));
+  // corners of a text as it is turned; two texts lie apart where an edge of one has the other on its far side
+  const corners = text => {
+    const box = text.getBBox(), matrix = text.getScreenCTM(), scale = Math.hypot(matrix.a, matrix.b);
+    const [left, right, low, high] = [box.x + 1 / scale, box.x + box.width - 1 / scale, box.y + 1 / scale, box.y + box.height - 1 / scale];
+    return [[left, low], [right, low], [right, high], [left, high]].map(([x, y]) => new DOMPoint(x, y).matrixTransform(matrix));
+  };
+  const apart = (one, other) => [0, 1].some(edge => {
+    const x = one[edge + 1].x - one[edge].x, y = one[edge + 1].y - one[edge].y;
+    const along = points => points.map(point => point.x * x + point.y * y), [a, b] = [along(one), along(other)];
+    return Math.max(...a) <= Math.min(...b) || Math.max(...b) <= Math.min(...a);
+  });
   const overlap = [];
   for (const svg of document.querySelectorAll("figure svg, .sketch")) {
-    const boxes = [...svg.querySelectorAll("text")].filter(text => seen(text) && !/rotate\((?!-?0)/.test(text.getAttribute("transform") || ""))
-      .map(text => [text.getBoundingClientRect(), text.textContent]);
-    boxes.forEach(([a, first], place) => boxes.slice(place + 1).forEach(([b, second]) => {
-      const width = Math.min(a.right, b.right) - Math.max(a.left, b.left), height = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
-      if (width > 2 && height > 4) overlap.push(`${first} / ${second}`);
+    const drawn = [...svg.querySelectorAll("text")].filter(text => seen(text) && text.textContent.trim())
+      .map(text => [corners(text), text.textContent.trim()]);
+    drawn.forEach(([a, first], place) => drawn.slice(place + 1).forEach(([b, second]) => {
+      if (!apart(a, b) && !apart(b, a)) overlap.push(`${first} / ${second}`);
     }));
   }
   const listed = new Set([...document.querySelectorAll("nav a")].map(link => link.getAttribute("href").slice(1)));

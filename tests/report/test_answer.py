@@ -6,7 +6,8 @@ import pytest
 from tests.report import synthetic_bag as known
 
 from contact_sim_pkg.records.metric import CLOSED_FORM, LIMIT, OUTSIDE, SELF_CHECK, STATIONARY, Band, Metric, judged
-from contact_sim_pkg.report.answer import answer_of, first_metrics
+from contact_sim_pkg.report.answer import MOST_PHRASES, answer_of, first_metrics
+from contact_sim_pkg.report.metrics.listing import metrics_of
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.run.outputs import Estimate
 
@@ -36,6 +37,14 @@ def test_the_worst_that_holds_comes_first(recording, factor, word):
     assert answer.word == word
     assert "SEAT " in answer.text
     assert ("too short" in answer.text) == (word == "Doubtful")
+
+
+def test_two_phrases_stand_open_and_the_others_are_folded(recording):
+    found = [*metrics_of(recording)]
+    answer = answer_of(recording, found)
+    assert len(answer.text.split("; ")) <= 1 + MOST_PHRASES
+    assert answer.more
+    assert not any(text in answer.text for text in answer.more)
 
 
 def test_a_run_that_failed_says_so_before_its_numbers(recording):

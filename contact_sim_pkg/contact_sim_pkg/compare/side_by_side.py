@@ -43,8 +43,8 @@ class ComparedMetric(NamedTuple):
     values: tuple[float, ...]
     """nan where a run lacks it"""
     verdicts: tuple[str, ...]
-    broken: tuple[str, ...]
-    """assumptions that do not hold in a run"""
+    broken_of: tuple[tuple[str, ...], ...]
+    """assumptions that do not hold, of each run; empty where all hold in all"""
     basis: str = ""
     """event, stationary, state or self-check"""
     errors: tuple[float, ...] = ()
@@ -84,9 +84,15 @@ class ComparedMetric(NamedTuple):
         """The metric in the first run and in that at a ``place`` from 1 on: two runs, whose `change` is theirs."""
         two = itemgetter(0, place)
         return self._replace(
-            values=two(self.values), verdicts=two(self.verdicts), errors=two(self.errors) if self.errors else (),
+            values=two(self.values), verdicts=two(self.verdicts),
+            broken_of=two(self.broken_of) if self.broken_of else (), errors=two(self.errors) if self.errors else (),
             spreads=two(self.spreads) if self.spreads else (),
         )  # fmt: skip
+
+    @property
+    def broken(self) -> tuple[str, ...]:
+        """Assumptions that do not hold in some run."""
+        return tuple(dict.fromkeys(text for each in self.broken_of for text in each))
 
     @property
     def change(self) -> float:
@@ -172,10 +178,10 @@ def side_by_side(runs: Sequence[Compared]) -> list[ComparedMetric]:
 
 def _side(runs: Sequence[Metric | None]) -> ComparedMetric:
     first = next(each for each in runs if each is not None)
-    broken = dict.fromkeys(text for each in runs if each is not None for text in each.broken)
+    broken = tuple(() if each is None else tuple(each.broken) for each in runs)
     return ComparedMetric(
         first.key, first.name, first.unit, tuple(math.nan if each is None else each.value for each in runs),
-        tuple("absent" if each is None else each.verdict for each in runs), tuple(broken), first.basis,
+        tuple("absent" if each is None else each.verdict for each in runs), broken if any(broken) else (), first.basis,
         tuple(math.nan if each is None else each.error for each in runs),
         tuple(math.nan if each is None else each.spread for each in runs),
         next((each.band for each in runs if each and each.band and each.band.kind in (LIMIT, REQUIRED)), None),

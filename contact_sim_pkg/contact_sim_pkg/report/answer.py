@@ -20,6 +20,8 @@ from contact_sim_pkg.report.series import Recording
 __all__ = ["MOST_TILES", "Answer", "answer_of", "first_metrics"]
 
 LEAST_TILES, MOST_TILES = 6, 8
+MOST_PHRASES = 2
+"""of the rigs, that are not folded"""
 
 
 class Answer(NamedTuple):
@@ -29,18 +31,29 @@ class Answer(NamedTuple):
     """class of its colour: good, usual, doubtful or outside"""
     word: str
     text: str
+    more: tuple[str, ...] = ()
+    """what is folded behind it, a phrase each"""
+    runs: tuple[Answer, ...] = ()
+    """of several runs one line each"""
 
 
 def answer_of(recording: Recording, metrics: Sequence[Metric]) -> Answer:
-    """The worst that holds of a run, what its rigs have to say, and what of it no request makes more accurate."""
+    """The worst that holds of a run with `MOST_PHRASES` of what its rigs have to say, the first of each in turn; the
+    others, and what no request makes more accurate, are `more`.
+    """
     found = {metric.key: metric for metric in metrics}
-    phrases = [
-        text for report in reports_of(recording) for phrase in report.answer if (text := _filled(phrase, report, found))
+    by_rig = [
+        [text for phrase in report.answer if (text := _filled(phrase, report, found))]
+        for report in reports_of(recording)
     ]
+    in_turn = [text for rank in zip_longest(*by_rig) for text in rank if text is not None]
+    first = in_turn[:MOST_PHRASES]
     above = above_request(accuracy_numbers(recording))
     tone, word, reason = _verdict(recording, metrics, above)
-    said = [reason, *phrases, above.text if above.text not in reason else ""]
-    return Answer(tone, word, "; ".join(filter(None, said)) + ".")
+    said = [text for texts in by_rig for text in texts]
+    more = [*(text for text in said if text not in first), above.text if above.text not in reason else ""]
+    shown = [reason, *(text for text in said if text in first)]
+    return Answer(tone, word, "; ".join(filter(None, shown)) + ".", tuple(filter(None, more)))
 
 
 def first_metrics(recording: Recording, metrics: Sequence[Metric]) -> list[Metric]:

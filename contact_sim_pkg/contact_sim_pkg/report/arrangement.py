@@ -9,7 +9,7 @@ from contact_sim_pkg.report.drawing import Picture
 from contact_sim_pkg.report.page import CONTACT, FREQUENCY, PUBLISHED, TRUST, Section
 from contact_sim_pkg.report.tables import Table
 
-__all__ = ["Entry", "Part", "arranged", "folds_of", "leading"]
+__all__ = ["Entry", "Part", "arranged", "first_folds", "folds_of", "leading"]
 
 MOST_SHOWN = 6
 """Pictures that are shown at once, those of the first screen among them."""
@@ -72,6 +72,11 @@ def arranged(sections: Sequence[Section], shown: int, tables: dict[str, list[Tab
         if any(part[2:]):
             parts.append(part)
     return parts
+
+
+def first_folds(more: Sequence[str]) -> list[Entry]:
+    """Folds of the first screen; ``more``: what is folded behind the answer."""
+    return [*([Entry("fold-answer", "All of the answer")] if more else []), Entry("fold-metrics", "All metrics")]
 
 
 def folds_of(parts: Sequence[Part]) -> list[Entry]:

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.files import FileRefusedError, check_output, new_file
 from contact_sim_pkg.report.rows import SUPERSCRIPT
 from contact_sim_pkg.report.signal.decimate import BANDS, bands
+from contact_sim_pkg.report.ticks import name_powers, thin_labels
 
 # Each colour stands for a variable of the page's style sheet; the value is what is seen where that
 # is missing.
@@ -118,7 +119,7 @@ PLAIN = Margins()
 WITH_BARS = Margins(right=0.75, across=1.45)
 """Margins where each axes has a colour bar at its right."""
 
-MULTIPLES = Margins(left=0.62, bottom=0.5, across=0.14, shared=0.36)
+MULTIPLES = Margins(left=0.72, bottom=0.5, across=0.14, shared=0.36)
 """Margins of many small maps with a title each, which share both axes."""
 
 
@@ -227,6 +228,8 @@ def picture(name: str, figure: Figure, description: str, caption: str) -> Pictur
         if isinstance(axis.get_major_formatter(), LogFormatterSciNotation):
             axis.set_major_formatter(_PlainPowers())
             axis.set_minor_formatter(_PlainPowers())
+        name_powers(axis)
+    thin_labels(figure)
     figure.savefig(buffer, format="svg", dpi=150, metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
     body = text[text.index("<svg") :]

@@ -57,7 +57,7 @@ class FieldReader:
                 f"the field at {time:.6f} s has {len(message.pressure)} values for {message.rows} x {message.cols} cells"
             )
         self._widen(time, message)
-        row, col = _place(message, self._widest)
+        row, col = place_of(message, self._widest)
         pressure = np.reshape(message.pressure, (message.rows, message.cols))
         # Sum over time, at the place of this grid in the widest one
         self._total[row : row + message.rows, col : col + message.cols] += pressure
@@ -93,7 +93,7 @@ class FieldReader:
             )
         # What was summed so far moves into the wider grid
         if wider and shape != (before.rows, before.cols):
-            row, col = _place(before, message)
+            row, col = place_of(before, message)
             total = np.zeros(shape)
             total[row : row + before.rows, col : col + before.cols] = self._total
             self._history.widen(row, message.rows - before.rows - row)
@@ -111,7 +111,7 @@ class FieldReader:
             highest_time=self._highest_time,
             average=pressure_map(self._widest, self._total / time.size),
             event=self._event.finish(),
-            film=self._film.finish(self._widest, _place),
+            film=self._film.finish(self._widest, place_of),
             history_time=self._history_time.finish()[:, 0],
             history=self._history.finish(),
             history_group=self._history.group,
@@ -179,7 +179,7 @@ def _strips(integral: FloatArray, cells: float) -> FloatArray:
     return np.concatenate((from_begin, to_end))
 
 
-def _place(inner: Any, outer: Any) -> tuple[int, int]:
+def place_of(inner: Any, outer: Any) -> tuple[int, int]:
     """Row and column of `outer` on which cell (0, 0) of `inner` lies, the nearest ones."""
     row = round((inner.origin_x - outer.origin_x) / outer.cell_x)
     col = round((inner.origin_y - outer.origin_y) / outer.cell_y)

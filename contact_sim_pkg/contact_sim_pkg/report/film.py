@@ -60,8 +60,9 @@ class Film(NamedTuple):
 class FilmReader:
     """Keeps every n-th field, n doubling as they become many, and those of the largest load and the largest peak."""
 
-    def __init__(self) -> None:
-        """Nothing read yet."""
+    def __init__(self, most: int | None = None) -> None:
+        """Nothing read yet; ``most``: fields that are kept, as many as a page has room for where it is None."""
+        self._most = most
         self._kept: list[tuple[float, Any]] = []
         self._largest: dict[str, tuple[float, Any]] = {}
         self._stride = self._read = 0
@@ -72,7 +73,7 @@ class FilmReader:
         if self._read % self._stride == 0:
             self._kept.append((time, message))
         self._read += 1
-        if len(self._kept) > _most(message):
+        if len(self._kept) > (self._most or _most(message)):
             self._kept, self._stride = self._kept[::2], 2 * self._stride
         for name in ("load", "peak"):
             before = self._largest.get(name)

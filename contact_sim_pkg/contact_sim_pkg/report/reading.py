@@ -79,7 +79,7 @@ def read_recording(bag: Bag, on_read: OnRead = lambda _: None) -> Recording:
     """
     stacks, fields, points, of_rigs, unknown = _decode(bag, on_read)
     topics = {kind: [name for name in stacks if bag.topics[name].type == kind] for kind in SERIES_TYPES}
-    contact_of = _contact_names(bag)
+    contact_of = contact_names(bag)
     contacts = {contact_of[name]: _contact(_columns(stacks.pop(name), name, unknown)) for name in topics[FORCE]}
     motion = next((motion_series(_columns(stacks[name], name, unknown)) for name in topics[MOTION]), None)
     ledger = next((LedgerSeries(**_columns(stacks[name], name, unknown)) for name in topics[ENERGY]), None)
@@ -146,7 +146,7 @@ class RigOf(NamedTuple):
 
 def rig_of_bag(bag: Bag) -> RigOf:
     """By its scene and topics, before a message is read."""
-    names = _contact_names(bag)
+    names = contact_names(bag)
     forces = [names[name] for name, row in bag.topics.items() if row.type == FORCE and bag.count(name)]
     scene = scene_of_text(bag.scene, f"scene of {bag.path}")
     return RigOf(bag.path.parent.name, str(scene.get("rig") or "unknown"), tuple(forces))
@@ -308,7 +308,7 @@ def contact_name(topic: str) -> str:
     return parts[-2] if len(parts) > 1 else parts[-1]
 
 
-def _contact_names(bag: Bag) -> dict[str, str]:
+def contact_names(bag: Bag) -> dict[str, str]:
     """Contact of each topic, by its name in the bag; BagError where two topics of a type call
     theirs the same.
     """

@@ -14,7 +14,7 @@ from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report import facts, rig_reports
 from contact_sim_pkg.report.answer import answer_of, first_metrics
-from contact_sim_pkg.report.arrangement import Entry, arranged, folds_of, leading
+from contact_sim_pkg.report.arrangement import Entry, arranged, first_folds, folds_of, leading
 from contact_sim_pkg.report.drawing import style
 from contact_sim_pkg.report.figures.bench import energy_balance, real_time_factor
 from contact_sim_pkg.report.figures.contact import contact_section
@@ -93,18 +93,18 @@ def render(
     of_rig = rig_reports.parts_of(recording)
     conditions = conditions_of([Part("", f"{recording.duration:.4g} s"), *of_rig])
     title = recording.scene.get("name") or recording.name
-    numbers, scene = metric_table(metrics), scene_rows(recording.scene)
+    numbers, scene, answer = metric_table(metrics), scene_rows(recording.scene), answer_of(recording, metrics)
     # The template has the layout; every text is escaped there
     return rendered(TEMPLATE, {
         "title": title, "description": recording.scene.get("description") or "", "bag_name": recording.name,
-        "date": recording.date, "answer": answer_of(recording, metrics), "conditions": conditions,
+        "date": recording.date, "answer": answer, "conditions": conditions,
         "largest": " · ".join(filter(None, (facts.largest_values(recording), facts.without_error(metrics)))),
         "drawing": drawing_of(of_rig, str(title)), "warnings": [*facts.warnings(recording), *doubts_of(metrics)],
         "tiles": tiles_of(first_metrics(recording, metrics)), "numbers": numbers, "maps": map_views(recording), "lead": lead,
         "drawn": parts, "contents": [Entry("result", "Result"), Entry("time", "Time and maps"),
                                      *(Entry(each.key, each.title) for each in parts),
                                      Entry("setup", "Set-up"), Entry("files", "Files")],
-        "folds": [Entry("fold-metrics", "All metrics"), *folds_of(parts), Entry("fold-scene", "Scene, effects and software"),
+        "folds": [*first_folds(answer.more), *folds_of(parts), Entry("fold-scene", "Scene, effects and software"),
                   *([Entry("fold-resolved", "The whole resolved scene")] if scene else []),
                   Entry("fold-topics", "Topics of the bag")],
         "run": facts.run_rows(recording), "effects": facts.effect_rows(recording),

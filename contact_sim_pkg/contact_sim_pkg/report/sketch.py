@@ -21,8 +21,8 @@ WIDTH, AXIS, LABELS = 300.0, 62.0, 128.0
 """[px] of the drawing, of the line that the parts stand on, and where their labels begin."""
 LINE = 15.0
 """[px] of a line of text"""
-LETTERS = 27
-"""of a line of a label"""
+LETTERS = 24
+"""of a line of a label, in the widest of the page's fonts"""
 
 
 class Sketch:

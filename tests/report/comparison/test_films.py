@@ -81,7 +81,7 @@ def test_grids_and_instants_that_differ_are_said():
     ]
     apart = films(film([[[10, 20]]]), film([[[20, 30]]], origin=(0.004, 0.0)))
     assert apart.notes == ["The grids of the seat in A and B are part of a cell apart: nearest cells are compared."]
-    late = films(film([[[10]], [[20]]]), film([[[10]], [[20]]], [0.0, 0.5]))
+    late = films(film([[[10]], [[20]]]), film([[[10]], [[20]]], [0.25, 0.5]))
     assert late.notes == ["The fields of the seat in A and B are of different instants: linear between two."]
 
 

@@ -1,5 +1,7 @@
 """One page on several bags."""
 
+import re
+
 import pytest
 from click.testing import CliRunner
 from tests.report.page import Page
@@ -49,6 +51,14 @@ def test_the_first_screen_has_the_verdict_of_every_run_beside_its_length(page, b
         recording = read_recording(bag)
         word = answer_of(recording, metrics_of(recording)).word.lower()
         assert f"{letter}: run_{each} of {recording.duration:.4g} s, {word}" in said
+
+
+def test_the_first_curve_of_two_cars_is_the_transmissibility_of_their_seats(car):
+    """Not the load of the tire over two cycles of 40 ms, which stands below."""
+    text = render_comparison([read_recording(car)] * 2)
+    drawn = re.findall(r'<figure id="([^"]+)"', text)
+    assert drawn[0].endswith("-response")
+    assert any(each.endswith("-force") for each in drawn[1:])
 
 
 def test_the_table_has_the_metrics_of_every_run(bags):

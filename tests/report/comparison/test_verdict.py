@@ -14,6 +14,7 @@ AT_MOST = Band(-math.inf, 100.0, LIMIT, "s")
 
 def side(key, *values, spread=math.nan, limit=None, basis=EVENT, broken=()):
     spreads = (spread,) * len(values)
+    broken = tuple(broken) if broken and isinstance(broken[0], tuple) else (broken,) * len(values) if broken else ()
     return ComparedMetric(
         key, key, "%", values, ("good",) * len(values), broken, basis, (math.nan,) * len(values), spreads, limit
     )
@@ -39,16 +40,41 @@ def side(key, *values, spread=math.nan, limit=None, basis=EVENT, broken=()):
     ],
 )  # fmt: skip
 def test_one_sentence_says_which_is_better_and_by_what(sides, tone, word, text):
-    assert answer_of_runs(NAMES[:2], sides, {"SEAT", "a_w"}) == (tone, word, text)
+    assert answer_of_runs(NAMES[:2], sides, {"SEAT", "a_w"})[:3] == (tone, word, text)
 
 
 def test_each_of_three_is_held_against_the_first():
     found = answer_of_runs(NAMES, [side("SEAT", 60.0, 50.0, 70.0, limit=AT_MOST)], {"SEAT"})
-    assert found == ("good", "Against A", "B is better: SEAT 60 → 50 % (-10). A is better: SEAT 60 → 70 % (+10).")
+    assert found[:2] == ("good", "Against A")
+    assert found.more == ("B is better: SEAT 60 → 50 % (-10).", "C: A is better: SEAT 60 → 70 % (+10).")
+    assert [each[:3] for each in found.runs] == [
+        ("good", "B is better", "SEAT 60 → 50 % (-10)"), ("good", "C: A is better", "SEAT 60 → 70 % (+10)"),
+    ]  # fmt: skip
+
+
+def test_each_run_has_its_own_reasons_of_doubt_and_those_of_the_first():
+    short = (("too short: 20 s",), (), ("too short: 4 s",))
+    found = answer_of_runs(NAMES, [side("SEAT", 60.0, 50.0, 70.0, limit=AT_MOST, broken=short)], {"SEAT"})
+    assert found.more == (
+        "B is better: SEAT 60 → 50 % (-10) (A: too short: 20 s).",
+        "C: A is better: SEAT 60 → 70 % (+10) (A: too short: 20 s; C: too short: 4 s).",
+    )
+    assert [each.tone for each in found.runs] == ["doubtful", "doubtful"]
+    last = (("lost",), ("lost",), ("lost", "late"))
+    found = answer_of_runs(NAMES, [side("SEAT", 60.0, 50.0, 70.0, limit=AT_MOST, broken=last)], {"SEAT"})
+    assert found.more[0].endswith("(lost).")
+    assert found.more[1].endswith("(lost; C: late).")
+
+
+def test_a_tile_of_several_runs_has_the_colour_of_the_worst():
+    better_and_worse = side("SEAT", 60.0, 50.0, 70.0, limit=AT_MOST)
+    same = side("SEAT", 60.0, 50.0, 60.0, limit=AT_MOST)
+    tones = [moved_tiles(NAMES, [each], ())[0].tone for each in (better_and_worse, same)]
+    assert tones == ["outside", "good"]
 
 
 def test_a_run_that_ended_early_is_said_first():
-    assert answer_of_runs(NAMES[:2], [], (), ["B: stopped by you."]) == (
+    assert answer_of_runs(NAMES[:2], [], (), ["B: stopped by you."])[:3] == (
         "outside",
         "Not finished",
         "B: stopped by you.",

@@ -11,11 +11,22 @@ from matplotlib import colormaps
 from numpy.typing import NDArray
 
 from contact_sim_pkg.report.comparison.aligned import Alignment
+from contact_sim_pkg.report.comparison.instants import SAME, common_instants
 from contact_sim_pkg.report.comparison.maps import DIFFERENCE_COLOURS
 from contact_sim_pkg.report.film import Film, png_of
 from contact_sim_pkg.report.rows import number
 from contact_sim_pkg.report.series import FloatArray, Recording
-from contact_sim_pkg.report.timeline import MapView, Series, as_text, data_of, film_data, films_of, groups_of, map_view
+from contact_sim_pkg.report.timeline import (
+    MapView,
+    Series,
+    as_floats,
+    as_text,
+    data_of,
+    film_data,
+    films_of,
+    groups_of,
+    map_view,
+)
 
 __all__ = ["RunFilms", "data_of_runs", "films_of_runs"]
 
@@ -43,6 +54,8 @@ class Difference(NamedTuple):
     cell_x: float
     cell_y: float
     """[m]"""
+    instants: FloatArray
+    """[s] of both films; none where they have none in common"""
 
     def frame(self, films: tuple[Film, Film], time: float) -> FloatArray:
         """Second less first film at a time [s], [rows * cols], in bytes of the films; nan where neither presses."""
@@ -102,7 +115,8 @@ def _add(
         found.views.append(_view(f"{letters[place]} − {letters[0]}: {contact}", difference, pair))
         found.data.append({
             "of": [begin, begin + place], "rows": difference.rows, "cols": difference.cols, "largest": difference.largest,
-            "unit": 1e-3 * top / 255.0, "places": [as_text(each.astype("<u4").tobytes()) for each in difference.places],
+            "instants": as_floats(difference.instants), "unit": 1e-3 * top / 255.0,
+            "places": [as_text(each.astype("<u4").tobytes()) for each in difference.places],
         })  # fmt: skip
         found.notes.extend(_notes(contact, letters[0], letters[place], pair, aligned=by is not UNMOVED))
 
@@ -136,8 +150,10 @@ def _difference(films: tuple[Film, Film], moved: int, by: Alignment) -> Differen
     across, along = x - by.shift_x, y - by.shift_y
     own, laid = _places(fixed, x, y), _places(other, cos * across + sin * along, cos * along - sin * across)
     places = (own, laid) if moved == 1 else (laid, own)
-    found = Difference(x.shape[0], x.shape[1], places, LEAST_SCALE, fixed.cell_x, fixed.cell_y)
-    largest = max(float(np.nanmax(np.abs(np.append(found.frame(films, time), 0.0)))) for time in films[0].time)
+    common = common_instants(films[0].time, films[1].time)
+    found = Difference(x.shape[0], x.shape[1], places, LEAST_SCALE, fixed.cell_x, fixed.cell_y, common)
+    shown = common if common.size else films[0].time
+    largest = max(float(np.nanmax(np.abs(np.append(found.frame(films, time), 0.0)))) for time in shown)
     return found._replace(largest=max(largest, LEAST_SCALE))
 
 
@@ -150,8 +166,10 @@ def _places(film: Film, x: FloatArray, y: FloatArray) -> PlaceArray:
 
 
 def _view(name: str, difference: Difference, films: tuple[Film, Film]) -> MapView:
-    """The difference at the largest pressure of the first film."""
+    """The difference at the largest pressure of the first film, or at their last common instant before it."""
     time = float(films[0].time[films[0].highest])
+    if difference.instants.size:
+        time = float(difference.instants[max(int(np.searchsorted(difference.instants, time + SAME)) - 1, 0)])
     frame, kilo = difference.frame(films, time), 1e-3 * films[0].largest / 255.0
     picture = as_text(png_of(difference.as_bytes(frame), _colours()))
     end = number(kilo * difference.largest)
@@ -178,7 +196,7 @@ def _notes(contact: str, first: str, other: str, films: tuple[Film, Film], *, al
         found.append(
             f"The grids of the {contact} in {first} and {other} are part of a cell apart: nearest cells are compared."
         )
-    if one.time.size != two.time.size or not np.allclose(one.time, two.time, atol=1e-6):
+    if common_instants(one.time, two.time).size == 0:
         found.append(
             f"The fields of the {contact} in {first} and {other} are of different instants: linear between two."
         )

@@ -13,7 +13,7 @@ from contact_sim_pkg.compare.side_by_side import Compared, side_by_side
 from contact_sim_pkg.records.registry import contact_reports
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.answer import answer_of
-from contact_sim_pkg.report.arrangement import Entry, arranged, folds_of
+from contact_sim_pkg.report.arrangement import Entry, arranged, first_folds, folds_of
 from contact_sim_pkg.report.arrangement import leading as leading_pictures
 from contact_sim_pkg.report.comparison.aligned import MapPair, compare_maps, is_mat
 from contact_sim_pkg.report.comparison.curves import compared
@@ -26,6 +26,7 @@ from contact_sim_pkg.report.comparison.figures import (
     slap_comparison,
 )
 from contact_sim_pkg.report.comparison.films import data_of_runs, films_of_runs
+from contact_sim_pkg.report.comparison.instants import at_common_instants
 from contact_sim_pkg.report.comparison.maps import figure_of_maps, map_comparison
 from contact_sim_pkg.report.comparison.scene_differences import differences
 from contact_sim_pkg.report.comparison.tables import difference_table, metric_table
@@ -68,7 +69,7 @@ def write_comparison(
     path = free_place(bags, out, overwrite=overwrite)
     refuse_incomparable(bags)
     # Everything is read before the file is touched
-    page = render_comparison([read_recording(bag) for bag in bags], requirements)
+    page = render_comparison(at_common_instants(bags, [read_recording(bag) for bag in bags]), requirements)
     with new_page(path, bags, overwrite=overwrite) as file:
         file.write(page.encode())
     return path
@@ -85,28 +86,29 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
     if pair is None:
         sides = [compared(name, each, requirements) for name, each in zip(names, recordings, strict=True)]
         table = difference_table(names, differences([each.scene for each in recordings]))
-        films, drawn = films_of_runs(letters, recordings), _sections(make_runs(names, recordings), "run")
+        films = films_of_runs(letters, recordings)
+        drawn, first = _sections(make_runs(names, recordings), "run")
     else:
         sides = [
             Compared(name, required(each, requirements), {}) for name, each in zip(names, pair.metrics, strict=True)
         ]
         table = Table("A mat has no scene.", ("how they lie on each other",), [(text,) for text in pair.sentences])
-        films, drawn = films_of_runs(letters, recordings, pair.moved, pair.alignment), [_maps_of(pair)]
+        films, drawn, first = films_of_runs(letters, recordings, pair.moved, pair.alignment), [_maps_of(pair)], []
     moved, named = side_by_side(sides), answered(recordings[0])
     # what its rigs want shown, and what the answer is judged by
     leading = {key for each in sides for key in each.leading}
     leading |= {
         each.key for each in [each for each in moved if each.key in named and each.limit and each.moved][:MOST_NAMED]
     }
-    lead = leading_pictures((), drawn)
+    lead = leading_pictures(first, drawn)
     parts = arranged(drawn, len(lead), {})
     unfinished = [
         f"{letter}: {text}" for letter, each in zip(letters, recordings, strict=True) for text in ended_early(each)
     ]
-    numbers = metric_table(names, moved)
+    numbers, answer = metric_table(names, moved), answer_of_runs(names, moved, named, unfinished)
     return rendered(TEMPLATE, {
         "title": " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings)),
-        "count": len(recordings), "answer": answer_of_runs(names, moved, named, unfinished),
+        "count": len(recordings), "answer": answer,
         "conditions": conditions_of([
             Part("", "; ".join(map(_of_run, sides, recordings))),
             *_common_parts(recordings),
@@ -117,7 +119,7 @@ def render_comparison(recordings: Sequence[Recording], requirements: Sequence[Re
         "maps": films.views, "notes": films.notes, "lead": lead, "drawn": parts,
         "contents": [Entry("result", "Result"), Entry("time", "Time and maps"),
                      *(Entry(each.key, each.title) for each in parts), Entry("files", "Files")],
-        "folds": [Entry("fold-metrics", "All metrics"), *folds_of(parts)],
+        "folds": [*first_folds(answer.more), *folds_of(parts)],
         "commands": _commands([each.name for each in recordings]),
         "data": Markup(data_of_runs(letters, recordings, films)),  # noqa: S704 - made by json
     }, scripts=True)  # fmt: skip
@@ -164,20 +166,23 @@ def distinct_names(recordings: Sequence[Recording]) -> list[str]:
     return [f"{letter}: {each.name}" for letter, each in zip(ascii_uppercase, recordings, strict=False)]
 
 
-def _sections(runs: list[Run], title: str) -> list[Section]:
+def _sections(runs: list[Run], title: str) -> tuple[list[Section], list[str]]:
+    """Sections, and the name of the first picture that a rig adds, where one does: of a seat T(f)."""
     with style():
-        found = []
+        found, of_rigs = [], []
         for number, name in enumerate(runs[0].recording.contacts):
             key = f"contact-{number}"
+            own = _rig_pictures(key, name, runs)
+            of_rigs += [each.name for each in own]
             made: list[Picture | None] = [
-                *_rig_pictures(key, name, runs),
+                *own,
                 force_comparison(key, name, runs, title),
                 map_comparison(key, name, runs),
                 loop_comparison(key, name, runs, title),
             ]
             made += [area_comparison(key, name, runs, title), slap_comparison(key, name, runs, title)]
             found.append(Section(key, f"{name.capitalize()} contact", [each for each in made if each is not None]))
-    return found
+    return found, of_rigs[:1]
 
 
 def _rig_pictures(key: str, name: str, runs: list[Run]) -> list[Picture]:

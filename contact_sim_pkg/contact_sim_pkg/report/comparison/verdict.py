@@ -18,6 +18,8 @@ __all__ = ["MovedTile", "answer_of_runs", "moved_tiles"]
 BETTER, WORSE, UNKNOWN = "better", "worse", "spread not known"
 TONES = {BETTER: "good", WORSE: "outside", UNKNOWN: "doubtful", "higher": "no-band", "lower": "no-band"}
 
+WORST_FIRST = ("outside", "doubtful", "good", "usual", "no-band")
+
 
 class Moved(NamedTuple):
     """One run beside the first."""
@@ -46,6 +48,27 @@ class MovedTile(NamedTuple):
     """of the first run"""
     instant: str
     moved: list[Moved]
+
+    @property
+    def tone(self) -> str:
+        """Class of its colour: the worst of the runs."""
+        tones = {each.tone for each in self.moved}
+        return next((each for each in WORST_FIRST if each in tones), "usual")
+
+
+class _Said(NamedTuple):
+    """What is said of one run beside the first."""
+
+    tone: str
+    word: str
+    first: str
+    """the number that decides"""
+    rest: str
+    before: str = ""
+    """words before the first"""
+
+    def whole(self) -> Answer:
+        return Answer(self.tone, self.word, f"{self.before}{self.first}{self.rest}.")
 
 
 def moved_tiles(names: Sequence[str], sides: Sequence[ComparedMetric], leading: Collection[str]) -> list[MovedTile]:
@@ -84,10 +107,17 @@ def answer_of_runs(
         for place, letter in enumerate(letters[1:], start=1)
     ]
     if len(found) == 1:
-        return found[0]
+        return found[0].whole()
     tones = [each.tone for each in found]
     tone = next((each for each in ("doubtful", "good") if each in tones), "usual")
-    return Answer(tone, f"Against {letters[0]}", " ".join(f"{each.word}: {each.text}" for each in found))
+    lines = [
+        each._replace(word=each.word if each.word.startswith(letter) else f"{letter}: {each.word}")
+        for letter, each in zip(letters[1:], found, strict=True)
+    ]
+    return Answer(
+        tone, f"Against {letters[0]}", "", tuple(f"{each.word}: {each.whole().text}" for each in lines),
+        tuple(Answer(each.tone, each.word, each.first) for each in lines),
+    )  # fmt: skip
 
 
 def letters_of(names: Sequence[str]) -> list[str]:
@@ -95,7 +125,7 @@ def letters_of(names: Sequence[str]) -> list[str]:
     return [name.partition(":")[0] for name in names]
 
 
-def _answer(pairs: Sequence[ComparedMetric], named: Collection[str], first: str, letter: str) -> Answer:
+def _answer(pairs: Sequence[ComparedMetric], named: Collection[str], first: str, letter: str) -> _Said:
     """Of two runs: what the metrics say that are ``named``, have a limit and moved, else what all do."""
     speaking = [each for each in pairs if each.key in named and each.limit and each.comparison and each.change] or pairs
     better, worse, unknown = (
@@ -109,17 +139,20 @@ def _answer(pairs: Sequence[ComparedMetric], named: Collection[str], first: str,
         if (found := [each for each in pairs if each.comparison == word])
     )
     if unknown:
-        text = f"the spread is not known of {_change(unknown[0])}{_more(unknown, 'nor of')}"
-        return Answer("doubtful", f"{letter} undecided", f"{text}{rest}{_reservation(unknown[0])}.")
+        rest = f"{_more(unknown, 'nor of')}{rest}{_reservation(unknown[0], first, letter)}"
+        return _Said("doubtful", f"{letter} undecided", _change(unknown[0]), rest, "the spread is not known of ")
     known = [each for each in speaking if math.isfinite(each.change)]
     moved = max((each for each in known if not each.comparison), key=_moved, default=None)
     if moved is not None:
-        return Answer("usual", f"{letter} differs", f"most moved {_change(moved)}; no limit says which run is better.")
+        rest = "; no limit says which run is better"
+        return _Said("usual", f"{letter} differs", _change(moved), rest, "most moved ")
     within = max(known, key=_moved, default=None)
     if within is None or within.change == 0.0:
-        return Answer("usual", f"{letter} is the same", f"no metric differs from {first}{rest}.")
+        return _Said("usual", f"{letter} is the same", f"no metric differs from {first}", rest)
     others = [within, *(each for each in known if each is not within)]
-    return Answer("usual", f"{letter}: no difference beyond ±", f"{_change(within)}{_more(others, 'nor of')}{rest}.")
+    return _Said(
+        "usual", f"{letter}: no difference beyond ±", _change(within), f"{_more(others, 'nor of')}{rest}"
+    )  # fmt: skip
 
 
 def _judged(
@@ -128,19 +161,17 @@ def _judged(
     unknown: Sequence[ComparedMetric],
     first: str,
     letter: str,
-) -> Answer:
+) -> _Said:
     """Where limits tell the runs apart."""
-    reservation = next(filter(None, map(_reservation, (*better, *worse))), "")
+    reservation = next(filter(None, (_reservation(each, first, letter) for each in (*better, *worse))), "")
     rest = f"; the spread is not known of {_names(unknown)}" if unknown else ""
-    if better and worse:
-        text = f"better by {_change(better[0])}{_more(better)}; worse by {_change(worse[0])}{_more(worse)}"
-        word = f"{letter} better and worse"
-    else:
-        judging = better or worse
-        text = f"{_change(judging[0])}{_more(judging)}"
-        word = f"{letter if better else first} is better"
     tone = "doubtful" if reservation else "usual" if better and worse else "good"
-    return Answer(tone, word, f"{text}{rest}{reservation}.")
+    if better and worse:
+        rest = f"{_more(better)}; worse by {_change(worse[0])}{_more(worse)}{rest}{reservation}"
+        return _Said(tone, f"{letter} better and worse", _change(better[0]), rest, "better by ")
+    judging = better or worse
+    word = f"{letter if better else first} is better"
+    return _Said(tone, word, _change(judging[0]), f"{_more(judging)}{rest}{reservation}")
 
 
 def _more(sides: Sequence[ComparedMetric], joined: str = "also by") -> str:
@@ -151,8 +182,15 @@ def _names(sides: Sequence[ComparedMetric]) -> str:
     return ", ".join(each.name for each in sides)
 
 
-def _reservation(side: ComparedMetric) -> str:
-    return f" ({'; '.join(side.broken)})" if side.broken else ""
+def _reservation(side: ComparedMetric, first: str, letter: str) -> str:
+    """What does not hold in both runs, and what in one, with its letter."""
+    if not side.broken:
+        return ""
+    one, other = side.broken_of
+    found = [text for text in one if text in other]
+    found += [f"{first}: {text}" for text in one if text not in other]
+    found += [f"{letter}: {text}" for text in other if text not in one]
+    return f" ({'; '.join(found)})"
 
 
 def _change(side: ComparedMetric) -> str:

@@ -156,9 +156,9 @@ def surface_and_map(field: PressureMap, quantity: Quantity, window: Window, outl
     """
     limits = Normalize(min(0.0, float(np.nanmin(quantity.values))), float(np.nanmax(quantity.values)))
     figure = Figure(figsize=(WIDTH, 3.3))
-    surface: Any = figure.add_axes((0.0, 0.03, 0.45, 1.03), projection="3d")
+    surface: Any = figure.add_axes((-0.015, 0.03, 0.45, 1.03), projection="3d")
     _draw_surface(surface, field, quantity, window, limits)
-    axes = figure.add_axes((0.572, 0.15, 0.312, 0.74))
+    axes = figure.add_axes((0.602, 0.15, 0.284, 0.74))
     shown = np.where(field.pressure > 0.0, quantity.values, np.nan) if not outline else quantity.values
     image = draw_map(axes, field, shown, quantity.colours, limits)
     if outline:
@@ -191,7 +191,12 @@ def _draw_surface(axes: Any, field: PressureMap, quantity: Quantity, window: Win
     axes.set_ylabel("y, mm", labelpad=1)
     axes.set_zlabel(quantity.label, labelpad=2)
     axes.tick_params(pad=-1)
-    axes.locator_params(nbins=4)
+    axes.locator_params(axis="z", nbins=4)
+    # where the axes meet, the labels of one would stand on those of the other
+    for axis, (low, high) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+        edge = 0.15 * (high - low)
+        ticks = MaxNLocator(4).tick_values(low, high)
+        axis.set_ticks(ticks[(ticks > low + edge) & (ticks < high - edge)])
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_pane_color((0.0, 0.0, 0.0, 0.0))
         axis.line.set_color(MUTED)

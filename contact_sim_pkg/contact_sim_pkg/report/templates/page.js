@@ -20,7 +20,8 @@
     return low;
   };
 
-  // what the second of two films presses more than the first, each between two frames along a straight line
+  // what the second of two films presses more than the first, at their last common instant; without one each between two
+  // frames along a straight line
   const difference = (film, paint, text) => {
     const pair = film.of.map((number, side) => ({...films[number], places: places(film.places[side])}));
     const at = (one, time) => {
@@ -28,8 +29,10 @@
       const share = length > 0 ? Math.min(Math.max((time - one.time[first]) / length, 0), 1) : 0;
       return place => (place === 0 ? 0 : (1 - share) * one.frames[first * one.cells + place - 1] + share * one.frames[last * one.cells + place - 1]);
     };
+    const instants = floats(film.instants);
     const frame = new Uint8Array(film.rows * film.cols), kilo = value => Number((value * film.unit).toPrecision(3)).toString();
-    const show = time => {
+    const show = cursor => {
+      const time = instants.length ? instants[before(instants, cursor)] : cursor;
       const [first, second] = pair.map(one => at(one, time));
       let least = 0, most = 0;
       for (let cell = 0; cell < frame.length; cell++) {

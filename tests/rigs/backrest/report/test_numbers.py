@@ -10,6 +10,7 @@ from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.records.messages import ContactPatch, ContactPoints
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.series import PressureMap
 from contact_sim_pkg.report.signal import episodes, loops
 from contact_sim_pkg.rigs.backrest.report import numbers
 
@@ -150,3 +151,15 @@ def test_the_lumbar_part_and_the_height_are_those_of_the_mean_map(kept):
     recording = kept._replace(scene=scene, fields={"backrest": field})
     assert numbers.back_load(recording) == pytest.approx((0.185, 0.7))
     assert numbers.back_load(kept) is None
+
+
+def test_a_back_that_ends_within_its_footprint_is_said():
+    """A grid of 40 by 32 cells of 12.5 mm is that of a back 500 mm high and 400 mm wide."""
+    pressure = np.zeros((40, 32))
+    field = PressureMap(pressure, 0.0125, 0.0125, -0.24375, -0.19375)
+    pressure[1:-1, 1:-1] = 1.0
+    assert numbers.ends_of_back(field) == ""
+    pressure[0, 10] = pressure[-1, 10] = 1.0
+    assert numbers.ends_of_back(field) == "the footprint is cut at -250 and 250 mm (up, x), where the back ends"
+    pressure[20, 31] = 1.0
+    assert numbers.ends_of_back(field).endswith("-250 and 250 mm (up, x), 200 mm (left, y), where the back ends")

@@ -58,7 +58,7 @@ def domain_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
     for stage in (0, 1):
         _draw_stage(figure, panels[:, stage].ravel().tolist(), found, stage, window)
     figure.supxlabel(AT_BACKREST.across)
-    figure.supylabel(AT_BACKREST.along)
+    figure.supylabel(AT_BACKREST.along, x=0.004)
     return picture(
         f"{key}-domains", figure, f"Contact points on the contact domain of the {name} in every run", _caption(found)
     )

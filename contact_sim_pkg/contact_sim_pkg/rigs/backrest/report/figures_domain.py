@@ -27,7 +27,7 @@ from contact_sim_pkg.report.point_series import APART, SLIPS, STICKS, TOUCHES, P
 from contact_sim_pkg.report.series import EpisodeSeries, FieldSeries, FloatArray, PressureMap, Snapshot
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.report.signal.loops import area_ratio
-from contact_sim_pkg.rigs.backrest.report.numbers import heaviest_slap
+from contact_sim_pkg.rigs.backrest.report.numbers import ends_of_back, heaviest_slap
 
 CURVE = "#d5402b"
 AT_BACKREST = View("← left, y, mm", "up, x, mm →", "Seen from the front, as one looks at the seat back.")
@@ -78,7 +78,8 @@ def contact_domain(key: str, name: str, field: FieldSeries, points: PointSeries 
     ]
     caption = (
         f"Contact domain on the pressure map, cells not interpolated; black: its edge. Red: the Lamé curve |x/a|ⁿ + |y/b|ⁿ = 1 "
-        f"through the boundary of the cells under pressure. {'; '.join(parts)}.{_points_sentence(points)} {AT_BACKREST.seen}"
+        f"through the boundary of the cells under pressure. {'; '.join(parts)}.{_cut(field)}{_points_sentence(points)} "
+        f"{AT_BACKREST.seen}"
     )
     return picture(f"{key}-domain", figure, f"Contact points on the contact domain of the {name}", caption)
 
@@ -135,6 +136,11 @@ def _curve_sentence(label: str, field: PressureMap) -> str:
     return f"{label} {shape}, n = {fit.exponent:.3g}, rms deviation {fit.deviation:.1%}"
 
 
+def _cut(field: FieldSeries) -> str:
+    cut = ends_of_back(field.heaviest.field)
+    return f" At the largest force {cut}." if cut else ""
+
+
 def _points_sentence(points: PointSeries | None) -> str:
     if points is None:
         return ""
@@ -168,10 +174,11 @@ def slap_stages(key: str, name: str, field: FieldSeries) -> Picture:
     bar = figure.colorbar(ScalarMappable(limits, PRESSURE_COLOURS), ax=axes, label="pressure, kPa", pad=0.01, aspect=30)
     bar.ax.spines["outline"].set_visible(False)
     figure.supxlabel(AT_BACKREST.across)
-    figure.supylabel(AT_BACKREST.along)
+    figure.supylabel(AT_BACKREST.along, x=0.004)
     caption = (
         f"Pressure of the {name} while it touches around its largest force, {field.heaviest.load:.4g} N at "
-        f"{field.heaviest.time:.3f} s; cells without pressure are blank, one colour scale for all. {AT_BACKREST.seen}"
+        f"{field.heaviest.time:.3f} s; cells without pressure are blank, one colour scale for all.{_cut(field)} "
+        f"{AT_BACKREST.seen}"
     )
     return picture(f"{key}-stages", figure, f"Pressure of the {name} at several instants", caption)
 

@@ -11,7 +11,7 @@ import numpy as np
 from contact_sim_pkg.pressure.cushion.sitter import LumbarSupport
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.ranges import cushion_warnings
-from contact_sim_pkg.report.series import EpisodeSeries, FloatArray, Recording
+from contact_sim_pkg.report.series import EpisodeSeries, FloatArray, PressureMap, Recording
 from contact_sim_pkg.report.signal.loops import period_of, vibration_period
 
 BACKREST = "backrest"
@@ -97,5 +97,25 @@ def back_load(recording: Recording) -> BackLoad | None:
 
 
 def backrest_warnings(recording: Recording) -> list[str]:
-    """Ranges of the foam that the run has left."""
-    return cushion_warnings("backrest", recording)
+    """Ranges of the foam that the run has left, and a back that ends within its footprint."""
+    field = recording.fields.get(BACKREST)
+    cut = "" if field is None else ends_of_back(field.heaviest.field)
+    said = [f"At the largest force {cut} (backrest.back); a fitted curve runs on."] if cut else []
+    return [*cushion_warnings("backrest", recording), *said]
+
+
+def ends_of_back(field: PressureMap) -> str:
+    """`the footprint is cut at -250 and 250 mm (up, x), where the back ends`: where cells at the edge of the grid, which is
+    that of the back, carry pressure; empty where none does.
+    """
+    loaded = field.pressure > 0.0
+    found = []
+    for name, axis, cell, origin in (
+        ("up, x", 0, field.cell_x, field.origin_x),
+        ("left, y", 1, field.cell_y, field.origin_y),
+    ):
+        count = loaded.shape[axis]
+        ends = ((0, origin - 0.5 * cell), (-1, origin + (count - 0.5) * cell))
+        if at := [f"{1e3 * place:.0f}" for number, place in ends if loaded.take(number, axis).any()]:
+            found.append(f"{' and '.join(at)} mm ({name})")
+    return f"the footprint is cut at {', '.join(found)}, where the back ends" if found else ""

@@ -29,7 +29,7 @@ MAP = "RdBu_r"
 OVER = "above a limit"
 TONES = ("none", "other", "σ_xz", "σ_zz", "both")
 """Of the dangerous volumes of one plane: darker where both volumes of the paper's figures overlap."""
-ROOM = Margins(right=0.5, across=0.95)
+ROOM = Margins(right=0.5, across=1.08)
 COLOURS = ListedColormap(["#ffffff", "#e3e1dc", "#f2b871", "#e2775c", "#7c1d2f"])
 MOST = 4
 """Instants with a picture."""

@@ -9,12 +9,15 @@ from typing import Any
 import numpy as np
 
 from contact_sim_pkg.records.messages import RollerTrack
-from contact_sim_pkg.report.drawing import ACCENT, MUTED, Picture, new_figure, picture
+from contact_sim_pkg.report.drawing import ACCENT, MUTED, Margins, Picture, legend_above, new_figure, picture
 from contact_sim_pkg.rigs.roller.model import build_roller
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries
 from contact_sim_pkg.rigs.roller.report.warnings import LARGEST_ERROR
 from contact_sim_pkg.rigs.roller.wear import hardness_round
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+BESIDE_BAR = Margins(across=1.4)
+"""Room between a colour bar with its label and the axes at its right."""
 
 
 def track_pictures(roller: RollerSeries, scene: dict[str, Any]) -> list[Picture]:
@@ -35,7 +38,7 @@ def _track_over_cycles(body: str, tracks: list[RollerTrack]) -> Picture:
     cycles = np.array([each.cycles for each in tracks])
     heights = np.array([each.height for each in tracks]) * 1e6
     length = 2.0 * np.pi * tracks[0].radius * 1e3
-    figure, (left, right) = new_figure(3.2, 1, 2)
+    figure, (left, right) = new_figure(3.2, 1, 2, BESIDE_BAR)
     largest = float(np.abs(heights).max()) or 1.0
     places = np.linspace(0.0, length, heights.shape[1])
     image = left.pcolormesh(places, cycles, heights, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
@@ -48,7 +51,7 @@ def _track_over_cycles(body: str, tracks: list[RollerTrack]) -> Picture:
     right.locator_params(axis="x", nbins=4)
     right.set_xlabel("cycles")
     right.set_ylabel("µm")
-    right.legend(loc="lower left", bbox_to_anchor=(-0.12, 1.0), ncols=2, handlelength=1.2)
+    legend_above(right)
     last = tracks[-1]
     # The strongest wave round the track, without its mean.
     strength = np.abs(np.fft.rfft(last.height))

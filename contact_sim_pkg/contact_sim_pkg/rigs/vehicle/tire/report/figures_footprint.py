@@ -54,7 +54,7 @@ def footprint_stages(key: str, name: str, field: FieldSeries, travel: WheelTrave
     bar = figure.colorbar(scale, ax=axes, label="pressure, kPa", pad=0.01, aspect=30, extend=arrow)
     bar.ax.spines["outline"].set_visible(False)
     figure.supxlabel("← left, y, mm")
-    figure.supylabel("forward, x, mm →")
+    figure.supylabel("forward, x, mm →", x=0.004)
     cut = f" One cell in 50 lies above the scale, at most {pressures.max():.4g} kPa." if arrow == "max" else ""
     caption = (
         f"Footprint of the {name} before and after its largest load, {field.heaviest.load:.5g} N at "
