@@ -285,6 +285,15 @@ def test_a_change_that_the_physics_refuses_leaves_the_run_unharmed(monkeypatch):
     assert bits(bench.step(0.02).outputs) == bits(beside.step(0.02).outputs)
 
 
+def test_a_ring_so_soft_that_no_footprint_forms_is_refused():
+    bench = ContactBench("tire_cleat", "duration=0.1")
+    first = bits(bench.step().outputs)
+    with pytest.raises(ParameterError, match=r"gives way under .* before it has a footprint"):
+        bench.step(parameters={"effects.tire.rigid_ring.stiffness": 1e3})
+    bench.reset()
+    assert bits(bench.step().outputs) == first
+
+
 def test_a_state_knows_the_parameters_it_was_saved_with():
     bench, other = ContactBench("tire_bump"), ContactBench("tire_bump")
     bench.step(0.1)
@@ -314,6 +323,7 @@ def recorded(path):
 
 STEERED = [
     ("tire_bump", ROUGH, {0.1: {INFLATION: 180e3, "travel.speed": 18.0}, 0.15: {"road.roughness": 256e-6}}),
+    ("tire_bump", (), {0.1: {"travel.speed": 8.0}, 0.2: {"travel.speed": 12.0}}),
     ("tire_braking", (), {0.0: {"effects.tire.brush.coefficient_static": 1.0}, 0.04: {INFLATION: 200e3}}),
     ("seat_slap", (), {0.1: {"vibration.amplitude": 6.0}, 0.2: {"backrest.preload": 300.0}}),
     ("block_fall", (), {0.1: {FRICTION: 0.05}}),

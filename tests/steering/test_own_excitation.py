@@ -62,6 +62,22 @@ def test_a_change_is_sent_with_the_block_that_it_holds_from(scene, tmp_path):
     assert found == recorded(tmp_path / "offline")
 
 
+def test_requests_before_one_block_are_one_change(tmp_path):
+    scene = resolved("tire_braking", "duration=0.12")
+    static, kinetic = "effects.tire.brush.coefficient_static", "effects.tire.brush.coefficient_kinetic"
+    own = OwnExcitation(scene)
+    own.prepare()
+    found = sent(own, 0, 6)
+    own.change(6, {static: 0.9})
+    own.change(6, {kinetic: 0.6})
+    with pytest.raises(ParameterError):
+        own.change(6, {static: 0.8, "block_length": 0.02})
+    own.change(6, {static: 0.95})  # another mind
+    found += sent(own, 6, 12)
+    run_offline(scene, tmp_path / "offline", changes=[Change(6, static, 0.95), Change(6, kinetic, 0.6)])
+    assert found == recorded(tmp_path / "offline")
+
+
 def test_a_change_that_is_refused_sends_nothing(scene):
     own = OwnExcitation(scene)
     own.prepare()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Callable, Mapping
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
@@ -83,6 +84,9 @@ class LiveParameters:
             self._change(values)
         except ParameterError as error:
             return SetParametersResult(successful=False, reason=str(error))
+        except Exception as error:  # noqa: BLE001  # the boundary of a request: the run is as it was
+            self._node.get_logger().error("".join(traceback.format_exception(error)))
+            return SetParametersResult(successful=False, reason=f"unexpected {type(error).__name__}: {error}")
         return SetParametersResult(successful=True)
 
 

@@ -122,10 +122,11 @@ def block_at(scene: ResolvedScene, time: float) -> int:
 
 def refuse_changes(scene: ResolvedScene, changes: Iterable[Change]) -> None:
     """Raise ParameterError where a run of the scene cannot make some changes, as far as that is known before it."""
+    known = parameters_of(scene)  # of the start: a speed that changes becomes a programme
     for block, values in by_block(changes):
         if not 0 <= block < scene.blocks:
             raise ParameterError(f"parameters change before block {block}; the scene has {scene.blocks} blocks, from 0")
-        refuse_fixed(parameters_of(scene), values)
+        refuse_fixed(known, values)
         scene = changed_scene(scene, block, values)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.excitation.blocks import RoadBlocks
@@ -46,6 +46,17 @@ class Steerable(Protocol):
         """
 
 
+class _Unchanged(NamedTuple):
+    """A run before the changes ahead of a block."""
+
+    block: int
+    now: ResolvedScene
+    simulated: ResolvedScene
+    sources: dict[str, Source]
+    simulation: BlockSimulation
+    changes: tuple[Change, ...]
+
+
 class SteeredRun:
     """What a run is made of; `change` puts other parameters in between two blocks.
 
@@ -65,6 +76,7 @@ class SteeredRun:
         self.sources = make_sources(scene) if sources is None else sources
         self.simulation = simulation or make_simulation(scene)
         self.changes: tuple[Change, ...] = ()
+        self._unchanged: _Unchanged | None = None
 
     @property
     def parameters(self) -> dict[str, Parameter]:
@@ -84,6 +96,7 @@ class SteeredRun:
         """A run with other changes, whose state is to be loaded; this one where they are the same."""
         found = tuple(changes)
         if found == self.changes:
+            self._unchanged = None
             return self
         run = SteeredRun(self.scene, None, self._given)
         for block, values in by_block(found):
@@ -109,23 +122,37 @@ class SteeredRun:
     ) -> list[Output]:
         """Change parameters before a ``block``, whose inputs are those ``given`` and else the run's; all of them, or none.
 
-        Returns a message each. Raises ParameterError, and the run goes on as if nothing had been asked for.
+        Several changes before one block are one: it is made anew with the values of all, as who repeats the run makes it.
+
+        Returns a message for each key that changes before the block. Raises ParameterError, and the run goes on as if nothing
+        had been asked for.
         """
         refuse_fixed(self.parameters, values)
-        before = self._now, self._simulated, self.sources
+        present = self._kept(block)
+        first = present
+        if self._unchanged is not None and self._unchanged.block == block:
+            first = self._unchanged
+        merged = {each.key: each.value for each in self.changes[len(first.changes) :]} | dict(values)
         try:
-            self._go_to(block, values)
-            if self._simulated is not before[1]:
+            self._restore(first)
+            self._go_to(block, merged)
+            if self._simulated is not first.simulated:
                 self.simulation = self._changed_simulation(block, {} if given is None else given)
         except BaseException as error:
-            self._now, self._simulated, self.sources = before
+            self._restore(present)
             if isinstance(error, (SceneError, ExcitationError, StateError, RunError)):
                 raise ParameterError(f"{', '.join(values)}: {error}") from error
             raise
-        made = tuple(Change(block, key, float(value)) for key, value in values.items())
-        self.changes += made
+        made = tuple(Change(block, key, float(value)) for key, value in merged.items())
+        self.changes, self._unchanged = (*first.changes, *made), first
         stamp = block * self.scene.block_length_ns
         return [Output(STEERING, stamp, ParameterChange(**each._asdict())) for each in made]
+
+    def _kept(self, block: int) -> _Unchanged:
+        return _Unchanged(block, self._now, self._simulated, self.sources, self.simulation, self.changes)
+
+    def _restore(self, kept: _Unchanged) -> None:
+        _, self._now, self._simulated, self.sources, self.simulation, self.changes = kept
 
     def _changed_simulation(self, block: int, given: Mapping[str, InputBlock]) -> BlockSimulation:
         """The simulation of the present scene, in the state of that which is there."""

@@ -61,7 +61,7 @@ class OwnExcitation:
 
     def change(self, block: int, values: Mapping[str, float]) -> None:
         """Change parameters before a ``block``, which carries their messages; all of them, or none. Raises ParameterError."""
-        self._changed += self._run.change(block, values)
+        self._changed = self._run.change(block, values)
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """See `BlockSimulation`; the messages of changes come with those of their block."""

@@ -44,10 +44,12 @@ from contact_sim_pkg.rigs.vehicle.tire.standing import (
 )
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import stiffening
 from contact_sim_pkg.run.contact_laws import normal_loss
+from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.fields import given
 
 LONGEST_STEP = 5e-4  # [s] of belt and bristles; with the usual values their fastest mode lies near 130 Hz
+LEAST_FOOTPRINTS = 2  # kept in a force table, the empty one included
 PART_OF_SWING = 0.5  # omega h; the frequency is 1 % off
 
 
@@ -162,6 +164,8 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None, solver: t
     given_tire, body = scene.section(schema.TireSection), body_of(scene)
     load = standing_load(given_tire, occupant)
     table = None if body.extent is None else tire_table(body, solver)
+    if table is not None:
+        _refuse_footless(table, load)
     geometry = _geometry(scene, body, table, load)
     tread = _tread(scene, body, geometry)
     law, length, field = _elastic(scene, body, table, load, geometry, tread, solver)
@@ -186,6 +190,16 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None, solver: t
         asperities=asperities,
         standing=_standing(scene, body, table, sidewalls, load, solver),
     )
+
+
+def _refuse_footless(table: TireTable, load: float) -> None:
+    """SceneError where the sidewalls give way before the first kept footprint: the tire has no law."""
+    if len(table.quarters) < LEAST_FOOTPRINTS:
+        sentence = (
+            f"the tire gives way under {table.force.max():.3g} N, before it has a footprint, and the standing load is"
+            f" {load:.5g} N; a higher inflation or a stiffer effects.tire.rigid_ring carries it"
+        )
+        raise SceneError([Fault("scene", 0, 0, "effects.tire.inflation", sentence)])
 
 
 def _standing(
