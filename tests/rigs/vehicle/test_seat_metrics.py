@@ -113,5 +113,5 @@ def test_a_record_that_is_repeated_makes_no_number_more_certain():
     for key in ("factor", "a_w"):
         # three times as long would be 1.7 times as certain; the filter of the weighting begins at rest once
         assert thrice[key].spread == pytest.approx(single[key].spread, rel=1e-3)
-        assert "too short: 20 s over and over, 34 s needed" in thrice[key].broken
+        assert "too short: 20 s repeated, 34 s needed" in thrice[key].broken
         assert "too short: 20 s, 34 s needed" in single[key].broken

@@ -70,7 +70,7 @@ def short(samples: int, sample_rate: float, *, repeated: bool = False) -> tuple[
     """That a record of so many ``samples`` at a rate [Hz], ``repeated`` or not, is too short; empty where it is not."""
     caution = shortage_of_record(samples, sample_rate)
     needed = caution.partition("; a ride of ")[2].partition(" s or more")[0]
-    length = f"{samples / sample_rate:.3g} s{' over and over' if repeated else ''}"
+    length = f"{samples / sample_rate:.3g} s{' repeated' if repeated else ''}"
     return (f"too short: {length}, {needed} s needed",) if caution else ()
 
 
