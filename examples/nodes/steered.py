@@ -1,5 +1,6 @@
 """Steer a run by the standard services of a simulator: pause, step, play, change a parameter, begin anew.
 
+make interfaces && source ros2_ws/setup.bash                  # once, where ROS 2 has no simulation_interfaces
 bench run tire_bump --excitation inside --pace realtime       # in one shell
 python examples/nodes/steered.py                              # in another
 """

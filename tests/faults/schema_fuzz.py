@@ -51,6 +51,7 @@ COARSE_ROLLER = (
     "effects.roller.track_waves.cells=32",
 )
 PROFILE = Path(__file__).with_name("profile.csv")
+PROGRAMME = Path(__file__).with_name("programme.csv")
 FOAM = Path(__file__).parents[2] / "examples" / "inputs" / "foam.csv"
 CURVE = f"{{file: {FOAM}, header_line: 1, area: 0.01, thickness: 0.05}}"
 BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with changes; together they hold every number
@@ -65,6 +66,9 @@ BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with 
         ("tire_irregular_road",),
         ("tire_bump", "effects.tire.bump_stop={}"),
         ("tire_bump", f"road={{kind: profile, file: {PROFILE}, header_line: 1}}"),
+        ("tire_drum",),
+        ("tire_drum", "tire.mount={kind: held, deflection: 0.02}", "tire.programme=null", "travel={speed: 10}"),
+        ("tire_drum", f"tire.programme={{file: {PROGRAMME}, header_line: 1}}"),
     ),
     "seat": (
         ("seat_ride",),

@@ -21,6 +21,7 @@ from contact_sim_pkg.steering.machine import Code, SteeringState
 pytestmark = needs_ros
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "nodes" / "steered.py"
+SETUP = EXAMPLE.parents[2] / "ros2_ws" / "setup.bash"
 STOPPED, PLAYING, PAUSED, QUITTING = SteeringState
 INFLATION = "effects.tire.inflation.pressure"
 
@@ -213,9 +214,9 @@ def test_excitation_made_inside_gives_the_bits_of_offline(tmp_path, scene):
 def test_the_example_steers_a_run_whose_second_bag_is_that_of_offline(tmp_path, steered):
     scene = resolved("tire_bump", "duration=3", "pace=realtime")
     nodes = steered(scene)
-    ended = subprocess.run(
-        [sys.executable, EXAMPLE], env=ENVIRONMENT, capture_output=True, text=True, timeout=LONGEST, check=False
-    )
+    # the definitions may have been built a moment ago: a shell that is set up now has them on its paths
+    command = ["bash", "-c", '. "$0" && exec "$1" "$2"', SETUP, sys.executable, EXAMPLE]
+    ended = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=LONGEST, check=False)
     assert ended.returncode == 0, ended.stderr
     said = ended.stdout.splitlines()
     assert said[0].startswith("9 features: a step is a block of the scene")

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import threading
 import time
 from types import ModuleType
 
@@ -24,33 +25,41 @@ module.work()
 """
 
 
-def _called_in(module: str, text: str):
-    """The stack in which `here()` is called by code of a module."""
-    made, found = ModuleType(module), []
-    made.here = lambda: found.append(sampler.label(sys._getframe(1)))
-    exec(compile(text, module, "exec"), made.__dict__)
+def _labels(*modules):
+    """What the stack is called in which modules of these names and texts run, each `call()` the next; a thread of its own has no
+    frames of a test beyond.
+    """
+    found, rest = [], list(modules)
+
+    def call():
+        if rest:
+            name, text = rest.pop(0)
+            exec(compile(text, name, "exec"), ModuleType(name).__dict__ | {"call": call})
+        else:
+            found.append(sampler.label(sys._getframe(1)))
+
+    thread = threading.Thread(target=call)
+    thread.start()
+    thread.join()
     return found
 
 
 def test_a_stack_has_the_name_of_what_is_done():
     assert sampler.label(sys._getframe(), ("outer", "inner")) == "compile inner"
-    function = "class Rig:\n    def ready(self):\n        here()\n"
-    module = ModuleType("contact_sim_made")
+    assert _labels(("yaml.reader", "call()")) == ["import yaml"]
+    assert _labels(("contact_sim_made.room", "call()")) == ["import contact_sim_made"]
+    made = ModuleType("contact_sim_made")
+    exec("class Rig:\n    def ready(self):\n        here()\n", made.__dict__)
     found = []
-    module.here = lambda: found.append(sampler.label(sys._getframe(1)))
-    exec(function, module.__dict__)
-    module.Rig().ready()
+    made.here = lambda: found.append(sampler.label(sys._getframe(1)))
+    thread = threading.Thread(target=made.Rig().ready)
+    thread.start()
+    thread.join()
     assert found == ["contact_sim_made.Rig.ready"]
-    assert _called_in("yaml.reader", "here()") == ["import yaml"]
-    assert _called_in("contact_sim_made.room", "here()") == ["import contact_sim_made"]
 
 
 def test_another_package_that_the_bench_imports_counts_as_itself():
-    outer = ModuleType("contact_sim_made.room")
-    outer.inner = lambda: found.extend(_called_in("scipy.linalg", "here()"))
-    found = []
-    exec(compile("inner()", "room", "exec"), outer.__dict__)
-    assert found == ["import scipy"]
+    assert _labels(("contact_sim_made.room", "call()"), ("scipy.linalg", "call()")) == ["import scipy"]
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc counts processor time of threads")

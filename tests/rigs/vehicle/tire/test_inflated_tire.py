@@ -255,33 +255,6 @@ def test_sidewalls_go_with_the_load_that_a_solution_finds():
     assert missed < 0.1 * (after - before)
 
 
-def test_sidewalls_go_on_as_those_of_a_grid_of_half_as_many_cells():
-    """From 3 to 3.6 kN: what the coarse ones changed by is the change of the fine ones but for a fiftieth on average, a
-    tenth beside the ends of the load, which coarse rows hold less well.
-    """
-    belt = body_of(resolved("tire_bump")).belt
-    fine, coarse = Softening(belt, 108, 0.0025), Softening(belt, 54, 0.005)
-    coarse.place(0.001)
-
-    def settle(sidewalls, cell, rows, load):
-        x = abs(numpy.arange(rows) - rows // 2) * cell
-        line = numpy.clip(0.5 * load / 3e4 / cell + 0.5 - x / cell, 0.0, 1.0) * 3e4
-        for _ in range(40):
-            sidewalls.follow(line[:, None], 1.0)
-        return sidewalls.gap.copy()
-
-    at_first, _ = settle(fine, 0.0025, 108, 3e3), settle(coarse, 0.005, 54, 3e3)
-    before = coarse.copy_borne()
-    settle(coarse, 0.005, 54, 3.6e3)
-    fine.go_on_as(coarse, before)
-    opened = fine.opening.copy()
-    at_last = settle(fine, 0.0025, 108, 3.6e3)
-    assert abs(at_last - at_first).max() > 1e-4
-    missed, most = abs(opened - fine.opening), abs(at_last - at_first).max()
-    assert missed.mean() < 0.02 * most
-    assert missed.max() < 0.1 * most
-
-
 def test_what_sidewalls_have_yet_to_open_is_taken_off_the_height(monkeypatch):
     """One solution after a step from 3 to 3.3 kN has the height of the settled one but for a fifth of what is left."""
     body = body_of(resolved("tire_bump"))

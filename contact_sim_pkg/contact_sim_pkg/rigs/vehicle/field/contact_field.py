@@ -38,9 +38,8 @@ TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law
 TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
 SOFTENING_PASSES = 40  # most solutions at one instant of a belt whose sidewalls soften; each is closer by a factor of 7
 
-OF_SIDEWALLS = 0.6
-"""Of the field's tolerance: what its sidewalls may miss of the depth beside a mean, which the height takes off (`Softening.size`).
-"""
+OF_SIDEWALLS = 0.15
+"""Of the field's tolerance: what its sidewalls may miss of the depth; the height takes the mean of it off."""
 
 FEW_PASSES, NOISE = 12, 1e-5  # what the line load of a certified field leaves of that depth undecided
 SHALLOW = 1e-3  # [m]: a contact less deep has its sidewalls settled as if it were so deep
@@ -172,7 +171,7 @@ class PressureField:
             allowed = self.looser_sidewalls * OF_SIDEWALLS * tolerance
             if count >= FEW_PASSES:
                 allowed = max(allowed, NOISE)
-            if self.softening.size <= allowed * max(self._approach - lowest, SHALLOW):
+            if abs(self.unsettled) <= allowed * max(self._approach - lowest, SHALLOW):
                 return
         raise FieldError(
             f"{self.contact}: the sidewalls do not settle, {abs(self.unsettled):.2g} m are left after {SOFTENING_PASSES} passes"

@@ -31,7 +31,7 @@ from contact_sim_pkg.pressure.settings import InflatedBelt
 from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.inflated_belt import arc_force, inflated_influence, membrane_stiffness
 
-__all__ = ["Borne", "Softening"]
+__all__ = ["Softening"]
 
 Field = NDArray[numpy.float64]
 
@@ -42,9 +42,6 @@ goes too far.
 
 PARTS, SETTLED = (1.0, 0.5, 0.25, 0.0), 1e-3
 """Of what sidewalls yield with the load, and its last change at which it is taken."""
-
-OF_MEAN = 0.25
-"""Part of the mean by which sidewalls have yet to open that counts as unsettled: the height takes it off but for a fifth."""
 
 CONTACT, OF_PLATEAU, SETTLING = 0.31, 1.9, 30
 """Of a usual contact: length over the radius, line load over the hoop's T / R, passes that settle the sidewalls beside it. How
@@ -64,15 +61,6 @@ class _Ring(NamedTuple):
     lowered: Field  # that times c, [rows]
     linear: float  # [N/m^2] C p
     ring: float  # [m^2/N] of a row, 1 / K_b
-
-
-class Borne(NamedTuple):
-    """What sidewalls bore at an instant, [rows] each."""
-
-    load: Field  # [N/m]
-    line: Field  # [N/m]
-    opening: Field  # [m]
-    placed: float  # [m] of the middle row
 
 
 class _Borne(NamedTuple):
@@ -104,9 +92,6 @@ class Softening:
     """[m] that D opens the gap by, but for what goes with the line load."""
     bent: Field
     """[m] of the belt beside that of its loads: of its memory."""
-    size: float
-    """[m] that the last solution changed the opening by beside what `follow` returned, as a mean size under the load, with
-    `OF_MEAN` of that; without one the largest."""
 
     def __init__(self, belt: InflatedBelt, rows: int, cell_x: float) -> None:
         """Under a belt with an arc, unloaded, on cells of ``cell_x`` [m]; no grid has more than so many
@@ -125,7 +110,7 @@ class Softening:
         self._borne = _Borne(*(numpy.zeros(count) for _ in _Borne._fields))
         self._held: tuple[Held[_Ring], Held[_Borne]] = hold(self._ring), hold(self._borne)
         self.load, self.opening, self.bent = self._borne.load, self._borne.opening, self._borne.bent
-        self.size, self._placed = 0.0, math.nan  # [m]
+        self._placed = math.nan  # [m]
         self.start()
         self.place(0.0)
         self._by_line(belt.tension / belt.radius)
@@ -145,20 +130,6 @@ class Softening:
         self._placed = middle
         _place(*self._held, self._angle, moved, middle, self._cell_x, self._radius)
 
-    def copy_borne(self) -> Borne:
-        """What they bear now."""
-        borne = self._borne
-        return Borne(borne.load.copy(), borne.line.copy(), borne.opening.copy(), self._placed)
-
-    def go_on_as(self, other: Softening, before: Borne) -> None:
-        """Change as those of an ``other`` grid of the same tire did since ``before``: straight between its rows."""
-        step = self._cell_x / other._cell_x
-        first, then = (
-            other._middle + (self._placed - placed) / other._cell_x - step * self._middle
-            for placed in (other._placed, before.placed)
-        )
-        _go_on(self._held[1], other._held[1], *before[:3], first, then, step)
-
     def rows(self, count: int) -> slice:
         """Place of a grid of so many rows in `load`, `gap` and `bent`."""
         first = self._middle - count // 2
@@ -177,7 +148,7 @@ class Softening:
         by how much the belt under it opens further [m]: the change of `opening`, the mean under the load, without one the
         largest.
         """
-        change, self.size, self._part = _follow(*self._held, pressure, cell_y, self._first(pressure), self._part)
+        change, self._part = _follow(*self._held, pressure, cell_y, self._first(pressure), self._part)
         return change
 
     def yields(self, rows: int) -> Field:
@@ -340,28 +311,6 @@ def _shift(values: Field, moved: float, before: Field) -> None:
         values[i] = before[k] + (before[k + 1] - before[k]) * (place - k)
 
 
-@borrowing_kernel
-def _at(values: Field, place: float) -> float:
-    """A value between two rows, beyond the ends that of the last."""
-    place = min(max(place, 0.0), values.size - 1.0)
-    k = min(int(place), values.size - 2)
-    return values[k] + (values[k + 1] - values[k]) * (place - k)
-
-
-@entry
-def _go_on(
-    borne_held: Held[_Borne], other_held: Held[_Borne], load: Field, line: Field, opening: Field, first: float, then: float,
-    step: float,
-) -> None:  # fmt: skip
-    """As `Softening.go_on_as`: row i lies at row ``first + step i`` of the other grid now, at ``then + step i`` before."""
-    borne, other = borne_held.value, other_held.value
-    for i in range(borne.load.size):
-        now, before = first + step * i, then + step * i
-        borne.load[i] += _at(other.load, now) - _at(load, before)
-        borne.line[i] += _at(other.line, now) - _at(line, before)
-        borne.opening[i] += _at(other.opening, now) - _at(opening, before)
-
-
 @entry
 def _open(borne_held: Held[_Borne], gap: Field, first: int, opened: Field) -> float:
     """As `Softening.open`, row 0 of the ``gap`` being row ``first``."""
@@ -392,8 +341,8 @@ def _climb(borne_held: Held[_Borne], pressure: Field, cell_y: float, first: int)
 @entry
 def _follow(
     ring_held: Held[_Ring], borne_held: Held[_Borne], pressure: Field, cell_y: float, first: int, part: float
-) -> tuple[float, float, float]:
-    """One pass under the ``pressure`` on the rows from the ``first``: as `Softening.follow`, its size, and the Aitken part.
+) -> tuple[float, float]:
+    """One pass under the ``pressure`` on the rows from the ``first``: as `Softening.follow`, and the Aitken part.
 
     part: that of the pass before at this instant, NaN at its first.
     """
@@ -433,14 +382,9 @@ def _follow(
         borne.opening[i] = -borne.yielded[i]
     _spread(ring.along, borne.load, borne.opening)
     _translate(ring, borne.load, 0.0, borne.opening)
-    mean, beside, largest = 0.0, 0.0, 0.0
+    mean, largest = 0.0, 0.0
     for i in range(rows):
         change = borne.opening[i] - borne.taken[i]
         mean += borne.line[i] * change
         largest = max(largest, abs(change))
-    if total == 0.0:
-        return largest, largest, part
-    mean /= total
-    for i in range(rows):
-        beside += borne.line[i] * abs(borne.opening[i] - borne.taken[i] - mean)
-    return mean, beside / total + OF_MEAN * abs(mean), part
+    return largest if total == 0.0 else mean / total, part

@@ -23,7 +23,6 @@ from contact_sim_pkg.pressure.field.patch import contact_area
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.state import State
 from contact_sim_pkg.rigs.vehicle.field.contact_field import FieldError, PressureField, approach_at
-from contact_sim_pkg.rigs.vehicle.field.sidewalls import Borne, Softening
 from contact_sim_pkg.rigs.vehicle.tire.body import TireForm
 from contact_sim_pkg.rigs.vehicle.tire.footprint import level_under, mean_slope, tire_gap
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry
@@ -39,9 +38,9 @@ LEAST_HALF = 8
 MARGIN = 8
 """Cells of the fine grid by which the coarse one extends further on each side."""
 
-LOOSER, LOOSER_SIDEWALLS = 1.5, 3.0
-"""Times the tolerance of a field, since its load alone counts, and what its sidewalls may miss of the depth. The height takes
-the mean of that off, the next solution the rest: a second pass at each instant would cost as much as the first.
+LOOSER_SIDEWALLS = 3.0
+"""Times what the sidewalls of a field may miss of the depth. The height takes the mean of it off, the next solution
+the rest: a second pass at each instant would cost as much as the first.
 """
 
 SHARE, UNLUCKY, NEWEST = 0.65, 3.0, 0.125
@@ -93,27 +92,21 @@ def slope_under(form: TireForm, field: PressureField, pressure: NDArray[numpy.fl
 class CoarseLevel:
     """Solve it ``at`` a place beside each published field, ``renew`` the offset, and add it between them (``with_offset``)."""
 
-    STATE = State(
-        (), ("field", "_offset", "_borne", "_square", "_between", "_usual_between", "peak_differs", "area_differs")
-    )
+    STATE = State((), ("field", "_offset", "_square", "_between", "_usual_between", "peak_differs", "area_differs"))
 
     def __init__(self, usual: FieldSettings, contact: str, geometry: TireGeometry, allowed: float) -> None:
         """Make the level of a field with a ``usual`` grid; its offset may move by a part of an ``allowed`` height [m]."""
         self._fine = usual._replace(rows=usual.rows + 2 * MARGIN, cols=usual.cols + 2 * MARGIN)
         self.field = PressureField(halved(self._fine), contact)
-        self.field.closer, self.field.looser_sidewalls = LOOSER, LOOSER_SIDEWALLS
+        self.field.looser_sidewalls = LOOSER_SIDEWALLS
         self._geometry, self._most = geometry, SHARE * allowed
         self._gap = numpy.empty((self.field.settings.rows, self.field.settings.cols))
-        # Compiled here: on level road there may be nothing to lend
-        self.keep(is_beside=True)
-        self.lend(self.field.softening)
         self.reset()
 
     def reset(self) -> None:
         """Drop solutions and offset."""
         self.field.reset()
         self._offset: LevelSolution | None = None  # fine less coarse, mean of published fields
-        self._borne: Borne | None = None  # by its sidewalls when the fine ones were settled at the same place
         self._square = math.nan  # mean of what it missed squared [m^2]
         self._between, self._usual_between = (
             0,
@@ -161,18 +154,6 @@ class CoarseLevel:
         level = self._level_height(road, row) if isinstance(law, TabulatedElastic) else None
         exact = None if level is None else approach + level
         return LevelSolution(approach_at(law, load) - self.field.unsettled, slope, exact)
-
-    def lend(self, fine: Softening | None) -> None:
-        """Let the sidewalls of the ``fine`` field begin with what those of the coarse one changed by since both were
-        settled at one place.
-        """
-        if fine is not None and self._borne is not None and self.field.softening is not None:
-            fine.go_on_as(self.field.softening, self._borne)
-
-    def keep(self, *, is_beside: bool) -> None:
-        """The fine field was solved, ``is_beside`` the coarse one at the same place or not."""
-        softening = self.field.softening
-        self._borne = softening.copy_borne() if is_beside and softening is not None else None
 
     def with_offset(self, coarse: LevelSolution) -> LevelSolution:
         """A ``coarse`` solution with the offset, of the fine field between published ones."""

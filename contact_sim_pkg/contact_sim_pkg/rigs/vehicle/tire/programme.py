@@ -122,12 +122,17 @@ class TireProgramme(Section):
             raise SceneError([Fault(scene.file, 1, 1, f"{PROGRAMME}.file", str(error))]) from None
 
     def pairs(self, scene: Scene, *names: str) -> list[list[float]] | None:
-        """Rows of the time and of quantities, 0 where one is not among them; None without any of them."""
+        """Rows of the time and of quantities, 0 where one is not among them; None without any of them, no row where the time is
+        missing, which is refused.
+        """
         found = self.columns(scene)
         if not any(name in found for name in names):
             return None
+        if "time" not in found:
+            return []
         zeros = [0.0] * len(found["time"])
-        return [list(row) for row in zip(found["time"], *(found.get(name, zeros) for name in names), strict=True)]
+        # columns of unlike length are refused
+        return [list(row) for row in zip(found["time"], *(found.get(name, zeros) for name in names), strict=False)]
 
     def file_fault(self, scene: Scene) -> str:
         """What is wrong with the content of a file that is there; empty: nothing is."""

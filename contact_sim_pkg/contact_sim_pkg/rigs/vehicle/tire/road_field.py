@@ -97,13 +97,7 @@ class RoadField(ContactField):
     def solve(self, approach: float, geometric: float, block: int) -> float:
         """See `ContactField`."""
         self._between = None
-        is_beside = self._coarse is not None
-        if self.level is not None and is_beside:
-            self.level.lend(self._softening)
-        correction = super().solve(approach, geometric, block)
-        if self.level is not None:
-            self.level.keep(is_beside=is_beside)
-        return correction
+        return super().solve(approach, geometric, block)
 
     def solve_between(self, approach: float, geometric: float, block: int) -> float:
         """As `solve` at an instant whose field is not published: by the coarse level where that will do."""
