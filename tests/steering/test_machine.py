@@ -8,7 +8,7 @@ STOPPED, PLAYING, PAUSED, QUITTING = SteeringState
 
 
 class Run:
-    """Notes what it is told to do."""
+    """Notes what it is called for."""
 
     def __init__(self, blocks=100):
         self.blocks_left, self.calls, self.over, self.at_start = blocks, [], "", True

@@ -30,6 +30,7 @@ from contact_sim_pkg.nodes.protocol.states import DONE, REFUSED, STOPPED_BY_USER
 from contact_sim_pkg.nodes.simulator_publishers import SimulatorPublishers
 from contact_sim_pkg.records.messages import BenchRecorded
 from contact_sim_pkg.run.block_simulation import BlockSimulation, cautions_of
+from contact_sim_pkg.run.compilation import note_computation
 from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.live_parameters import STEERING, ParameterError
 from contact_sim_pkg.run.rigs import make_simulation
@@ -117,7 +118,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self._computing.call(own.change, run.window.next_block, values)
 
         self._offered = [LiveParameters(self, lambda: own.parameters, change)]
-        if reason := provide(INTERFACES):
+        reason = provide(INTERFACES, building=partial(note_computation, f"building {INTERFACES}, once, up to a minute"))
+        note_computation("")
+        if reason:
             self.get_logger().warning(f"no services to steer the run: {reason}")
             return
         from contact_sim_pkg.nodes.steering_services import SteeringServices

@@ -26,7 +26,7 @@ FINEST = 1e-8
 FINER = 1e-2
 """Times the request of a recording, of the run that shows its error."""
 ALIKE = 2.0
-"""Times the own error of a recording, that is not told from it."""
+"""Times the own error of a recording, up to which what is left may be that error alone."""
 
 
 class OwnError(NamedTuple):

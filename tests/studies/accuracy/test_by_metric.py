@@ -80,6 +80,23 @@ def test_peaks_refine_the_cells_alone_and_loads_the_steps_alone(pilots):
     assert (load.steps, load.cells) == (0.01, "half")
 
 
+def test_cells_that_the_scene_gives_stay(pilots):
+    pilots({"tire.dlc": (0.01, 1e-4)})
+
+    def given(*values):
+        return choose(
+            lambda accuracy: load_resolved("car_ride", "duration=36", f"accuracy={accuracy:g}", *values),
+            {"tire.dlc": 0.02}, lambda text: None,
+        )  # fmt: skip
+
+    own = tuple(f"effects.tire.contact_field.{side}" for side in ("rows", "cols"))
+    found = given(*(f"{key}=60" for key in own))
+    assert [cells_of(found.scene)[key] for key in own] == [60, 60]
+    assert cells_of(found.scene)["effects.seat.cushion.cell"] == cells_of(halved(USUAL))["effects.seat.cushion.cell"]
+    found = given(*(f"{key}=60" for key in own), "effects.seat.cushion.cell=0.01")
+    assert (found.cells, cells_of(found.scene)["effects.seat.cushion.cell"]) == ("given", 0.01)
+
+
 def test_what_no_dial_delivers_and_what_chance_does_is_named(pilots):
     pilots({"tire.gradient": (0.0, 0.4), "tire.dlc": (90.0, 0.0)}, spread=3.0)
     choice = choose(made, {"tire.gradient": 0.01, "tire.dlc": 0.01}, lambda text: None)

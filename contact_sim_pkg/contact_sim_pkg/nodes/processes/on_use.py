@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import subprocess
 import sys
+from collections.abc import Callable
 from importlib import invalidate_caches
 from importlib.util import find_spec
 from pathlib import Path
@@ -12,16 +13,17 @@ from pathlib import Path
 WORKSPACE = Path(__file__).resolve().parents[4] / "ros2_ws"
 
 
-def provide(name: str, workspace: Path = WORKSPACE) -> str:
+def provide(name: str, workspace: Path = WORKSPACE, building: Callable[[], None] = lambda: None) -> str:
     """Make a package importable: an installed one, or else that of the workspace, which is built where it is not there.
 
-    Returns why it is not; empty where it is.
+    ``building`` is called before what may take most of a minute. Returns why it is not; empty where it is.
     """
     if find_spec(name) is not None:
         return ""
     set_up = workspace / "set_up.sh"
     if not set_up.is_file():
         return f"{name} is not installed; its package is ros-jazzy-{name.replace('_', '-')}"
+    building()
     ended = subprocess.run(["/bin/sh", str(set_up), name], capture_output=True, text=True, check=False)
     prefix = workspace / "on_use" / name / "install" / name
     if ended.returncode or not prefix.is_dir():

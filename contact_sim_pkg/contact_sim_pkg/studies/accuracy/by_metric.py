@@ -42,7 +42,8 @@ FADES = 0.1
 """What a difference between two requests is at least, of the one before: one that vanishes by chance means nothing."""
 ALIKE = {"road": ("flat", "iso8608", "self_affine"), "vibration": ("noise", "sine")}
 """Excitation that is alike in every part of a run."""
-LEVELS = (("half", None), ("usual", 0.1), ("fine", 1e-3), ("finest", 1e-4))
+FINEST = 1e-4
+LEVELS = (("half", None), ("usual", 0.1), ("fine", 1e-3), ("finest", FINEST))
 """Cells by name, and the request whose cells they are."""
 NOT_ALIKE = "the excitation is not alike over the run, so that short runs say nothing of it"
 
@@ -190,13 +191,18 @@ def _step_pilots(
 def _levels(
     made: Callable[[float], ResolvedScene], usual: ResolvedScene
 ) -> list[tuple[str, dict[str, Any], dict[str, float]]]:
-    """Name, values and, by contact, side of a cell over the usual one, for each of LEVELS."""
+    """Name, values and, by contact, side of a cell over the usual one, for each of LEVELS; cells that a scene gives itself are
+    the same at each request, and stay.
+    """
+    present, finest = cells_of(usual), cells_of(made(FINEST))
+    given = {key: value for key, value in present.items() if finest[key] == value}
+    if given == present:
+        return [("given", present, dict.fromkeys((key.split(".")[1] for key in present), 1.0))]
     found = []
     for name, request in LEVELS:
-        scene = halved(usual) if request is None else made(request)
-        values = cells_of(scene)
+        values = cells_of(halved(usual) if request is None else made(request)) | given
         sides: dict[str, float] = {}
-        for key, before in cells_of(usual).items():
+        for key, before in present.items():
             contact = key.split(".")[1]
             side = values[key] / before if key.endswith(".cell") else before / values[key]
             sides[contact] = max(side, sides.get(contact, 0.0))
