@@ -11,6 +11,7 @@ from contact_sim_pkg.report.sketch import (
     Sketch,
     conditions_of,
     drawing_of,
+    drum,
     floor_part,
     mass,
     parts_of_scene,
@@ -72,3 +73,18 @@ def test_the_arrow_of_a_floor_lies_along_its_axis():
         line = re.search(r'class="move" points="([-\d.]+),([-\d.]+) ([-\d.]+),([-\d.]+)"', sketch.svg(0.0, ""))
         first, last = line.groups()[:2], line.groups()[2:]
         assert first[along] == last[along]
+
+
+def test_a_drum_is_drawn_in_place_of_the_ground():
+    from contact_sim_pkg.rigs.vehicle.tire.report.drawing import tire_parts
+    from contact_sim_pkg.scene.resolve import load_resolved
+
+    drawn = {
+        name: [part.glyph for part in tire_parts(load_resolved(name).data)] for name in ("tire_drum", "tire_plate")
+    }
+    assert drawn["tire_drum"][0] is drum
+    assert drum not in drawn["tire_plate"]
+    ends, middle = (
+        re.findall(r'points="([^"]+)"', str(drawing_of([Part("drum", "", drum)], "rig")))[0].split()[i] for i in (0, 12)
+    )
+    assert float(middle.split(",")[1]) < float(ends.split(",")[1]) - 10.0  # down is positive

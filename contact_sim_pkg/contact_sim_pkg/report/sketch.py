@@ -123,6 +123,13 @@ def rough_road(sketch: Sketch, y: float) -> float:
     return y
 
 
+def drum(sketch: Sketch, y: float) -> float:
+    """The top of a drum."""
+    radius = 90.0
+    sketch.path([(AXIS + x, y - radius + math.sqrt(radius**2 - x**2)) for x in map(float, range(-48, 49, 4))])
+    return y
+
+
 def shaken(sketch: Sketch, y: float) -> float:
     """A floor that moves up and down."""
     sketch.box(AXIS - 48.0, y, AXIS + 48.0, y + 8.0, "soft")

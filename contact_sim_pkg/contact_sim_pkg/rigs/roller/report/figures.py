@@ -38,7 +38,7 @@ def pressure_and_volume(roller: RollerSeries) -> Picture:
             [each.time for each in roller.volumes], volumes, color=OTHER, marker="o", markersize=3, linewidth=0.9
         )
         axes[1].set_ylabel("volume, mm³")
-        axes[1].set_ylim(bottom=0.0)
+        axes[1].set_ylim(0.0, 1.1 * volumes.max() or None)  # a mark stands whole
         caption += f" Volume in which a stress is above its limit, measured {len(volumes)} times: at most {volumes.max():.4g} mm³."
     axes[-1].set_xlabel("simulated time, s")
     figure.align_ylabels(axes)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from contact_sim_pkg.report.sketch import Part, at, listed, mass, road_parts, spring_and_damper, tire
+from contact_sim_pkg.report.sketch import Part, at, drum, listed, mass, road_parts, spring_and_damper, tire
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import standing_load_of
 
 
@@ -17,12 +17,15 @@ def tire_parts(scene: Mapping[str, Any]) -> list[Part]:
     suspension = listed(
         at(scene, "tire.suspension_stiffness", "{:g} kN/m", 1e-3), at(scene, "tire.suspension_damping", "{:g} N s/m")
     )
+    kind = at(scene, "tire.mount.kind")
+    road = road_parts(scene)
+    if kind == "drum":
+        road = [each._replace(glyph=drum) if each.glyph is not None else each for each in road]
     parts = [
-        *road_parts(scene),
+        *road,
         Part("tire", listed(size, pressure, at(scene, "tire.wheel_mass", "wheel {:g} kg")), tire),
         *([] if load is None else [Part("load", f"{1e-3 * load:.3g} kN")]),
     ]
-    kind = at(scene, "tire.mount.kind")
     if kind not in ("", "quarter_car"):
         keeps = f"{kind.replace('_', ' ')}, keeps the {at(scene, 'tire.mount.control')}"
         return [*parts, Part("mount", listed(keeps, at(scene, "tire.mount.radius", "radius {:g} m")), mass)]
